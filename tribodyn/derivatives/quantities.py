@@ -100,8 +100,9 @@ class PairEvaluation:
     def _rubbing(self) -> tuple[Equilibrium, Contacts]:
         operating, cycle = self.case.operating, self.rubbing_cycle
         closure = untried_closure_of(self.case)
-        duty, arms = (operating.gear_torque, operating.pinion_speed), self.case.friction.lever_arms
-        seen = contacts(cycle, *duty, closure, self.fixed.vanishing, arms)
+        torque, speed = operating.gear_torque, operating.pinion_speed
+        arms = self.case.friction.lever_arms
+        seen = contacts(cycle, torque, speed, closure, self.fixed.vanishing, arms)
         return equilibrium(seen, elastic(cycle, operating.gear_torque)), seen
 
     def _table(self, gears: Assembly) -> MeshCycle:

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
-from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_through
+from tribodyn.compliance.sharing.loaded_contact import LoadedContact, at_pitch_point, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
@@ -140,8 +140,7 @@ def passage(name: Name, state: FaceState = FaceState()) -> Passage:
 def face_load(name: Name, state: FaceState = FaceState()) -> tuple[np.ndarray, np.ndarray]:
     """Line load (N/m) along the face (m from its middle) of the pair that is nearest to the pitch point."""
     run = rolled(name, state)
-    position, pair = np.unravel_index(int(np.argmin(np.abs(run.roll))), run.roll.shape)
-    return run.slice_position, run.line_load[position, pair]
+    return run.slice_position, run.line_load[at_pitch_point(run.roll)]
 
 
 PAPER = "jia-2022"

@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
+from tribodyn.compliance.sharing.loaded_contact import at_pitch_point
 from tribodyn.compliance.sharing.tooth_field import tooth_field
 from tribodyn.post.style import PALETTE, WIDTH, mark_panel, new_figure, panel_title
 from tribodyn.studies.load_contact import stress
@@ -126,9 +127,9 @@ def stresses(misalignment: float, wanted: Sequence[tuple[str, Name, FaceState]],
     fields = []
     for _title, drive, state in wanted:
         run = rolled(drive, state._replace(misalignment=misalignment))
-        position, pair = np.unravel_index(int(np.argmin(np.abs(run.roll))), run.roll.shape)
+        position, pair = at_pitch_point(run.roll)
         flanks = LoadedFlanks(elastic(drive), slices=SLICES)
-        fields.append(tooth_field(flanks, "pinion", run.roll[position], run.line_load[position], int(pair)))
+        fields.append(tooth_field(flanks, "pinion", run.roll[position], run.line_load[position], pair))
     columns = 2 if len(wanted) > 3 else len(wanted)
     rows = len(wanted) // columns
     figure = new_figure(1.3 * WIDTH, 2.6 * rows + 0.3)

@@ -89,6 +89,12 @@ REACH = 2.0
 _PHASES = 60
 
 
+def at_pitch_point(roll: Float[Array, "position pair"]) -> tuple[int, int]:
+    """Position and pair whose contact is nearest to the pitch point, of pinion angles from it."""
+    position, pair = np.unravel_index(int(np.argmin(np.abs(roll))), roll.shape)
+    return int(position), int(pair)
+
+
 class LoadedContact(NamedTuple):
     """Slow rotation under load; the pair that entered first in front."""
 

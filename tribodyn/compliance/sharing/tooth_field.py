@@ -112,7 +112,7 @@ def tooth_field(
     return ToothField(place, kept.cells, kept.profile, own, gear.depth, flanks.face(), von_mises, along)
 
 
-class _Kept(NamedTuple):
+class _Shown(NamedTuple):
     """The part of the half sector that is shown."""
 
     nodes: NDArray[np.int64]  # of the basis
@@ -121,7 +121,7 @@ class _Kept(NamedTuple):
     slopes: tuple[csr_array, csr_array]  # (N, nodes of the basis): values to x- and y-derivatives
 
 
-def _kept(model: GearModel, gear: ElasticGear, module: float) -> _Kept:
+def _kept(model: GearModel, gear: ElasticGear, module: float) -> _Shown:
     basis = model.basis
     radius = np.hypot(*basis.doflocs)
     bottom = float(gear.tooth.root_radius) - _BELOW * float(module)
@@ -136,7 +136,7 @@ def _kept(model: GearModel, gear: ElasticGear, module: float) -> _Kept:
     top = np.flatnonzero(np.abs(radius - tip) < 1e-6 * tip)
     top = top[np.argsort(-basis.doflocs[1, top])]
     profile = numbers[np.concatenate([model.root, flank[1:], top[1:]])]
-    return _Kept(nodes, numbers[corners], profile, _slopes(basis, nodes, inside))
+    return _Shown(nodes, numbers[corners], profile, _slopes(basis, nodes, inside))
 
 
 def _slopes(basis: Basis, nodes: NDArray[np.int64], cells: NDArray[np.int64]) -> tuple[csr_array, csr_array]:
@@ -176,7 +176,7 @@ def _displacement(
     model: GearModel,
     stiffness: csr_matrix,
     loads: Float[Array, "dof load"],
-    kept: _Kept,
+    kept: _Shown,
     ahead: NDArray[np.int64],
     amplitude: Float[Array, " load"],
 ) -> Float[Array, "2 node 3"]:
@@ -196,7 +196,7 @@ def _displacement(
 
 
 def _stress(
-    kept: _Kept, moved: Float[Array, "2 node 3"], poisson_ratio: float, k: float
+    kept: _Shown, moved: Float[Array, "2 node 3"], poisson_ratio: float, k: float
 ) -> Float[Array, "2 node 6"]:
     """Amplitudes of σ_x, σ_y, σ_z, τ_xy, τ_xz, τ_yz at the nodes, Pa, of displacements m E."""
     shear, lame = moduli(poisson_ratio)

@@ -81,7 +81,7 @@ def rounded_distance(table: DriveTable, drive: Drive) -> RoundedDistance | None:
 
 def _sense(drive: DriveTable) -> float:
     """Sign of the centre distance: negative of an internal pair (ISO 21771)."""
-    return -1.0 if drive.pinion.internal or drive.gear.internal else 1.0
+    return -1.0 if drive.has_ring else 1.0
 
 
 def mean_roughness(drive: DriveTable) -> float:

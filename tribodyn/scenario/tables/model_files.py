@@ -303,3 +303,8 @@ class DriveTable(Described):
     )
     pinion: Gear
     gear: Gear
+
+    @property
+    def has_ring(self) -> bool:
+        """Whether one of the gears is internal."""
+        return self.pinion.internal or self.gear.internal

@@ -91,8 +91,8 @@ def prepare(case: EfficiencyCase) -> PreparedEfficiency:
 
     def duty_of(case: EfficiencyCase) -> MeshDuty:
         operating = case.operating
-        required = operating.gear_torque, operating.pinion_speed
-        return MeshDuty(*required, closure_of(case), case.load_sharing, case.friction.lever_arms)
+        torque, speed = operating.gear_torque, operating.pinion_speed
+        return MeshDuty(torque, speed, closure_of(case), case.load_sharing, case.friction.lever_arms)
 
     def lost(case: EfficiencyCase) -> float:
         return cycle_efficiency(cycle, assembly.path, duty_of(case), flanks=flanks).power_friction

@@ -158,7 +158,7 @@ def mesh_of(
 def _tilts_load_the_face(scenario: Any) -> bool:
     """Whether the load along the face follows the tilts of the gears; internal pairs are even along it."""
     drive = scenario.drive
-    if drive.pinion.internal or drive.gear.internal:
+    if drive.has_ring:
         return False
     return getattr(scenario.mesh, "compliance", "fem") == "fem" or bool(drive.helix_angle)
 
@@ -213,10 +213,10 @@ def broken_support_keys(scenario: Any) -> Iterator[InputError]:
         remedy = "leave it out, or give [bearings.pinion] a matrix"
         yield InputError("bearings", None, rule, remedy)
     elif has_supports(scenario) and not _tilts_load_the_face(scenario):
-        drive, compliance = scenario.drive, getattr(scenario.mesh, "compliance", "fem")
-        internal = drive.pinion.internal or drive.gear.internal
-        teeth = "teeth of an internal pair" if internal else f'spur teeth with compliance = "{compliance}"'
-        remedy = "leave it out" if internal else 'write mesh.compliance = "fem", or leave it out'
+        teeth, remedy = "teeth of an internal pair", "leave it out"
+        if not scenario.drive.has_ring:
+            teeth = f'spur teeth with compliance = "{scenario.mesh.compliance}"'
+            remedy = 'write mesh.compliance = "fem", or leave it out'
         key = "bearings" if bearings is not None else "shaft"
         yield InputError(key, None, f"has no effect: {teeth} are loaded evenly along the face", remedy)
 
@@ -236,7 +236,7 @@ def broken_gear_rules(
     whether it knows internal gears, `every_tooth` whether teeth may differ.
     """
     drive, mesh, lubricant = scenario.drive, scenario.mesh, scenario.lubricant
-    if drive.gear.internal or drive.pinion.internal:
+    if drive.has_ring:
         if not internal:
             yield internal_refused(drive)
             return

@@ -11,6 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
+from tribodyn.compliance.sharing.loaded_contact import at_pitch_point
 from tribodyn.compliance.sharing.tooth_field import ToothField, tooth_field
 from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.post.figures.panel import record_label, record_title
@@ -32,9 +33,9 @@ def field_of(record: Record, side: Side) -> ToothField:
     case = load_data(record.scenario, record.label).case
     assert isinstance(case, LoadContactCase)
     roll = record["roll_angle"]
-    position, pair = np.unravel_index(int(np.argmin(np.abs(roll))), roll.shape)
+    position, pair = at_pitch_point(roll)
     flanks = flanks_of(prepare(case))
-    return tooth_field(flanks, side, roll[position], record["line_load"][position], int(pair))
+    return tooth_field(flanks, side, roll[position], record["line_load"][position], pair)
 
 
 def known(record: Record) -> bool:

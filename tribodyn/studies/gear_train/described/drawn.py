@@ -105,7 +105,7 @@ def drawn(train: Moving) -> Drawn:
         met: list[tuple[Drive, Side]] = []
         for mesh, side in train.meshes_of(planet):
             drive = train.drives[mesh]
-            if not (drive.pinion.internal or drive.gear.internal):  # the ring may need another path
+            if not drive.has_ring:  # the ring may need another path
                 _checked(train, mesh, check_path)
             met.append((drive_of(drive), side))
         check_planet(f"{own.key}.family", own.table.family, met)

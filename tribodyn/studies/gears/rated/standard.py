@@ -219,9 +219,9 @@ def _flash(
     normal = line_load * flash_share(path, distance, flanks.quality)
     width = np.sqrt(8.0 * normal * radius / (np.pi * flanks.reduced_modulus))
     rise = scuffing.flash_rise(friction, normal, width, speeds, flanks.thermal_contact)
-    relief, duty = load.application * load.pinion_torque / path.base_radius[0] / load.face_width, factors.duty
-    relief /= factors.stiffness.mesh  # C_eff
-    missing = 0.0 if duty.adequate_tip_relief else max(relief - duty.tip_relief, 0.0)
+    applied = load.application * load.pinion_torque / path.base_radius[0] / load.face_width
+    effective, duty = applied / factors.stiffness.mesh, factors.duty  # C_eff
+    missing = 0.0 if duty.adequate_tip_relief else max(effective - duty.tip_relief, 0.0)
     rise *= scuffing.flash_approach(pitch_point - distance, path.length, missing)
     supply = micropitting.LUBRICATION_FACTORS[load.lubrication]
     bulk = scuffing.bulk_temperature(load.oil_temperature, float(np.mean(rise)), supply)
