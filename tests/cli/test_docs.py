@@ -11,6 +11,7 @@ import shlex
 import subprocess
 import sys
 import tomllib
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,9 +21,10 @@ from matplotlib import pyplot
 from typer.main import get_command
 from typer.testing import CliRunner
 
+from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import sets
 from tribodyn.cli.app import app
-from tribodyn.scenario.sources import find_scenario
+from tribodyn.scenario.sources import find_scenario, names, shipped
 from tribodyn.studies.protocol.load import load_scenario
 
 ROOT = Path(__file__).parents[2]
@@ -44,6 +46,14 @@ SHORTER = {
     "irefc": ("output.samples_per_cycle=8",),
     "backlash-oscillator": ("frequency.step=0.1",),
 }
+#: Calls of which another page has an example that takes less; by page. These run in soak.
+ALIKE = {
+    "helical.md": "td.gradient(",
+    "python.md": "td.differentiable(",
+    "api.md": "td.identify(",
+}
+#: Pages whose commands take more than ten seconds.
+LONG = {"load-contact.md"}
 
 
 #: A run with the page's family; its limit, the involute; a path that ends before the teeth.
@@ -115,7 +125,25 @@ def commands(block: Block) -> list[list[str]]:
 PAGES_WITH_COMMANDS = sorted({block.page for block in blocks("console") if block.page.name != "README.md"})
 
 
-@pytest.mark.parametrize("page", PAGES_WITH_COMMANDS, ids=lambda page: page.name)
+def is_run_elsewhere(words: list[str], page: Path) -> bool:
+    """Whether a command runs a shipped scenario as it is, whose record no other command of the page reads.
+
+    `test_shipped_scenarios.py` runs all of them.
+    """
+    named = {
+        word for block in blocks("console") if block.page == page for line in commands(block) for word in line
+    }
+    return len(words) == 2 and words[1] in names_of_scenarios() and f"{words[1]}.h5" not in named
+
+
+@cache
+def names_of_scenarios() -> frozenset[str]:
+    return frozenset(names(shipped("scenarios")))
+
+
+@pytest.mark.parametrize(
+    "page", all_in_soak(PAGES_WITH_COMMANDS, lambda page: page.name not in LONG), ids=lambda page: page.name
+)
 def test_commands_run(page: Path, folder: Path):
     """In the order of the page, in one folder; validations, sweeps and assessments are tested elsewhere."""
     write_tables(page, folder)
@@ -126,6 +154,9 @@ def test_commands_run(page: Path, folder: Path):
             if words[0] in ("validate", "sweep", "assess"):
                 command = get_command(app).get_command(None, words[0])  # type: ignore[attr-defined]
                 command.make_context(words[0], words[1:])
+                continue
+            if words[0] == "run" and is_run_elsewhere(words, page):
+                assert load_scenario(words[1]).title
                 continue
             if words[0] == "run":
                 kind = load_scenario(words[1]).kind
@@ -186,7 +217,12 @@ def test_every_toml_block_is_one_or_the_other():
 
 
 @pytest.mark.parametrize(
-    "block", [block for block in blocks("python", "") if block.page.name != "README.md"], ids=str
+    "block",
+    all_in_soak(
+        [block for block in blocks("python", "") if block.page.name != "README.md"],
+        lambda block: ALIKE.get(block.page.name, "\0") not in block.text,
+    ),
+    ids=str,
 )
 def test_python_runs(block: Block, folder: Path):
     matplotlib.use("agg")

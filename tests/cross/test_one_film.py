@@ -39,7 +39,7 @@ def band(summary, what="film"):
 
 @pytest.fixture(scope="module")
 def solved():
-    return td.run({"title": "one", "kind": "ehl", **PAIR, "output": {"positions": 12}}).summary
+    return td.run({"title": "one", "kind": "ehl", **PAIR, "output": {"positions": 6}}).summary
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -9,6 +9,7 @@ from pathlib import Path
 import llvmlite.binding as llvm
 import pytest
 
+from tests.support.soak_parameters import all_in_soak
 from tribodyn.kernels.native import store
 
 COMMAND = "import sys; from tribodyn.cli import main; sys.exit(main())"
@@ -58,19 +59,24 @@ def ended(folder: Path, *words: str, **variables: str) -> "subprocess.CompletedP
     )
 
 
-def test_no_verb_takes_them(folder: Path):
-    """A run is computed by kernels and draws its overview, in a child where there are two cores."""
-    for words in (
-        ("run", "irefc", "-o", "one.h5", "--set", "output.samples_per_cycle=8"),
-        ("plot", "one.h5", "--force"),
-        ("plot", "one.h5", "-o", "one.pdf"),
-        ("gear", "involute-18-36", "-o", "drawings"),
-    ):
+#: A run is computed by kernels and draws its overview, in a child where there are two cores; a drawing.
+VERBS = (
+    ("run", "irefc", "-o", "one.h5", "--set", "output.samples_per_cycle=8"),
+    ("gear", "involute-18-36", "-o", "drawings"),
+)
+#: Pictures of the record that the first leaves.
+PLOTS = ("plot", "one.h5", "--force"), ("plot", "one.h5", "-o", "one.pdf")
+
+
+@pytest.mark.parametrize("verbs", all_in_soak([VERBS, VERBS + PLOTS], [VERBS]))
+def test_no_verb_takes_them(verbs: tuple[tuple[str, ...], ...], folder: Path):
+    for words in verbs:
         run = ended(folder, "-c", COMMAND, *words, **VARIABLES)
         assert (run.returncode, run.stderr) == (0, ""), words
 
 
 @pytest.mark.slow
+@pytest.mark.soak
 def test_a_cluster_takes_none(folder: Path):
     """Nor does JAX in this process."""
     words = "sweep efficiency-involute-18-36 --vary operating.gear_torque=100:200:100N*m --engine dask"
