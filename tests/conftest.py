@@ -15,7 +15,7 @@ from tests.support.forked_verbs import ForkedVerbs
 from tests.support.relative import approx, assert_allclose
 from tests.support.short_studies import ShortRuns
 from tribodyn.numerics.cache import trusted_folder
-from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
+from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 # The same examples every time: a failure belongs to the change at hand, not to the day. For new ones:
@@ -64,7 +64,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 @lru_cache(maxsize=32)
-def _prepared(name: str, overrides: str) -> PreparedPair:
+def _prepared(name: str, overrides: str) -> PreparedGearbox:
     return prepare(load_scenario(name, json.loads(overrides)))
 
 
@@ -72,7 +72,7 @@ def _prepared(name: str, overrides: str) -> PreparedPair:
 def prepared():
     """Prepare a shipped scenario with overrides: prepared("crc-23-47", **{"mesh.damping_ratio": 0.1})."""
 
-    def make(name: str = "crc-23-47", **overrides) -> PreparedPair:
+    def make(name: str = "crc-23-47", **overrides) -> PreparedGearbox:
         return _prepared(name, json.dumps(overrides, sort_keys=True))
 
     return make

@@ -27,8 +27,7 @@ from tools.peers.numpy_model import MOVING, difference
 from tools.peers.single import Problem, Program, octave, octave_timed, peers, peers_on_trains, tribodyn_engine
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import make_integrator
-from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.gear_train.prepare import prepare as prepare_train
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.structure import rotational_error
 
@@ -91,7 +90,7 @@ def single(wanted: Callable[[str], bool], repeats: int) -> str:
 def of_train(wanted: Callable[[str], bool], repeats: int) -> str:
     """Table of single runs of a train."""
     case: Any = load_scenario("two-stage-reducer")
-    model = prepare_train(case).model
+    model = prepare(case).model
     posed = Problem(model, static_equilibrium(model), CYCLES, SAMPLES)
     return compared(posed, {name: one for name, one in peers_on_trains().items() if wanted(name)}, repeats)
 

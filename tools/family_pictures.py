@@ -14,8 +14,8 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.path import kinematics, position
 from tribodyn.post.style import INK, PALETTE, house_style, new_figure, save
-from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.pair.case import Case
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import averaged_radius
 

@@ -18,7 +18,7 @@ from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
-from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation.diez_ibarbia_study import load_contact
 

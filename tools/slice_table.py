@@ -13,7 +13,7 @@ from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Modifications
-from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 
 SLICES, POSITIONS = 21, 60

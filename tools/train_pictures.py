@@ -15,7 +15,7 @@ import tribodyn as td
 from tools.marked_block import DOCS, PICTURES
 from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.post.style import INK, PALETTE, QUIET, house_style, new_figure, save
-from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 PAGE, FILE = DOCS / "trains.md", "reducer.toml"

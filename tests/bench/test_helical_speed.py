@@ -6,7 +6,7 @@ from tests.support.timing import least
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 pytestmark = pytest.mark.bench

@@ -24,7 +24,7 @@ from tribodyn.solve.orbit.motions import by_differences
 from tribodyn.solve.right_hand_side import contacts_of, engage
 from tribodyn.solve.tolerances import StepTolerances, tolerances_from
 from tribodyn.solve.transient import make_integrator
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 pytestmark = pytest.mark.bench

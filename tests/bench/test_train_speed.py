@@ -28,7 +28,7 @@ from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.right_hand_side import work_array
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
-from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import rotational_error
 

@@ -14,8 +14,8 @@ from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
-from tribodyn.studies.gear_pair.report import SWEPT
 from tribodyn.studies.gears.case import TEMPERATURE_SWEPT
+from tribodyn.studies.motion.pair.report import SWEPT
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SHORT = ("--transient", "4", *sets("output.samples_per_cycle=40"))

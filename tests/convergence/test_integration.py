@@ -8,8 +8,8 @@ from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.march.reversal import SHARES, stops
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
-from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.studies.gears.over_time.running import energy_residual
+from tribodyn.studies.motion.pair.outputs import outputs
 
 SAMPLES = 100
 

@@ -7,8 +7,8 @@ from tests.support.states import sampled
 from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.gear_train.prepare import prepare
 from tribodyn.studies.gears.over_time.running import energy_residual
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.structure import displacements
 

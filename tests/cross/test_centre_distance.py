@@ -8,7 +8,7 @@ import pytest
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.studies import STUDIES
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load
 
 #: The drive of 18-36: module 3 mm, 20 degrees, so that a_0 = 81 mm.

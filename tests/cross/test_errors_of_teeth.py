@@ -19,8 +19,8 @@ from tribodyn.dynamics.approach import APPROACH, PRESENT, TRANSMISSION_ERROR
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.right_hand_side import contacts_of
-from tribodyn.studies.gear_pair.prepare import prepare as prepare_pair
-from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare
+from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.prepare import prepare as prepare_pair
 from tribodyn.train.schedule import interval_of
 
 NAME, TEETH = "involute-23-47", {"pinion": 23, "gear": 47}
@@ -123,7 +123,7 @@ def test_pitch_errors_over_time_are_those_of_load_contact(side: str):
 SIDES = {1: 0, -1: 1}  # driving flanks and back flanks
 
 
-def gaps(prepared: PreparedTrain) -> np.ndarray:
+def gaps(prepared: PreparedGearbox) -> np.ndarray:
     """Gap of the contacts of every mesh by side, NaN where there is none; (side, place, mesh), m."""
     model, found = prepared.model, np.full((2, len(AT), len(prepared.case.meshes)), np.nan)
     _, phases, intervals = interval_of(AT, model.schedule)
@@ -147,7 +147,7 @@ def _alike(table: str) -> np.ndarray:
     return gaps(prepare(case_of_table(json.loads(table))))
 
 
-def opened_by(table: dict[str, Any], changes: dict[str, Any]) -> tuple[np.ndarray, PreparedTrain]:
+def opened_by(table: dict[str, Any], changes: dict[str, Any]) -> tuple[np.ndarray, PreparedGearbox]:
     """What changes of a train's gears open all meshes by (side, place, mesh), m, and the train."""
     train: dict[str, Any] = deepcopy(table) | {"solver": {"cycles": 30}}
     for gear in train["gear"].values():

@@ -9,7 +9,7 @@ from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import contacts_of
-from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import shift_of
 

@@ -12,7 +12,7 @@ from tests.support.states import altered, recorded, sampled
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.train.structure import displacements, place_in_space, turn_of, velocities

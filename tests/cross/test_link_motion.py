@@ -15,7 +15,7 @@ from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.gear_train.prepare import PreparedTrain
+from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.studies.protocol.run import with_link_law
 from tribodyn.train.links.chain import tangent_stiffness, twist_under
 from tribodyn.train.links.law import LinkLaw
@@ -96,14 +96,14 @@ def expected(law: Any, start: np.ndarray, times: np.ndarray, rtol: float = 1e-11
     return found.y.T
 
 
-def places(prepared: PreparedTrain) -> list[int]:
+def places(prepared: PreparedGearbox) -> list[int]:
     """Where the states have the rotations of gear and flywheel, and their rates."""
     layout = prepared.model.layout
     turns = [turn_of(prepared.names.index(name), layout) for name in ("b1", "b2")]
     return [*turns, *(layout.half + turn for turn in turns)]
 
 
-def motion(prepared: PreparedTrain, method: str, rtol: float) -> tuple[np.ndarray, np.ndarray]:
+def motion(prepared: PreparedGearbox, method: str, rtol: float) -> tuple[np.ndarray, np.ndarray]:
     """Times and states of a run from the static equilibrium."""
     settings = TransientSettings(method, rtol, CYCLES, 10**6, 50)
     cycles, states = sampled(prepared.model, settings)
@@ -115,7 +115,7 @@ def off(states: np.ndarray, wanted: np.ndarray) -> float:
     return float(np.max(np.max(np.abs(states - wanted), axis=0) / np.ptp(wanted, axis=0)))
 
 
-def with_law(law: LinkLaw) -> PreparedTrain:
+def with_law(law: LinkLaw) -> PreparedGearbox:
     case: Any = with_link_law(case_of_table(scenario({})), "coupling", law)
     return prepared_springs(case)
 
@@ -176,7 +176,7 @@ def test_static_twist_and_tangent_stiffness():
     assert tangent_stiffness(0, 0.0, model) == 0.0
 
 
-def several() -> PreparedTrain:
+def several() -> PreparedGearbox:
     made = scenario(with_play())
     for number in (3, 4):
         made["body"].append({"name": f"b{number}", "mass": "1 kg", "inertia": "1e-2 kg*m**2"})

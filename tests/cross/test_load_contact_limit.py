@@ -22,8 +22,8 @@ from tribodyn.geometry.flanks.modification import (
 )
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.gear_pair.outputs import outputs
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.pair.outputs import outputs
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.train.schedule import interval_of
 from tribodyn.tribology.law import FrictionData
 
@@ -36,12 +36,12 @@ TIP = FlankModification(tip=Relief(12e-6, 3e-3))
 )
 def test_creeping_run_is_the_load_contact_model(prepared, modified, slices):
     slow = {"operating.pinion_speed": "0.01 rad/s", "friction.coefficient": 0.0}
-    case = prepared("involute-18-36-fem", **slow).case
+    case = prepared("involute-18-36-fem", **slow).pairs[0]
     mesh = dataclasses.replace(case.mesh, modifications=modified, slices=slices)
     run = prepare(dataclasses.replace(case, mesh=mesh))
     found = recorded(run.model, TransientSettings("radau", 1e-8, 1, 100000, SAMPLES))["normal_load"]
 
-    case, cycle = run.case, run.cycle
+    case, cycle = run.pairs[0], run.cycle
     flexible = flexibility(
         assemble(family(case.family), case.drive), case.materials, lead=slices > 1, held=case.mesh.held
     )
@@ -74,7 +74,7 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
         "mesh.misalignment.in_plane": "2 arcmin",
         "mesh.slices": 11,
     }
-    case = prepared("involute-18-36-fem", **slow).case
+    case = prepared("involute-18-36-fem", **slow).pairs[0]
     run = prepare(dataclasses.replace(case, friction=FrictionData("masjedi-khonsari")))
     model, cycle = run.model, run.cycle
     phase = (np.arange(24) + 0.5) / 24
@@ -86,7 +86,7 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
     # the creep's own flow has no share in the friction: nominal sliding
     power = np.abs(found["friction_force"] * np.nan_to_num(found["sliding_speed"]))
 
-    case = run.case
+    case = run.pairs[0]
     flexible = flexibility(
         assemble(family(case.family), case.drive), case.materials, lead=True, held=case.mesh.held
     )

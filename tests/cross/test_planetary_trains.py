@@ -14,9 +14,9 @@ from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
 from tribodyn.solve.orbit.periodic import steady_states
-from tribodyn.studies.gear_train.planetary.results import STAGES, kinds_of
-from tribodyn.studies.gear_train.prepare import prepare
-from tribodyn.studies.gear_train.run import run
+from tribodyn.studies.motion.planetary.results import STAGES, kinds_of
+from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.run import run
 from tribodyn.train.planetary import MEMBERS, SetTeeth, excited, mesh_phases, torques
 from tribodyn.train.structure import shift_of, turn_of
 

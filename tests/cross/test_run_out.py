@@ -12,7 +12,7 @@ import tribodyn as td
 from tests.support.linear_mesh import STIFFNESS, matrices
 from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.solve.transient import Stop, TransientSettings, transient
-from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
+from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import displacements, rotational_error
 
@@ -43,7 +43,7 @@ def drive(addendum: float, more: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def prepared(more: dict[str, Any]) -> PreparedPair:
+def prepared(more: dict[str, Any]) -> PreparedGearbox:
     """A pair whose contact ratio is two within rounding."""
     own = {"solver.cycles": 10 * TEETH[0] * 3} | more
 

@@ -16,7 +16,7 @@ from tribodyn.dynamics import approach
 from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.solve.initial import accelerations
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.structure import shift_of, turn_of
 

@@ -10,7 +10,7 @@ from tests.support.states import random_place, random_state, sampled
 from tests.support.train_scenarios import REDUCER, case_of_table
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import rotational_error, turn_of

@@ -12,7 +12,7 @@ from tests.support.states import sampled
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import TransientSettings
 from tribodyn.solve.twist import static_twist
-from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.structure import displacements
 

@@ -29,7 +29,7 @@ from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales, tolerances_from
 from tribodyn.solve.transient import make_integrator
-from tribodyn.studies.gear_train.prepare import PreparedTrain
+from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
@@ -56,11 +56,11 @@ RUBBING = {"friction.law": "coulomb", "friction.coefficient": 0.06}
 SPEEDS = (700, 1480, 3000)
 
 
-def at_speed(name: str, speed: float, **overrides: Any) -> PreparedTrain:
+def at_speed(name: str, speed: float, **overrides: Any) -> PreparedGearbox:
     return prepared_train(name, **{"operating.input_speed": f"{speed} rpm"} | overrides)
 
 
-def linear_train(train: PreparedTrain, pairs: list[int]) -> Train:
+def linear_train(train: PreparedGearbox, pairs: list[int]) -> Train:
     """The train in the matrices' own convention, with so many pairs in contact in every mesh."""
     case, model = train.case, train.model
     layout, bodies, links = model.layout, model.bodies, model.links
@@ -83,7 +83,7 @@ def linear_train(train: PreparedTrain, pairs: list[int]) -> Train:
     return Train(tuple(masses), tuple(bearings), tuple(shafts), tuple(meshes))
 
 
-def over_the_period(train: PreparedTrain) -> tuple[np.ndarray, np.ndarray]:
+def over_the_period(train: PreparedGearbox) -> tuple[np.ndarray, np.ndarray]:
     """Exact map of (displacements, velocities, 1) over the common period, and senses of the coordinates."""
     model, schedule = train.model, train.model.schedule
     cycle = float(model.operation.pitch_angle / model.operation.nominal_speed)
@@ -129,7 +129,7 @@ def by_another_solver(model: Any, state: np.ndarray, cycles: int) -> np.ndarray:
     return end
 
 
-def assert_exact(trains: list[PreparedTrain]) -> None:
+def assert_exact(trains: list[PreparedGearbox]) -> None:
     """Fixed points and multipliers are those of the product of matrix exponentials."""
     for train, steady in zip(trains, steady_states([t.model for t in trains], samples=8), strict=True):
         layout, (whole, own) = train.model.layout, over_the_period(train)
@@ -237,7 +237,7 @@ def test_a_lightly_damped_train_need_not_repeat():
     assert scaled(model, end - steady.state) > 1e-1
 
 
-def harmonic(train: PreparedTrain, mesh: int, times: float) -> list[dict[str, str]]:
+def harmonic(train: PreparedGearbox, mesh: int, times: float) -> list[dict[str, str]]:
     """A load that varies with a mesh's frequency, times a number."""
     reference = train.model.operation
     frequency = float(train.case.meshes[mesh].rate) * times

@@ -8,8 +8,10 @@ import pytest
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE, FAILED
-from tribodyn.studies.gear_train.batch import BATCH, KEPT, OF_MESH, Trains
-from tribodyn.studies.gear_train.report import SWEPT
+from tribodyn.studies.motion.batch import BATCH
+from tribodyn.studies.motion.batch.gearboxes import KEPT, OF_MESH
+from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.report import swept_of
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.studies.sweeping.batch import Chunk
@@ -40,7 +42,7 @@ def test_steady_states_are_those_of_long_runs(tmp_path):
     assert np.all(rows["multiplier_max"] < 1.0)
     for i, speed in enumerate((1480, 1950)):
         long = run(case_at(speed, **{"solver.cycles": 240, "solver.rtol": 1e-8}), tmp_path / f"{speed}.h5")
-        for name in (quantity.name for quantity in SWEPT):
+        for name in (quantity.name for quantity in swept_of(named=True)):
             if long.summary.get(name) is not None:
                 assert rows[name][i] == pytest.approx(long.summary[name], rel=2e-4, abs=1e-9), name
         for name in KEPT:
@@ -112,10 +114,10 @@ def held(**keys):
 )
 def test_a_case_does_not_start_from_where_another_stands(different):
     """Trains that differ in the place of an axis, in how gears of a shaft are turned, in hand or bearings."""
-    evaluate = import_module("tribodyn.studies.gears.batch.evaluate")
+    evaluate = import_module("tribodyn.studies.motion.batch.evaluate")
     cases = [case_at(1480, **keys) for keys in different]
-    settings, kind = BATCH.settings(cases, None, "native"), Trains()
-    ready = [kind.prepare(case, kind.tables(case)) for case in cases]
+    settings = BATCH.settings(cases, None, "native")
+    ready = [prepare(case) for case in cases]
 
     def starts(order):
         evaluate._equilibria.cache_clear()

@@ -12,7 +12,7 @@ from tribodyn.solve.march.step_control import unbounded
 from tribodyn.solve.methods import METHODS, Runs
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
-from tribodyn.studies.gear_pair import run as simulate
+from tribodyn.studies.motion import run as simulate
 from tribodyn.studies.protocol.load import load_scenario
 
 SAMPLES = 50

@@ -15,8 +15,8 @@ from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import DOWN, UP, frequency_response
-from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears.tabulated import tables
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 #: Central differences of the state.
@@ -79,7 +79,7 @@ def test_round_the_fold_of_a_gear_pair():
     name, mesh = "jump-involute-23-47", tables(load_scenario("jump-involute-23-47"))
 
     def model_at(line, value):
-        return prepare(load_scenario(name, {"operating.pinion_speed": f"{value} rad/s"}), mesh).model
+        return prepare(load_scenario(name, {"operating.pinion_speed": f"{value} rad/s"}), (mesh,)).model
 
     model = model_at(0, 440.0)
     settings = {

@@ -15,14 +15,14 @@ from tests.support.killed_sweeps import differences
 from tests.support.verbs import complaint, invoke
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, WAITING
-from tribodyn.studies.gears import batch
+from tribodyn.studies.motion import batch
 from tribodyn.sweep.engines import DaskEngine, LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
 
 # one case a chunk, so that there is something between nothing and everything
 ONE_A_CHUNK = (
-    "from tribodyn.studies.gears import batch\nbatch.MOST_IN_CHUNK = 1\n"
+    "from tribodyn.studies.motion import batch\nbatch.MOST_IN_CHUNK = 1\n"
     "from tribodyn.cli import main\nimport sys\nsys.argv = ['tribodyn', 'sweep', *sys.argv[1:]]\nmain()\n"
 )
 WORDS = ("crc-23-47", "--transient", "40", "--set", "output.samples_per_cycle=40")

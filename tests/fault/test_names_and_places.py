@@ -5,15 +5,15 @@ import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
 import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.sources import file_name
-from tribodyn.studies.gears.batch.signals import SignalBatch, SignalSettings
 from tribodyn.studies.gears.prepare import contact_quantities
 from tribodyn.studies.gears.rated.margins import bulk_of
+from tribodyn.studies.motion.batch.signals import SignalBatch, SignalSettings
 from tribodyn.studies.sweeping.signals import SignalRequest
 from tribodyn.sweep.grid import _put
 
@@ -25,7 +25,7 @@ def test_a_sensor_is_not_named_as_something_of_the_data_set(name: str):
     """Neither of the two would be kept."""
     rates, units = (100.0, 200.0), ("m/s2", "N")
     settings = SignalSettings(0.1, 1.0, 0, 10, (name, "other"), units, ("a", "b"), rates, ("mesh",), 0)
-    batch = SignalBatch(cast(Any, None), SignalRequest(0.1, 1.0, 0))
+    batch = SignalBatch(SignalRequest(0.1, 1.0, 0))
     if name == "top":
         assert {"top", "other"} <= set(batch.layout(settings).variables)
         return

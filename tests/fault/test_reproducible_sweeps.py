@@ -7,7 +7,7 @@ import pytest
 
 from tests.support.killed_sweeps import MOVING_ERROR, differences
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.studies.gears import batch
+from tribodyn.studies.motion import batch
 from tribodyn.sweep.engines import DaskEngine, Engine, LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.refinement import refinement_of

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from tools.by_schema.keys import patterns
 from tribodyn.errors import InputError, InputErrors
-from tribodyn.studies.gear_pair.scenario import Scenario
+from tribodyn.studies.motion.pair.scenario import Scenario
 from tribodyn.studies.protocol.load import load_scenario
 
 KEYS = [*map(".".join, patterns(Scenario)), "nonsense", "mesh.nonsense.more"]

@@ -11,7 +11,7 @@ from tribodyn.errors import InputError
 from tribodyn.quantities.quantity import shown
 from tribodyn.scenario.units import ANGULAR_SPEED, to_si
 from tribodyn.scenario.vary import axes_of
-from tribodyn.studies.gear_pair.scenario import Scenario
+from tribodyn.studies.motion.pair.scenario import Scenario
 from tribodyn.sweep.grid import Grid
 
 SPEED = "operating.pinion_speed"

@@ -9,8 +9,8 @@ from tribodyn.solve.branch.gear_pairs import GearLines
 from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.orbit.shooting import shoot
-from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears.tabulated import tables
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 #: Lightly damped, at constant stiffness: its doubled motion ends where two multipliers leave the unit circle.
@@ -31,7 +31,7 @@ def test_a_neimark_sacker_point():
 
     def model_at(line, value):
         return prepare(
-            load_scenario("crc-23-47", {**DRIVE, "operating.pinion_speed": f"{value!r} rad/s"}), mesh
+            load_scenario("crc-23-47", {**DRIVE, "operating.pinion_speed": f"{value!r} rad/s"}), (mesh,)
         ).model
 
     model = model_at(0, START)

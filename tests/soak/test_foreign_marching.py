@@ -12,9 +12,8 @@ from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_response
-from tribodyn.studies.gear_pair.batch import state_places
-from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears.tabulated import tables
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
@@ -102,14 +101,13 @@ def test_a_gear_pair(number: int, tmp_path: Path):
 
     def model_at(value: float):
         case = load_scenario(name, {**overrides, "operating.pinion_speed": f"{value!r} rad/s"})
-        return prepare(case, mesh).model
+        return prepare(case, (mesh,)).model
 
     with SweepRecord(result.path) as record:
         states, period, status = record["state"], record["period"], record["status"]
         located = [record["end_value"][:, way].ravel() for way in (0, 1)]
     model = model_at(first)
     moving = moving_states(model).states
-    states = states[..., state_places(model.layout)]
     scale = state_scales(model, states[0, 0])
 
     def march(value: float, state: np.ndarray, cycles: int) -> np.ndarray:

@@ -16,7 +16,7 @@ SERVER = """
 import gc, json, os, signal, sys
 import llvmlite.binding, matplotlib.backends.backend_agg, matplotlib.figure, numba, scipy.interpolate
 import tribodyn.cli.app, tribodyn.studies.pages
-import tribodyn.studies.gear_pair.run, tribodyn.studies.gear_pair.scenario
+import tribodyn.studies.motion.run, tribodyn.studies.motion.pair.scenario
 from tribodyn.cli import main
 from tribodyn.post.style import STYLE
 

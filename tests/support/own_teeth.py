@@ -7,12 +7,12 @@ import numpy as np
 import tribodyn as td
 from tribodyn.dynamics.parameters import Model, frictionless
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
+from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import rotational_error
 
 
-def made(name: str, changes: dict[str, Any]) -> PreparedPair:
+def made(name: str, changes: dict[str, Any]) -> PreparedGearbox:
     """A pair prepared for a hunting period."""
     return prepare(td.scenario(name, {"solver.cycles": 1081} | changes))
 

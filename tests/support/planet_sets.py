@@ -3,7 +3,7 @@
 from typing import Any
 
 from tests.support.train_scenarios import case_of_table
-from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.studies.motion.case import Gearbox
 
 #: Teeth of sun, planet and ring, for three or four planets: all meshes in phase, or one after another.
 IN_PHASE, SEQUENTIAL = (24, 30, 84), (25, 29, 83)
@@ -81,6 +81,6 @@ def planet_set(
     return table
 
 
-def set_case(*given: Any, **changes: Any) -> TrainCase:
+def set_case(*given: Any, **changes: Any) -> Gearbox:
     """The case of `planet_set`."""
     return case_of_table(planet_set(*given, **changes))

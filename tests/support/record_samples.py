@@ -14,8 +14,7 @@ from tribodyn.record.layout import Head
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.writer import RecordWriter
-from tribodyn.studies.gears.case import LAYOUT
-from tribodyn.studies.gears.over_time.recorded import DOF, SAMPLES, scales_of
+from tribodyn.studies.gears.over_time.recorded import DOF, LAYOUT, SAMPLES, scales_of
 
 
 def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9, sides: Sequence[float] = (1.0, 1.0)):

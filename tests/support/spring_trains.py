@@ -14,9 +14,9 @@ from tests.support.train_matrices import GROUND, Train
 from tests.support.train_scenarios import case_of_table
 from tribodyn.mesh.cycle import polynomials
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.gear_train.case import TrainCase
-from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare, tabulated
 from tribodyn.studies.gears.tabulated import Tabulated
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.prepare import PreparedGearbox, prepare, tabulated
 from tribodyn.train.structure import shift_of, turn_of
 
 
@@ -95,18 +95,18 @@ def one_spring(made: Tabulated) -> Tabulated:
     return made._replace(cycle=cycle, table=polynomials(cycle))
 
 
-def prepared_springs(case: TrainCase) -> PreparedTrain:
+def prepared_springs(case: Gearbox) -> PreparedGearbox:
     """The model of a case with one spring for every mesh."""
     return prepare(case, tuple(one_spring(made) for made in tabulated(case)))
 
 
-def spring_model(scenario: dict[str, Any], overrides: dict[str, Any] | None = None) -> PreparedTrain:
+def spring_model(scenario: dict[str, Any], overrides: dict[str, Any] | None = None) -> PreparedGearbox:
     """The same of a scenario."""
     return prepared_springs(case_of_table(scenario, overrides))
 
 
 def in_global_frame(
-    states: Float[Array, "sample state"], prepared: PreparedTrain, rates: bool = False
+    states: Float[Array, "sample state"], prepared: PreparedGearbox, rates: bool = False
 ) -> Float[Array, "sample coordinate"]:
     """Displacements (x, y, θ of every body b0, b1, …) against the reference's rotation, θ counter-clockwise.
 

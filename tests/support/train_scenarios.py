@@ -14,13 +14,13 @@ from tribodyn.errors import InputErrors
 from tribodyn.scenario.messages import explain
 from tribodyn.scenario.resolve import resolve, resolve_table, unresolved_keys
 from tribodyn.scenario.sources import find_scenario
-from tribodyn.studies.gear_train import STUDY
-from tribodyn.studies.gear_train.case import TrainCase
-from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare
+from tribodyn.studies.motion import TRAIN as STUDY
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.protocol.load import loaded_from, table_of
 
 
-def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> TrainCase:
+def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> Gearbox:
     """The case of a train's scenario; InputErrors with every mistake."""
     data, origins, errors = resolve(path, overrides or {}, STUDY.table)
     data.setdefault("name", path.stem)
@@ -37,18 +37,18 @@ def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> TrainC
     return STUDY.case(scenario, toml, hashlib.sha256(toml.encode()).hexdigest())
 
 
-def case_of_table(written: Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> TrainCase:
+def case_of_table(written: Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> Gearbox:
     """The case of a scenario that is written here; what it names is looked for among the shipped."""
     path = Path("train.toml")
     return loaded_from(resolve_table(dict(written), path, overrides or {}, table_of), path).case
 
 
 @lru_cache(maxsize=32)
-def _prepared(name: str, overrides: str) -> PreparedTrain:
+def _prepared(name: str, overrides: str) -> PreparedGearbox:
     return prepare(train_case(find_scenario(name), json.loads(overrides)))
 
 
-def prepared_train(name: str, **overrides: Any) -> PreparedTrain:
+def prepared_train(name: str, **overrides: Any) -> PreparedGearbox:
     """A shipped train with overrides made ready, once for all that ask for it."""
     return _prepared(name, json.dumps(overrides, sort_keys=True))
 

@@ -11,8 +11,8 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import half_profile, tooth_outline
 from tribodyn.geometry.drive import Side, body_of
 from tribodyn.geometry.path import position
-from tribodyn.studies.gear_train.assembled import assemblies, phases
-from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.studies.motion.assembled import assemblies, phases
+from tribodyn.studies.motion.case import Gearbox
 
 #: Chords of the outlines' points leave less, m.
 TOLERANCE = 0.1e-6
@@ -95,7 +95,7 @@ def assert_touching(mesh: Turning, turns: Sequence[float]) -> None:
             assert np.min(clearance[near]) == pytest.approx(0.0, abs=TOLERANCE), "no contact where it is due"
 
 
-def assert_teeth_touch(case: TrainCase) -> None:
+def assert_teeth_touch(case: Gearbox) -> None:
     """Turn all outlines of a train in their places, by the same time."""
     pairs = assemblies(case)
     put = phases(case, pairs)

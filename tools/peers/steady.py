@@ -20,9 +20,8 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
-from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.gears.batch import MOST_CYCLES
-from tribodyn.studies.gears.tabulated import tables
+from tribodyn.studies.motion.batch import MOST_CYCLES
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
@@ -91,7 +90,7 @@ def lsoda(speeds: Grid, numbers: list[int], ours: Ours, target: float) -> Theirs
     At the loosest tolerance of LSODA_RTOL with which its last cycle is within `target` of a march at 1e-11;
     at the tightest if none is.
     """
-    models = [prepare(case, tables(case)).model for case in (speeds.case((i,)) for i in numbers)]
+    models = [prepare(case).model for case in (speeds.case((i,)) for i in numbers)]
     starts = np.array([static_equilibrium(model) for model in models])
     needed = cycles_needed(models, starts)
     marched = np.minimum(needed, MOST_MARCHED)

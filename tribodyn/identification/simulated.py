@@ -20,7 +20,7 @@ from tribodyn.studies.sweeping.signals import SignalRequest
 def turn_of(case: Any) -> float:
     """Time of a turn of the body that drives the first mesh, s."""
     batch: Any = study_of({"kind": case.kind}).batch()
-    return 2.0 * np.pi / batch.kind.pace(case).speed
+    return batch.turn(case)
 
 
 #: Residual of a place at which there is no run, over the deviation of what was measured.

@@ -56,7 +56,9 @@ def samples_per_cycle(record: Record) -> int:
 
 
 def mesh_rates(record: Record) -> np.ndarray:
-    """Cycles of every mesh of a train per cycle of its first mesh."""
+    """Cycles of every mesh per cycle of the first mesh; of a pair of its only one."""
+    if "mesh_phase" not in record:
+        return np.ones(1)
     phase = record["mesh_phase"]
     turned = phase[-1] - phase[0]
     return turned / turned[0]

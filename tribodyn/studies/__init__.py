@@ -10,8 +10,8 @@ STUDIES: Registry[Study] = Registry(
     "kind",
     "kind of scenario",
     {
-        "gear-pair": "tribodyn.studies.gear_pair:STUDY",
-        "gear-train": "tribodyn.studies.gear_train:STUDY",
+        "gear-pair": "tribodyn.studies.motion:PAIR",
+        "gear-train": "tribodyn.studies.motion:TRAIN",
         "efficiency": "tribodyn.studies.efficiency:STUDY",
         "load-contact": "tribodyn.studies.load_contact:STUDY",
         "wear": "tribodyn.studies.wear:STUDY",

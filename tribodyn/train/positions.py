@@ -14,6 +14,9 @@ from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.structure import ACROSS, ALONG_Z, IN_SPACE, LEAN_ACROSS, LEAN_ALONG, MOVES, TOWARDS
 
+#: Product of a direction's cosines below which it is along an axis.
+_ROUNDING = 1e-15
+
 
 class Distance(NamedTuple):
     """A mesh as it holds two axes apart."""
@@ -108,7 +111,10 @@ def frame_of(azimuth: float, sense: int) -> tuple[tuple[float, float], tuple[flo
     Across is from the driver's axis to the driven one's, at this azimuth (rad); along is the motion at the
     pitch point.
     """
-    return (-sense * sin(azimuth), sense * cos(azimuth)), (cos(azimuth), sin(azimuth))
+    x, y = cos(azimuth), sin(azimuth)
+    if abs(x * y) < _ROUNDING:  # along an axis
+        x, y = float(round(x)), float(round(y))
+    return (-sense * y, sense * x), (x, y)
 
 
 def moves_of(

@@ -32,7 +32,7 @@ from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.elementary import cos, sin, sqrt
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.efficiency.published import exact, hoehn, tip_contact_ratios
-from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import nominal_conditions
 from tribodyn.tribology.friction.niemann import niemann

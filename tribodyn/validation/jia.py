@@ -22,7 +22,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.families.parabolic import maximum_coefficient
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Modifications
 from tribodyn.geometry.path import kinematics
-from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.validation.jia_positions import Passage, positions

@@ -16,7 +16,7 @@ from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.geometry.families import family
 from tribodyn.geometry.path import position
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
-from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation.jia import CROWNED, modified
 

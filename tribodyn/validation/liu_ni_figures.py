@@ -22,7 +22,7 @@ from tribodyn.post.figures.panel import Trace, View, abscissa, draw, legend, mar
 from tribodyn.post.figures.spectrum import steady_spectrum
 from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation.published import published
 

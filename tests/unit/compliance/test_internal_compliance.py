@@ -13,7 +13,7 @@ from tribodyn.compliance.foundation import _ring_receptance, ring_compliance
 from tribodyn.geometry.drive import MaterialData, body_of
 from tribodyn.geometry.path import distance_at_radius
 from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.studies.gear_train.prepare import tabulated
+from tribodyn.studies.motion.prepare import tabulated
 
 NU = 0.3
 

@@ -44,8 +44,8 @@ from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of, worthwhile
 from tribodyn.solve.right_hand_side import contacts_of, work_array
-from tribodyn.studies.gear_pair.outputs import outputs, recorded
 from tribodyn.studies.gears.over_time.sampled import sampled_with_extremes
+from tribodyn.studies.motion.pair.outputs import outputs, recorded
 
 OVERRIDES = [
     {},

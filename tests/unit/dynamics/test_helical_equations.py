@@ -17,7 +17,7 @@ from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.solve.tolerances import state_scales
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.positions import moves_of
 from tribodyn.train.structure import place_in_space, shift_of, turn_of
@@ -162,7 +162,7 @@ def test_modes_are_those_of_hand_assembled_matrices(pair):
         np.sqrt((r + module) ** 2 - (r * np.cos(angle)) ** 2) - r * np.sin(angle) for r in radii
     ]  # of the path, beyond the pitch point
     pitch = np.pi * module / np.cos(beta) * np.cos(angle)
-    width = float(min(side.face_width for side in (case.case.drive.pinion, case.case.drive.gear)))
+    width = float(min(side.face_width for side in (case.pairs[0].drive.pinion, case.pairs[0].drive.gear)))
     normal = np.array([np.cos(angle) * np.cos(base), np.sin(angle) * np.cos(base), np.sin(base)])
     half = width / slices * np.tan(base) / 2.0
     matrix, phases = np.zeros((11, 11)), (np.arange(1500) + 0.5) / 1500

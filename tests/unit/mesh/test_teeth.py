@@ -10,8 +10,8 @@ from tests.support.own_teeth import errors, made
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
-from tribodyn.studies.gear_pair.outputs import outputs
-from tribodyn.studies.gear_pair.prepare import PreparedPair
+from tribodyn.studies.motion.pair.outputs import outputs
+from tribodyn.studies.motion.prepare import PreparedGearbox
 
 ECCENTRICITY = 20e-6
 
@@ -93,9 +93,9 @@ def test_formula_and_measured_flanks_are_the_same():
 def test_a_sample_keeps_its_tolerances_and_its_seed():
     changes = {"drive.quality": 6, "mesh.tooth_sample": 3}
     case = made("involute-23-47", changes)
-    (own,) = case.case.teeth[0]
-    again = made("involute-23-47", changes).case.teeth[0][0]
-    other = made("involute-23-47", changes | {"mesh.tooth_sample": 4}).case.teeth[0][0]
+    (own,) = case.pairs[0].teeth[0]
+    again = made("involute-23-47", changes).pairs[0].teeth[0][0]
+    other = made("involute-23-47", changes | {"mesh.tooth_sample": 4}).pairs[0].teeth[0][0]
     assert own == again != other
     places = _places(case)
     flanks = [own.fields(tooth, LEADING, places).gap for tooth in range(23)]
@@ -110,10 +110,10 @@ def test_a_sample_keeps_its_tolerances_and_its_seed():
     assert not np.allclose(trailing.gap, flanks[0])
 
 
-def _places(case: PreparedPair):
+def _places(case: PreparedGearbox):
     from tribodyn.mesh.teeth.places import places_of
 
-    return places_of(case.assembly, case.case.mesh, case.cycle)[0].driver
+    return places_of(case.assembly, case.pairs[0].mesh, case.cycle)[0].driver
 
 
 @pytest.mark.parametrize("name", ["crc-23-47", "helical-23-47"])

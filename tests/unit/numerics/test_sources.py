@@ -162,7 +162,7 @@ def computing_digest(root: Path) -> str:
     ("file", "old", "new", "same"),
     [
         ("tribology/friction/masjedi_khonsari.py", "= 1.0", "= 3.0", False),
-        ("studies/gear_pair/run.py", "import", "import os\nimport", False),
+        ("studies/motion/run.py", "import", "import os\nimport", False),
         ("errors.py", "import", "import os\nimport", False),
         ("tribology/friction/coulomb.py", "\n\n\n", "\n# more about it\n\n\n", True),
         ("__init__.py", "0.2.0", "9.9.9", True),

@@ -7,8 +7,8 @@ import pytest
 import tomli_w
 
 from tribodyn.errors import InputError
-from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.pair.case import Case
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 # scenario, overrides, key, what the message says, what it advises

@@ -8,7 +8,7 @@ from tests.support.train_scenarios import case_of_table
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.tolerances import tolerances_from
-from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.train.structure import turn_of
 
 STIFFNESS, TORQUE = 1e5, 900.0  # N m/rad, N m

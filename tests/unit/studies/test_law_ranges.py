@@ -3,7 +3,7 @@
 import pytest
 
 from tribodyn.numerics.elementary import law
-from tribodyn.studies.gear_pair.run import check
+from tribodyn.studies.motion.check import check
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.study import CheckResult
 from tribodyn.tribology.closure import with_laws

@@ -12,7 +12,7 @@ from tribodyn.numerics.elementary import exp, log
 from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run, with_law
 

@@ -17,11 +17,11 @@ from tribodyn.interface.scenario import scenario
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.standards.rolling_bearings import life_factor, reference_viscosity
-from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks, opening_part
 from tribodyn.studies.gears.rated.first_page import bearings_table
 from tribodyn.studies.gears.supports import mean_loads
 from tribodyn.studies.gears.usual import with_duty
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.recording import CheckResult
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
 

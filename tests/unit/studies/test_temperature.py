@@ -10,8 +10,8 @@ import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.efficiency.run import prepare, quantities_of
-from tribodyn.studies.gear_pair.prepare import prepare as prepare_motion
-from tribodyn.studies.gears.prepare import at_own_temperature
+from tribodyn.studies.gears.prepare import Thermal, at_own_temperature
+from tribodyn.studies.motion.prepare import prepare as prepare_motion
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
 
 SCENARIO = tomllib.loads(
@@ -53,7 +53,8 @@ def case(changes=None, source=SCENARIO):
 
 
 def warm_of(prepared: Any) -> Any:
-    return prepared.thermal
+    thermal = prepared.thermal
+    return thermal if isinstance(thermal, Thermal) else thermal[0]
 
 
 def test_the_estimate_of_the_standard_holds_at_its_own_temperature():

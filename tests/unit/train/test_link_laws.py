@@ -14,7 +14,7 @@ from tribodyn.dynamics.loads import link_energy, link_forces
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.march.jacobian import differentiate_links
 from tribodyn.solve.tolerances import state_scales
-from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.run import with_link_law
 from tribodyn.train.structure import DAMPING, displacements, turned, velocities
 

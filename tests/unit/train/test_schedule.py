@@ -10,7 +10,7 @@ import pytest
 from tests.support.planet_sets import planet_set
 from tests.support.train_scenarios import case_of_table
 from tribodyn.dynamics.parameters import Model
-from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.train.schedule import interval_of, of_one_mesh, schedule_of, with_teeth
 
 

@@ -16,7 +16,7 @@ from tribodyn.numerics.elementary import absolute, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.record.reader import Record
 from tribodyn.solve.right_hand_side import rhs, work_array
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run as run_study
 from tribodyn.tribology.closure import closure, laws_of, with_laws

@@ -35,9 +35,8 @@ from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing
 from tribodyn.studies.efficiency.published import by_loss_factor, path_contact, rotations, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
 from tribodyn.studies.efficiency.slices import deflections, judged
-from tribodyn.studies.gears.case import gears_layout
 from tribodyn.studies.gears.check import check_gears, oil_data
-from tribodyn.studies.gears.over_time.recorded import scales_of
+from tribodyn.studies.gears.over_time.recorded import gears_layout, scales_of
 from tribodyn.studies.gears.over_time.steady import of_the_face
 from tribodyn.studies.gears.prepare import (
     PreparedGears,

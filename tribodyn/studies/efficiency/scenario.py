@@ -14,7 +14,8 @@ from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_duty_rules
 from tribodyn.scenario.tables.internal_gear import driving_internal
 from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
-from tribodyn.studies.gears.case import LAYOUT, LubricatedCase, with_chosen
+from tribodyn.studies.gears.case import LubricatedCase, with_chosen
+from tribodyn.studies.gears.over_time.recorded import LAYOUT
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
     FaceSlices,

@@ -7,16 +7,11 @@ from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.geometry.body import GEOMETRY
 from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
-from tribodyn.mesh.record_arrays import described
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.quantities.catalogue import quantities
-from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
-from tribodyn.studies.gears.over_time import by_revolution
-from tribodyn.studies.gears.over_time.recorded import DOF_SCALE, PAIR, SLICE, samples_of
 from tribodyn.studies.gears.supports import GearSupports
 from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.tribology.asperities import Asperities
@@ -42,23 +37,6 @@ TEMPERATURE = quantities(
 )
 #: What sweeps keep of a case that asks for temperatures or losses.
 TEMPERATURE_SWEPT = quantities("bulk_temperature", "power_load_independent", "efficiency_with_losses")
-
-
-def gears_layout(slices: int, *, in_space: bool = False) -> Layout:
-    """Of records over time of pairs with so many slices; see `recorded.samples_of`."""
-    scales = {"pair": PAIR, "dof": DOF_SCALE, "revolution": by_revolution.REVOLUTION}
-    scales |= {"slice": SLICE} if slices > 1 else {}
-    return Layout(
-        TIME,
-        samples_of(slices, in_space=in_space),
-        scales,
-        others=by_revolution.described(of_train=False),
-        groups={"mesh_cycle": described(slices), "geometry": GEOMETRY},
-    )
-
-
-#: Of records over time of spur gears.
-LAYOUT = gears_layout(1)
 
 
 @dataclass(frozen=True)
@@ -117,6 +95,11 @@ class LubricatedCase(OiledCase):
     #: how the bulk temperature of the teeth follows from the losses; None: it is that of the oil
     temperature: TemperatureData | None = None
     losses: LossData | None = None  # load-independent losses, where they are to be added
+
+    @property
+    def pairs(self) -> "tuple[LubricatedCase, ...]":
+        """The pair of gears in every mesh: of a pair itself."""
+        return (self,)
 
     def chosen(self) -> dict[str, tuple[str, str]]:
         """Give the laws that "auto" took, and why."""

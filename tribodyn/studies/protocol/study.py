@@ -91,7 +91,8 @@ class Study:
     ----------
     kind : as scenarios name it
     about : what it is, in a line
-    package : where its parts are
+    package, apart : where its parts are; name of the package in it with those that it does not share with
+        another kind
     quantities : what its records are about; those of studies with the same are compared and drawn together
     compared : headings of its summary that a comparison shows; none: it is not compared in a table
     has_gears, resumes : whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run
@@ -104,6 +105,7 @@ class Study:
     about: str
     package: str
     quantities: str
+    apart: str = ""
     compared: tuple[str, ...] = ()
     has_gears: bool = False
     resumes: bool = False
@@ -126,7 +128,7 @@ class Study:
 
     def template(self) -> str:
         """A commented scenario to begin with, in which TITLE stands for its title."""
-        package = import_module(self.package)
+        package = import_module(self._packages[0])
         if not hasattr(package, "__path__"):  # one module, which has no folder of its own
             return package.TEMPLATE
         return resources.files(package).joinpath("template.toml").read_text(encoding="utf-8")
@@ -304,12 +306,17 @@ class Study:
             package = self.package.partition(".")[0]
             raise cannot_be_loaded("kind", self.kind, package, error) from error
 
+    @property
+    def _packages(self) -> tuple[str, ...]:
+        """Where its parts are looked for."""
+        return (f"{self.package}.{self.apart}", self.package) if self.apart else (self.package,)
+
     def _imported(self, part: str, name: str, optional: bool) -> Any:
         package = import_module(self.package)
         own = getattr(package, name, None)
         if own is not None and not ismodule(own):  # a part may have the name of what it holds
             return own
-        places = [f"{self.package}.{place}" for place in (part, *_ALSO_IN.get(part, ()))]
+        places = [f"{of}.{place}" for of in self._packages for place in (part, *_ALSO_IN.get(part, ()))]
         for module in places:
             needed = not optional and module == places[-1]
             try:

@@ -9,10 +9,10 @@ from tribodyn.compliance.iso6336 import blank_factor
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
 from tribodyn.studies.assessment.parts import faces_of, other_torques, request_of
-from tribodyn.studies.gear_train import whole
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins
 from tribodyn.studies.gears.rated.standard import Standard, iso_part, rated_duty, standard_of
+from tribodyn.studies.motion.train import whole
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.part import Meshing
 

@@ -10,7 +10,7 @@ from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import SHARINGS, places
 from tribodyn.studies.efficiency.published import torque_ratio
 from tribodyn.studies.efficiency.run import efficiencies, prepare, quantities_of
-from tribodyn.studies.gear_pair.outputs import outputs
+from tribodyn.studies.motion.pair.outputs import outputs
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.train.schedule import interval_of

@@ -6,11 +6,11 @@ from typing import Any
 import pytest
 
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.studies.gear_train import whole
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import Capacity, as_life, capacity_of, life_bins, shorter_life
 from tribodyn.studies.gears.rated.limits import LIMITS, judged, with_unlimited, written_limit
 from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
+from tribodyn.studies.motion.train import whole
 from tribodyn.studies.protocol.load import load_data, load_scenario
 
 OIL = {"lubricant": "iso-vg-320-mineral"}

@@ -10,7 +10,7 @@ import pytest
 from tests.support.closures import LIU_NI, under
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import closure, duty_range, with_laws
 from tribodyn.tribology.contact import DutyRange, local_contact

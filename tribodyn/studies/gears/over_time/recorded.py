@@ -4,8 +4,12 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.geometry.body import GEOMETRY
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.record_arrays import described
 from tribodyn.numerics.parameter import Variable, flag
+from tribodyn.record.schema import TIME, Layout
+from tribodyn.studies.gears.over_time import by_revolution
 
 DOF = ("x_p", "y_p", "x_g", "y_g", "theta_p", "theta_g")
 #: And of gears that move in space.
@@ -133,3 +137,20 @@ def scales_of(cycle: MeshCycle, *, in_space: bool = False) -> dict[str, Any]:
     if cycle.slices == 1:
         return {"pair": pairs, "dof": np.array(DOF_IN_SPACE if in_space else DOF)}
     return {"pair": pairs, "dof": np.array(DOF_IN_SPACE), "slice": np.asarray(cycle.face_position)}
+
+
+def gears_layout(slices: int, *, in_space: bool = False) -> Layout:
+    """Of records over time of pairs with so many slices; see `recorded.samples_of`."""
+    scales = {"pair": PAIR, "dof": DOF_SCALE, "revolution": by_revolution.REVOLUTION}
+    scales |= {"slice": SLICE} if slices > 1 else {}
+    return Layout(
+        TIME,
+        samples_of(slices, in_space=in_space),
+        scales,
+        others=by_revolution.described(of_train=False),
+        groups={"mesh_cycle": described(slices), "geometry": GEOMETRY},
+    )
+
+
+#: Of records over time of spur gears.
+LAYOUT = gears_layout(1)

@@ -1,0 +1,142 @@
+"""What the evaluation of many gearboxes together needs of each: tables, states, meshes, pace, quantities."""
+
+from collections.abc import Hashable, Mapping, Sequence
+from fractions import Fraction
+from math import ceil
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.studies.gears.over_time.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.sampled import Sampled
+from tribodyn.studies.gears.same_table import table_key
+from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
+from tribodyn.studies.motion.case import Gearbox, refuse_long_period
+from tribodyn.studies.motion.pair.case import Case
+from tribodyn.studies.motion.planetary.frames import rolling_of
+from tribodyn.studies.motion.planetary.results import stage_quantities, worst_stage
+from tribodyn.studies.motion.prepare import PreparedGearbox, structure_of
+from tribodyn.studies.motion.summary import concluded, meshes_of_run, steady_quantities
+from tribodyn.studies.motion.warmth import at_own_temperatures
+
+#: The mesh whose transmission error a sweep samples.
+REFERENCE = 0
+#: What a sweep keeps of every mesh; the name of the dataset is that of the quantity and `OF_MESH`.
+KEPT = (
+    *("transmission_error_peak_to_peak", "dynamic_factor", "contact_loss_fraction", "hertz_pressure_max"),
+    *("film_parameter_min", "efficiency", "power_friction_mean", "bulk_temperature"),
+)
+OF_MESH = "_of_mesh"
+OF_MESHES = {name + OF_MESH: QUANTITIES[name].variable()._replace(dims=("mesh",)) for name in KEPT}
+#: States that bound the memory of a sweep before its cases are known.
+MOST_STATES = 64
+
+AnyCase = Gearbox | Case
+
+
+class Pace(NamedTuple):
+    """How fast a case goes."""
+
+    speed: float  # of the reference body, rad/s
+    cycles: float  # of the reference mesh in a turn of it
+    slowest: float  # and in a turn of the gear that turns slowest
+
+
+class Form(NamedTuple):
+    """What the cases of a sweep have in common."""
+
+    modes: int
+    states: tuple[str, ...]  # names
+    common: int = 1  # mesh cycles after which all meshes are at their phases again
+    meshes: tuple[str, ...] = ()  # names, where files name them
+
+
+def form_of(cases: Sequence[AnyCase]) -> Form:
+    """States and modes of all cases; common period and meshes of the first."""
+    boxes = [case.gearbox() for case in cases]
+    found = [states_of(box) for box in boxes]
+    states = tuple(
+        dict.fromkeys(name for names, _ in sorted(found, key=lambda one: -len(one[0])) for name in names)
+    )
+    meshes = tuple(mesh.name for mesh in boxes[0].meshes) if boxes[0].named else ()
+    return Form(max(modes for _, modes in found), states, boxes[0].period, meshes)
+
+
+def states_of(case: Gearbox) -> tuple[tuple[str, ...], int]:
+    """Names of the states, and the number of modes."""
+    names, planar, spatial = structure_of(case)
+    meshes = [mesh.name for mesh in case.meshes]
+    if not case.named:
+        names, meshes = [name[0] for name in names], [""]
+    return state_names(names, planar, meshes, spatial), 2 * planar + len(names) + 3 * spatial - 1
+
+
+def keys_of_tables(case: AnyCase) -> Hashable:
+    """Everything that the tables of a case depend on."""
+    return tuple(map(table_key, case.pairs))
+
+
+def refuse_steady(case: AnyCase) -> None:
+    """Raise InputError for a case that has no steady state that could be sought."""
+    if teeth_differ(case):
+        turn = ceil(pace_of(case).slowest)
+        rule = "teeth of a gear differ: no steady state repeats with the mesh, and none is sought"
+        remedy = f"march: --transient {10 * turn} ({turn} mesh cycles are a turn of the slowest gear), or "
+        remedy += "keep what sensors hear: --signals 1s"
+        raise InputError("--steady", None, rule, remedy)
+    refuse_long_period(case.gearbox())
+
+
+def teeth_differ(case: AnyCase) -> bool:
+    """Whether teeth of one gear differ, so that no mesh cycle is like the one before."""
+    return any(any(pair.teeth) for pair in case.pairs)
+
+
+def pace_of(case: AnyCase) -> Pace:
+    """How fast a case goes."""
+    box = case.gearbox()
+    speed = box.source.speed / float(box.bodies[box.source.body].ratio)
+    teeth = Fraction(abs(box.gears[box.meshes[0].gears[0]].teeth))
+    slowest = min(body.ratio for body in box.bodies if body.gears and body.ratio)
+    rolling = rolling_of(box)
+    return Pace(speed, float(teeth) * rolling, float(teeth / slowest) * rolling)
+
+
+def places_of(prepared: PreparedGearbox, settings: SweepSettings) -> list[int]:
+    """Places of a case's states among those of the sweep; InputError where they do not fit."""
+    names, _ = states_of(prepared.case)
+    if not set(names) <= set(settings.states) or prepared.case.period != settings.common:
+        rule = "the bodies, the meshes or the common period are not those of the first case"
+        raise InputError("vary", None, rule, "sweep it apart, or run it alone")
+    return [settings.states.index(name) for name in names]
+
+
+def quantities_over(
+    inside: Sampled,
+    work: np.ndarray,
+    prepared: PreparedGearbox,
+    samples: int,
+    extremes: Sequence[RunningExtremes],
+) -> tuple[dict[str, Any], dict[str, np.ndarray], Sequence[Mapping[str, Any]]]:
+    """Quantities over a window: of the case, of each mesh for `OF_MESHES`, and of each mesh to judge."""
+    whole, each = steady_quantities(inside.meshes, work, prepared, meshes_of_run(prepared), samples, extremes)
+    found = {}
+    if prepared.case.named:
+        found = {
+            name + OF_MESH: np.array([mesh.get(name, np.nan) for mesh in each], dtype=float) for name in KEPT
+        }
+    if prepared.case.sets:
+        whole |= worst_stage(stage_quantities(prepared, inside.meshes, each))
+    return concluded(prepared, whole, each), found, each
+
+
+def warmer(case: AnyCase, row: Mapping[str, Any]) -> Gearbox | None:
+    """The case with every mesh at the temperature of its own loss, `row` of a sweep; None: all are."""
+    box = case.gearbox()
+    if box.meshes[0].pair.temperature is None:
+        return None
+    names = ("bulk_temperature", "power_friction_mean")
+    warm, lost = (row[name + OF_MESH].tolist() if box.named else [float(row[name])] for name in names)
+    return at_own_temperatures(box, warm, lost)

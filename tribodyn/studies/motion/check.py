@@ -1,0 +1,226 @@
+"""What is said of a gearbox without a run: speeds, frequencies, modes, and every mesh as of a pair."""
+
+from collections.abc import Iterator, Sequence
+from math import degrees, pi
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.modes import Modes, modes
+from tribodyn.studies.gears.check import check_gears
+from tribodyn.studies.gears.prepare import PreparedGears
+from tribodyn.studies.gears.usual import with_duty
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.described.alike import together
+from tribodyn.studies.motion.frequencies import (
+    distinct_meshes,
+    mesh_frequencies,
+    of_sets,
+    passes,
+)
+from tribodyn.studies.motion.pair.case import Case
+from tribodyn.studies.motion.planetary.jamming import jams
+from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
+from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.sensed import listener_of
+from tribodyn.studies.protocol.recording import CheckResult, TextTable
+from tribodyn.train.flow import flow
+
+#: Share of a mode's energy below which a body is left out of a table.
+LITTLE = 0.005
+#: Harmonics of the meshes whose crossing with a mode is said.
+HARMONICS = 3
+
+
+def check(given: Gearbox | Case) -> CheckResult:
+    """Check a case, tabulate its meshes, and say what gearbox it describes."""
+    prepared = prepare(given)
+    case = prepared.case
+    listener_of(prepared)
+    found = modes(prepared.model, [made.cycle for made in prepared.made])
+    kinds = kinds_of(prepared, found)
+    of_meshes = [_of_mesh(prepared, m) for m in range(len(case.meshes))]
+    of_modes = {
+        "natural_frequencies": found.frequency.tolist(),
+        "mode_shares": [
+            dict(zip(prepared.names, row, strict=True)) for row in np.round(found.share, 6).tolist()
+        ],
+    }
+    tables = [_mode_table(prepared, found, kinds), _campbell_table(prepared, found)]
+    if not case.named:
+        (pair,) = of_meshes
+        return pair._replace(data=pair.data | of_modes, tables=(*pair.tables, *tables))
+    names, train = [mesh.name for mesh in case.meshes], _train(prepared)
+    of_sets_alone = {
+        "planet_pass_frequencies": planet_pass(prepared),
+        "set_frequencies": {name: own._asdict() for name, own in of_sets(prepared).items()},
+    }
+    data = {
+        **train,
+        **of_modes,
+        **({"mode_kinds": list(kinds)} if kinds else {}),
+        **(of_sets_alone if case.sets else {}),
+        "mesh_frequencies": dict(zip(names, mesh_frequencies(prepared), strict=True)),
+        "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
+    }
+    tables = [*_train_tables(prepared, train), *_set_tables(prepared), *tables]
+    details = list(_once(names, [checked.tables for checked in of_meshes]))
+    remarks = list(_named(names, [checked.remarks for checked in of_meshes]))
+    said = _named(names, [checked.warnings for checked in of_meshes])
+    warnings = tuple(dict.fromkeys((*jams(prepared), *said)))
+    return CheckResult(data, tables, remarks, warnings, details)
+
+
+def _named(names: list[str], said: list[Any]) -> Iterator[str]:
+    """What is said of the meshes; once where it is said of all."""
+    of_line: dict[str, list[str]] = {}
+    for name, each in zip(names, said, strict=True):
+        for line in dict.fromkeys(each):
+            of_line.setdefault(line, []).append(name)
+    yield from (line for line, of in of_line.items() if len(of) == len(names))
+    for line, of in of_line.items():
+        if len(of) < len(names):
+            yield f"Mesh {together(of)}: {line}"
+
+
+def _once(names: list[str], tables: Sequence[Sequence[TextTable]]) -> Iterator[TextTable]:
+    """The tables of the meshes, equal ones once."""
+    found: list[tuple[TextTable, list[str]]] = []
+    for name, each in zip(names, tables, strict=True):
+        for table in each:
+            same = next((of for other, of in found if other == table), None)
+            if same is None:
+                found.append((table, [name]))
+            else:
+                same.append(name)
+    for table, of in found:
+        yield table._replace(title=f"{table.title}, mesh {together(of)}")
+
+
+def _of_mesh(prepared: PreparedGearbox, m: int) -> CheckResult:
+    pair, made = prepared.pairs[m], prepared.made[m]
+    thermal = prepared.thermal[m]
+    gears = PreparedGears(pair, made.assembly, made.cycle, thermal, slice_remark=made.slice_remark)
+    if not prepared.case.named:
+        return check_gears(gears, prepared.model.closure(m), made.masses)
+    return with_duty(check_gears(gears, prepared.model.closure(m)), pair)
+
+
+def _speeds(prepared: PreparedGearbox) -> np.ndarray:
+    """Nominal speeds of the bodies, rad/s."""
+    return np.asarray(prepared.model.bodies.ratio) * prepared.model.operation.nominal_speed
+
+
+def _train(prepared: PreparedGearbox) -> dict[str, Any]:
+    """The train for programs, SI."""
+    case, model = prepared.case, prepared.model
+    layout, speeds = model.layout, _speeds(prepared)
+    bodies = {}
+    for b, (name, own) in enumerate(zip(prepared.names, prepared.bodies, strict=True)):
+        bodies[name] = {
+            "speed": float(speeds[b]),
+            "shaft_frequency": float(speeds[b]) / (2.0 * pi),
+            "counter_clockwise": own.sense > 0,
+            "mass": float(model.bodies.mass[b]) if b < layout.planar else None,
+            "inertia": float(model.bodies.inertia[b]),
+            "centre": list(map(float, own.centre)),
+        }
+    torques = flow(model).on_driven
+    meshes = {
+        mesh.name: {
+            "driver": case.gears[mesh.gears[0]].name,
+            "driven": case.gears[mesh.gears[1]].name,
+            "rate": str(mesh.rate),
+            "phase": float(prepared.phases.meshes[m]),
+            "azimuth": float(mesh.azimuth),
+            "driven_torque": float(torques[m] * model.meshes[m].driven_sense),
+        }
+        for m, mesh in enumerate(case.meshes)
+    }
+    ratio = float(speeds[layout.input] / speeds[layout.output])
+    return {"train_ratio": ratio, "common_period": case.period, "bodies": bodies, "train_meshes": meshes}
+
+
+def _train_tables(prepared: PreparedGearbox, found: dict[str, Any]) -> list[TextTable]:
+    case = prepared.case
+    cycles = "1 cycle" if case.period == 1 else f"{case.period} cycles"
+    whole = [
+        ("ratio of input to output speed", f"{found['train_ratio']:.6g}"),
+        ("common period of the meshes", f"{cycles} of mesh {case.meshes[0].name}"),
+        ("repeats every", f"{case.period / mesh_frequencies(prepared)[0] * 1e3:.4g} ms"),
+    ]
+    bodies = [
+        (
+            name,
+            f"{body['speed'] * 30.0 / pi:.5g}",
+            f"{body['shaft_frequency']:.5g}",
+            "counter-clockwise" if body["counter_clockwise"] else "clockwise",
+            "–" if body["mass"] is None else f"{body['mass']:.4g}",
+            f"{body['inertia']:.4g}",
+            ", ".join(f"{round(place * 1e3, 9) + 0.0:.5g}" for place in body["centre"]),
+        )
+        for name, body in found["bodies"].items()
+    ]
+    meshes = [
+        (
+            name,
+            f"{mesh['driver']} → {mesh['driven']}",
+            f"{frequency:.5g}",
+            f"{float(made.cycle.contact_ratio):.4g}",
+            f"{mesh['driven_torque']:.5g}",
+            f"{degrees(mesh['azimuth']):.4g}",
+            f"{mesh['phase']:.4f}",
+        )
+        for (name, mesh), frequency, made in zip(
+            found["train_meshes"].items(), mesh_frequencies(prepared), prepared.made, strict=True
+        )
+    ]
+    return [
+        TextTable("Train", ("quantity", "value"), whole),
+        TextTable(
+            "Bodies", ("body", "rpm", "Hz", "turns", "mass (kg)", "inertia (kg m²)", "centre (mm)"), bodies
+        ),
+        TextTable(
+            "Meshes",
+            ("mesh", "drives", "Hz", "contact ratio", "driven torque (N m)", "azimuth (°)", "phase"),
+            meshes,
+        ),
+    ]
+
+
+def _set_tables(prepared: PreparedGearbox) -> list[TextTable]:
+    """How often teeth of planetary sets meet their mates."""
+    rows = [
+        (name, *(f"{value:.5g}" for value in (own.mesh, own.planet_pass, *own[3:])))
+        for name, own in of_sets(prepared).items()
+    ]
+    head = ("stage", "mesh (Hz)", "planets pass ring", "sun tooth", "planet tooth", "ring tooth")
+    return [TextTable("Planetary stages: how often a tooth meets a mate", head, rows)] if rows else []
+
+
+def _mode_table(prepared: PreparedGearbox, found: Modes, kinds: Sequence[str]) -> TextTable:
+    """Natural frequencies, kinds of modes where there are planets, and the bodies that move in each."""
+    rows = []
+    for frequency, share in zip(found.frequency, found.share, strict=True):
+        order = np.argsort(-share, kind="stable")
+        who = ", ".join(f"{prepared.names[b]} {100.0 * share[b]:.0f} %" for b in order if share[b] > LITTLE)
+        rows.append((f"{frequency:.5g}", *kinds[len(rows) : len(rows) + 1], who))
+    title = "Natural frequencies, at the mean mesh stiffness, and shares of the kinetic energy"
+    return TextTable(title, ("Hz", *(("kind",) if kinds else ()), "bodies"), rows)
+
+
+def _campbell_table(prepared: PreparedGearbox, found: Modes) -> TextTable:
+    """Speeds of the input at which harmonics of the meshes meet the modes."""
+    speed = float(_speeds(prepared)[prepared.model.layout.input]) * 30.0 / pi
+    own: dict[str, tuple[float, int]] = {}
+    for name, frequency in distinct_meshes(prepared):
+        own |= {
+            f"{name} ×{order}" if order > 1 else name: (frequency, order) for order in range(1, HARMONICS + 1)
+        }
+    own |= {name: (frequency, 1) for name, frequency in passes(prepared) if frequency}
+    rows = [
+        (f"{mode:.5g}", *(f"{mode / (order * frequency) * speed:.4g}" for frequency, order in own.values()))
+        for mode in found.frequency
+    ]
+    title = f"Campbell: input speed (rpm) at which a mesh meets a mode; now {speed:.4g}"
+    return TextTable(title, ("mode (Hz)", *own), rows)

@@ -1,0 +1,54 @@
+"""Meshes of a planetary set that differ by their planet alone: which they are, and their names together."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.train.planetary import CARRIER
+
+#: In the summary of a mesh: the name that it shares with those of the set's other planets.
+ALIKE = "alike"
+
+
+def alike_of(case: Gearbox) -> tuple[str, ...]:
+    """What every mesh shares with those of the other planets, set and member; "" of a mesh outside sets."""
+    found = [""] * len(case.meshes)
+    for own in case.sets:
+        of_body = {body: member for member, body in own.members.items() if member != CARRIER}
+        for m, mesh in enumerate(case.meshes):
+            if mesh.carrier == own.members[CARRIER]:
+                body = mesh.driver if mesh.driver in of_body else mesh.driven
+                found[m] = f"{own.name}-{of_body[body]}"
+    return tuple(found)
+
+
+def groups_of(meshes: Mapping[str, Mapping[str, Any]]) -> list[list[str]]:
+    """Names of the meshes of a summary, those of all planets with one member in a list of their own."""
+    found: dict[str, list[str]] = {}
+    for name, mesh in meshes.items():
+        found.setdefault(f"set {mesh[ALIKE]}" if mesh.get(ALIKE) else f"mesh {name}", []).append(name)
+    return list(found.values())
+
+
+def together(names: Iterable[str]) -> str:
+    """Names in one, those that differ by the number at their end once: "set-sun-1 (and 2, 3), second"."""
+    numbers: dict[str, list[str]] = {}
+    for name in dict.fromkeys(names):
+        head, line, number = name.rpartition("-")
+        alone = not (line and number.isdigit())
+        numbers.setdefault(name if alone else f"{head}-", []).append("" if alone else number)
+    return ", ".join(
+        f"{head}{first} (and {', '.join(others)})" if others else f"{head}{first}"
+        for head, (first, *others) in numbers.items()
+    )
+
+
+def between(cells: Sequence[str], values: Sequence[Any]) -> str:
+    """Written values of several meshes in one cell: the smallest to the largest, or what is the same once."""
+    different = dict(zip(cells, values, strict=True))
+    if len(different) < 2:
+        return next(iter(different), "")
+    if not all(isinstance(value, (int, float)) for value in values):
+        return together(cells)
+    ordered = sorted(different, key=lambda cell: different[cell])
+    return f"{ordered[0]} … {ordered[-1]}"

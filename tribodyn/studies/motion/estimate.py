@@ -1,0 +1,69 @@
+"""What a run of a gearbox takes."""
+
+from tribodyn.studies.gears.taken import drivers, radians_of, table
+from tribodyn.studies.motion.case import HOUSING, Gearbox
+from tribodyn.studies.motion.pair.case import Case
+from tribodyn.studies.motion.record import usual_layout
+from tribodyn.studies.protocol import cost
+
+#: How often the samples of the last cycles are held; share of a pair's record that pictures read at once.
+_WINDOW_HELD, _READ = 2.0, 0.05
+#: Cycles of a common period that are usual; bytes and s of an interval of its layout, per mesh.
+_USUAL_PERIOD, _INTERVAL_BYTES, _INTERVAL = 200.0, 120.0, 1e-6
+#: Seconds of each further mesh for its equilibria, temperatures and extremes: two helical ones take 2.5 s.
+_A_MESH = 1.2
+
+
+def estimate(given: Gearbox | Case) -> cost.Estimate:
+    """What a run of a case takes; every mesh as much as that of a pair."""
+    case = given.gearbox()
+    samples, cycles = float(case.output.samples_per_cycle), float(case.solver.cycles)
+    meshes = len(case.meshes)
+    sides = 1 if case.meshes[0].pair.mesh.backlash is None else 2
+    kept = len(case.output.kept(case.solver.cycles))
+    bodies = len(case.bodies)
+    sizes = {"time": kept, "mesh": meshes, "pair": cost.PAIRS * sides, "dof": 3 * bodies, "body": bodies + 1}
+    record = cost.recorded(usual_layout(case), sizes, 0.0 if case.named else _READ)
+    block = min(max(cycles / 4.0, 1.0), 50.0) * samples
+    window = max(cycles / 4.0, min(max(case.period, case.output.revolution), cycles)) * samples
+    return cost.total(
+        drivers_of(case),
+        record,
+        *marching_of(case, cycles, together=False),
+        cost.in_memory(block * sides * meshes, cost.SAMPLE_BYTES),
+        cost.in_memory(_WINDOW_HELD * window, record.record / kept),
+        cost.Estimate(seconds=_A_MESH * (meshes - 1)),
+    )
+
+
+def drivers_of(case: Gearbox) -> tuple[cost.Driver, ...]:
+    """Keys that make a case large."""
+    found = drivers(case, case.meshes[0].pair.mesh)
+    if case.laid_out < case.period or case.period <= _USUAL_PERIOD:
+        return found
+    remedy = (
+        f"the meshes are at their phases again after {case.period} cycles of the mesh {case.meshes[0].name}: "
+        "give gears of one shaft numbers of teeth with a divisor, or lower it"
+    )
+    return *found, cost.Driver("solver.max_period", case.period, _USUAL_PERIOD, remedy)
+
+
+def marching_of(case: Gearbox, cycles: float, together: bool = True) -> list[cost.Estimate]:
+    """What its tables and so many reference cycles take; `together`: of many cases side by side."""
+    solver, samples = case.solver, case.output.samples_per_cycle
+    meshes, rates = len(case.meshes), sum(float(mesh.rate) for mesh in case.meshes)
+    intervals = 0.0 if meshes == 1 else float(case.laid_out) * cost.SEGMENTS * rates * meshes
+    found = [cost.Estimate(_INTERVAL_BYTES * intervals, seconds=_INTERVAL * intervals)]
+    for mesh in case.meshes:
+        bearings = [_held(case, body) for body in (mesh.driver, mesh.driven)]
+        radians = float(mesh.rate) * radians_of(mesh.pair, bearings)
+        most = float(solver.max_steps)
+        found.append(table(mesh.pair.mesh))
+        found.append(cost.marching(cycles, radians, solver.method, most, samples, together=together))
+    return [each._replace(record=0.0) for each in found] if together else found
+
+
+def _held(case: Gearbox, body: int) -> float:
+    """Stiffness of a body's bearings, N/m; 0 without any."""
+    of_body = [link.stiffness[:2] for link in case.links if body in link.ends and HOUSING in link.ends]
+    return max((stiffness for pair in of_body for stiffness in pair), default=0.0)

@@ -1,0 +1,269 @@
+"""Figures of gears in motion: of a pair over its mesh cycles; of a train in its true positions, by mesh."""
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.errors import InputError
+from tribodyn.post import style
+from tribodyn.post.cycles import last_cycles
+from tribodyn.post.figures import by_revolution, over_face, over_mesh, sensed, spectrum
+from tribodyn.post.figures.drawing import Drawing, drawing
+from tribodyn.post.figures.panel import (
+    ORDER,
+    Trace,
+    View,
+    draw,
+    record_label,
+    record_title,
+)
+from tribodyn.record.reader import Record
+from tribodyn.studies.motion.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
+from tribodyn.studies.motion.described.carried import body_labels, mesh_labels, sets_of
+from tribodyn.studies.motion.pictures.curves import draw_curves
+from tribodyn.studies.motion.pictures.modes_figure import modes_figure
+from tribodyn.studies.motion.pictures.planet_figures import (
+    bearing_load_figure,
+    has_orbits,
+    orbit_figure,
+    planet_load_figure,
+)
+from tribodyn.studies.motion.pictures.spectrum_figure import has_spectra, spectrum_figure
+from tribodyn.studies.motion.pictures.train_picture import draw_train, train_figure
+
+MESH_FORCE = Trace("driven_torque", "Force of each mesh along its pitch tangent", "$F_t$", "N")
+FILM = over_mesh.FILM_THICKNESS._replace(title="Minimum film thickness of each mesh", from_zero=True)
+LOSS = Trace("mesh_power_friction", "Loss to friction in each mesh", "$P_f$", "W", from_zero=True)
+ERROR = over_mesh.TRANSMISSION_ERROR._replace(
+    title="Transmission error of each mesh", symbol="$r_1θ_1 - r_2θ_2$"
+)
+DISPLACEMENT = Trace("x", "Displacement of each body in its bearing", r"$\sqrt{x^2 + y^2}$", "µm")
+PRESSURE = over_mesh.HERTZ_PRESSURE._replace(title="Maximum Hertz pressure in each contact")
+EFFICIENCY = over_mesh.EFFICIENCY._replace(title="Efficiency of the train at each moment")
+
+#: Height of one of so many panels, inch.
+_LOW, _FEW = 1.8, 3
+
+
+def mesh_forces(record: Record) -> np.ndarray:
+    """Force of every mesh on its driven gear along the pitch tangent, N (samples, meshes)."""
+    radii = [abs(record.of_mesh(mesh, "geometry")["gear_pitch_radius"]) for mesh in record["mesh"]]
+    return record["driven_torque"] / np.array(radii)
+
+
+def thinnest_films(record: Record) -> np.ndarray:
+    """Smallest film of the pairs under load in every mesh, m (samples, meshes); NaN without any."""
+    films = np.where(record["normal_load"] > 0.0, record["central_film_thickness"], np.nan)
+    return np.fmin.reduce(films, axis=2)
+
+
+def displacements(record: Record) -> np.ndarray:
+    """Displacement of every body in its bearing, of planets from their carriers' pins, m (samples, bodies).
+
+    NaN of those that only turn.
+    """
+    x, y = record["x"].copy(), record["y"].copy()
+    places = record.geometry
+    for own in sets_of(record):
+        ahead = places["sense"][own.carrier] * record["angle"][:, own.carrier]
+        ahead = ahead - places["carried"][own.carrier] * record["reference_angle"]
+        for planet in own.planets:
+            right, up = places["centre"][planet] - places["centre"][own.carrier]
+            x[:, planet] += ahead * up - record["x"][:, own.carrier]
+            y[:, planet] -= ahead * right + record["y"][:, own.carrier]
+    return np.hypot(x, y)
+
+
+def overview_figure(records: Sequence[Record], view: View) -> Figure:
+    """Draw what the first record holds: the train, and forces, errors, films and losses of its meshes."""
+    record = records[0]
+    meshes, bodies = mesh_labels(record), body_labels(record)
+    figure = style.new_figure(11.0, 6.6)
+    rows = figure.subplots(2, 3)
+    draw_train(rows[0, 0], record, last_cycles(record, view.cycles).part.start)
+    style.mark_panel(rows[0, 0], "a", "Train, drawn to scale")
+    moved = displacements(record)
+    held = bool(np.any(np.isfinite(moved)))
+    curves = (
+        (MESH_FORCE, mesh_forces(record), meshes),
+        (ERROR, record["transmission_error_rotational"], meshes),
+        (FILM, thinnest_films(record), meshes),
+        (LOSS, record["mesh_power_friction"], meshes),
+        (DISPLACEMENT, moved, bodies) if held else (EFFICIENCY, record["efficiency"][:, None], ["train"]),
+    )
+    for letter, axes, (trace, values, names) in zip("bcdef", rows.flat[1:], curves, strict=True):
+        draw_curves(axes, record, values, names, trace, view)
+        style.mark_panel(axes, letter, trace.title)
+    for axes in rows[1, 1:]:
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3, fontsize=6.5)
+    rows[1, 1].get_legend().set_title("Meshes, in b to e", {"size": 6.5})
+    rows[1, 2].get_legend().set_title("Bodies" if held else "", {"size": 6.5})
+    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
+    return figure
+
+
+def _each_mesh(trace: Trace, records: Sequence[Record], view: View) -> Figure:
+    """Draw the pairs of every mesh in a panel of its own, of one record after the other."""
+    places = [(record, m, str(mesh)) for record in records for m, mesh in enumerate(record["mesh"])]
+    figure, rows = _rows(len(places), records)
+    for letter, axes, (record, m, mesh) in zip(_letters(places), rows, places, strict=True):
+        draw(axes, [record], trace, view, last=axes is rows[-1], mesh=m)
+        if trace is over_mesh.FILM_PARAMETER:
+            over_mesh.draw_lubrication(axes)
+        head = f"{record_label(record)}, " if len(records) > 1 else ""
+        style.mark_panel(axes, letter, f"{head}{style.literal(mesh)}, {_lower(trace.title)}")
+    _finish(figure, rows, records)
+    return figure
+
+
+def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], view: View) -> Figure:
+    """Draw a curve of every mesh or body, each record in a panel of its own."""
+    figure, rows = _rows(len(records), records)
+    for letter, axes, record in zip(_letters(records), rows, records, strict=True):
+        names = list(record[over])
+        if len(names) > len(style.PALETTE):
+            names = mesh_labels(record) if over == "mesh" else body_labels(record)
+        draw_curves(axes, record, of(record), names, trace, view)
+        head = f"{record_label(record)}: " if len(records) > 1 else ""
+        style.mark_panel(axes, letter, f"{head}{_lower(trace.title) if head else trace.title}")
+    _finish(figure, rows, records)
+    return figure
+
+
+def _rows(count: int, records: Sequence[Record]) -> tuple[Any, list[Axes]]:
+    height = style.PANEL_HEIGHT if count <= _FEW else _LOW
+    figure = style.new_figure(style.WIDTH, (height + 0.15) * count + 0.6)
+    return figure, list(figure.subplots(count, 1, squeeze=False, sharex=len(records) == 1)[:, 0])
+
+
+def _letters(of: Sequence[Any]) -> list[str]:
+    return [chr(ord("a") + number) if 1 < len(of) <= 26 else "" for number in range(len(of))]
+
+
+def _finish(figure: Any, rows: list[Axes], records: Sequence[Record]) -> None:
+    figure.align_ylabels()
+    for axes in rows[:-1]:
+        axes.set_xlabel("")
+    _legend(figure, rows)
+    if len(records) == 1:
+        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+
+
+def _legend(figure: Any, rows: Sequence[Axes]) -> None:
+    entries: dict[str, Any] = {}
+    for axes in rows:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            entries.setdefault(f"{label}{ORDER.get(label, '')}", handle)
+    if entries:
+        figure.legend(list(entries.values()), list(entries), loc="outside lower center", ncols=4)
+
+
+def _lower(text: str) -> str:
+    return text[0].lower() + text[1:]
+
+
+def _per_mesh(about: str, trace: Trace) -> Drawing:
+    return Drawing(about, partial(_each_mesh, trace))
+
+
+def _has_meshes(record: Record) -> bool:
+    """Whether there are several meshes, by their names."""
+    return "mesh" in record
+
+
+def _either(of_pair: Drawing | None, of_train: Drawing | None) -> Drawing:
+    """A figure of a pair, or of a train in its place; of records of both that of the first one's kind."""
+
+    def chosen(record: Record) -> Drawing | None:
+        return of_train if _has_meshes(record) else of_pair
+
+    def draw(records: Sequence[Record], view: View) -> Figure:
+        first = chosen(records[0])
+        if first is None or any(_has_meshes(record) is not _has_meshes(records[0]) for record in records):
+            what = "a train" if _has_meshes(records[0]) else "a pair"
+            rule = f"{records[0].path} is of {what}" + ("" if first is None else ", and others are not")
+            raise InputError(
+                "plot", None, rule, "draw another figure" if first is None else "draw them apart"
+            )
+        return first.draw(records, view)
+
+    def fits(record: Record) -> bool:
+        own = chosen(record)
+        return own is not None and own.fits(record)
+
+    one, other = (own.about if own else "" for own in (of_pair, of_train))
+    return Drawing(one if one == other or not other else f"{one}; {other}" if one else other, draw, fits)
+
+
+_OF_PAIR: dict[str, Drawing] = {
+    **over_mesh.DRAWINGS,
+    **over_face.DRAWINGS,
+    "orders": Drawing(
+        "orders of the mesh while the speed changes, such as run-up",
+        spectrum.orders_figure,
+        spectrum.worth_tracking,
+    ),
+}
+_OF_TRAIN: dict[str, Drawing] = {
+    "overview": Drawing("the train, forces, errors, films and losses of its meshes", overview_figure),
+    "train": Drawing("the train in its true positions, and the teeth in every mesh", train_figure),
+    "transmission-error": Drawing(
+        "transmission error of every mesh",
+        partial(_all_meshes, ERROR, lambda record: record["transmission_error_rotational"], "mesh"),
+    ),
+    "mesh-force": Drawing(
+        "force of every mesh along its pitch tangent", partial(_all_meshes, MESH_FORCE, mesh_forces, "mesh")
+    ),
+    "displacement": Drawing(
+        "displacement of every body in its bearing",
+        partial(_all_meshes, DISPLACEMENT, displacements, "body"),
+        lambda record: bool(np.any(np.isfinite(record["x"]))),
+    ),
+    "loss": Drawing(
+        "loss to friction in every mesh",
+        partial(_all_meshes, LOSS, lambda record: record["mesh_power_friction"], "mesh"),
+    ),
+    "planet-load": Drawing(
+        "load of every planet of planetary sets, at sun and ring",
+        planet_load_figure,
+        lambda record: bool(sets_of(record)),
+    ),
+    "orbit": Drawing("orbits of the central gears of planetary sets", orbit_figure, has_orbits),
+    "spectrum": Drawing(
+        "spectrum of every mesh's transmission error, with the modes", spectrum_figure, has_spectra
+    ),
+    "normal-load": _per_mesh("normal load of every pair of every mesh", over_mesh.NORMAL_LOAD),
+    "friction": _per_mesh("friction coefficient of every pair", over_mesh.FRICTION_COEFFICIENT),
+    "film": _per_mesh("film thickness of every pair", over_mesh.FILM_THICKNESS),
+    "film-parameter": _per_mesh("film thickness over roughness", over_mesh.FILM_PARAMETER),
+    "pressure": _per_mesh("Hertz pressure of every pair", PRESSURE),
+    "mesh-stiffness": _per_mesh("stiffness of every pair", over_mesh.STIFFNESS),
+}
+
+_OF_ANY: dict[str, Drawing] = {
+    **by_revolution.DRAWINGS,
+    "bearing-load": drawing(
+        "force on every bearing and pin",
+        bearing_load_figure,
+        lambda record: "bearing_force_x" in record,
+        ("bearing-load", "{path} has no forces on bearings", "give the bodies bearings, or run it again"),
+    ),
+    "modes": drawing(
+        "natural frequencies, mesh frequencies over the speed, shares of the bodies",
+        modes_figure,
+        lambda record: "body" in record and "mode_shares" in record.summary,
+        ("modes", "{path} does not say which bodies move in its modes", "run it again"),
+    ),
+    **sensed.DRAWINGS,
+}
+DRAWINGS: dict[str, Drawing] = {
+    **{
+        name: _either(_OF_PAIR.get(name), _OF_TRAIN.get(name))
+        for name in dict.fromkeys((*_OF_PAIR, *_OF_TRAIN))
+    },
+    **_OF_ANY,
+}

@@ -1,0 +1,97 @@
+"""How often a train turns and meshes: shafts, meshes, passing planets, teeth that meet again."""
+
+from collections.abc import Iterator
+from math import gcd, pi
+
+from tribodyn.signals.lines import (
+    FAULT,
+    HUNTING,
+    MESH,
+    PASS,
+    SHAFT,
+    SetFrequencies,
+    SignalLine,
+    lines_of_pair,
+    set_frequencies,
+)
+from tribodyn.studies.motion.described.alike import together
+from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.train.planetary import CARRIER, RING, SUN
+
+
+def mesh_frequencies(prepared: PreparedGearbox) -> list[float]:
+    """Of the meshes at nominal speed, Hz."""
+    operation = prepared.model.operation
+    first = float(operation.nominal_speed / operation.pitch_angle)
+    return [float(mesh.rate) * first for mesh in prepared.case.meshes]
+
+
+def distinct_meshes(prepared: PreparedGearbox) -> Iterator[tuple[str, float]]:
+    """Frequencies of the meshes, Hz, equal ones once; those of a planetary set by its name."""
+    case, of_rate = prepared.case, {}
+    sets = {own.members[CARRIER]: own.name for own in case.sets}
+    for mesh, frequency in zip(case.meshes, mesh_frequencies(prepared), strict=True):
+        of_rate.setdefault(mesh.rate, (frequency, []))[1].append(sets.get(mesh.carrier, mesh.name))
+    for frequency, names in of_rate.values():
+        yield together(names), frequency
+
+
+def passes(prepared: PreparedGearbox) -> Iterator[tuple[str, float]]:
+    """Frequencies at which planets pass a tooth of the ring and of the sun, N |n_c − n|, Hz."""
+    turning = [body.sense * float(body.ratio) for body in prepared.case.bodies]
+    shaft = reference_frequency(prepared)
+    for own in prepared.case.sets:
+        for member in (RING, SUN):
+            passing = turning[own.members[CARRIER]] - turning[own.members[member]]
+            yield f"{own.name}: planets pass {member}", len(own.planets) * shaft * abs(passing)
+
+
+def reference_frequency(prepared: PreparedGearbox) -> float:
+    """Turns of the reference body in a second, at nominal speed."""
+    return float(prepared.model.operation.nominal_speed) / (2.0 * pi)
+
+
+def of_sets(prepared: PreparedGearbox) -> dict[str, SetFrequencies]:
+    """What repeats in every planetary set, Hz."""
+    case, found = prepared.case, {}
+    each = mesh_frequencies(prepared)
+    for own in case.sets:
+        carrier = own.members[CARRIER]
+        mesh = next(each[m] for m, mesh in enumerate(case.meshes) if mesh.carrier == carrier)
+        teeth = own.teeth.sun, own.teeth.planet, abs(own.teeth.ring)
+        found[own.name] = set_frequencies(*teeth, len(own.planets), mesh)
+    return found
+
+
+def lines_of(prepared: PreparedGearbox) -> tuple[SignalLine, ...]:
+    """Lines of a gearbox, per turn of the reference body; equal ones once."""
+    case, shaft = prepared.case, reference_frequency(prepared)
+    if not case.named:
+        one, two = case.gears
+        return lines_of_pair(one.name, two.name, (abs(one.teeth), abs(two.teeth)))
+    found = [SignalLine(name, MESH, frequency / shaft) for name, frequency in distinct_meshes(prepared)]
+    if len(found) == 1:
+        found = [found[0]._replace(name="mesh")]
+    planets = {planet for own in case.sets for planet in own.planets}
+    for number, body in zip(prepared.order, prepared.bodies, strict=False):
+        if number not in planets and body.ratio:
+            found.append(SignalLine(body.name, SHAFT, float(body.ratio)))
+    for name, own in of_sets(prepared).items():
+        found += [
+            SignalLine(f"planets of {name} pass", PASS, own.planet_pass / shaft),
+            SignalLine(f"sun tooth of {name}", FAULT, own.sun_fault / shaft),
+            SignalLine(f"planet tooth of {name}", FAULT, own.planet_fault / shaft),
+        ]
+    for mesh, frequency in zip(case.meshes, mesh_frequencies(prepared), strict=True):
+        if mesh.carrier < 0:
+            one, two = (int(abs(case.gears[gear].teeth)) for gear in mesh.gears)
+            again = frequency * gcd(one, two) / (one * two)
+            found.append(SignalLine(f"hunting tooth of {mesh.name}", HUNTING, again / shaft))
+    known: set[tuple[str, float]] = set()
+    distinct = []
+    for line in found:
+        key = (line.sort, round(line.order, 9))
+        if key not in known:
+            known.add(key)
+            distinct.append(line)
+    return tuple(distinct)

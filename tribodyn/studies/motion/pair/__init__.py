@@ -1,0 +1,1 @@
+"""Gear pairs: what their scenarios say, and what is theirs alone."""

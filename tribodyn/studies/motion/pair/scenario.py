@@ -1,0 +1,151 @@
+"""The tables of a scenario file: what is done with a drive.
+
+Field names are the interface of the command line (`--set operating.gear_torque="600 N*m"`). Defaults stand
+as they would be written in TOML. Rules that tie fields together stand in `rules`; names of laws, families and
+solvers in their registries.
+"""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from tribodyn.dynamics.data import OperatingData
+from tribodyn.geometry.drive import SIDES
+from tribodyn.scenario import fields
+from tribodyn.scenario.quantity import csv_file, model_file, written
+from tribodyn.scenario.tables.bearings import Bearings
+from tribodyn.scenario.tables.damage import Damages, GearPlace, damage_of
+from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
+from tribodyn.scenario.tables.own_teeth import own_teeth_of, with_own_teeth
+from tribodyn.scenario.tables.sensors import Housing, Sensors, housing_of, sensors_of
+from tribodyn.studies.gears.motion import (
+    MOST_HARMONICS,
+    Friction,
+    Mesh,
+    Output,
+    Solver,
+    TorqueHarmonic,
+    moving_mesh_of,
+    output_data,
+    solver_data,
+)
+from tribodyn.studies.gears.prepare import with_chosen_laws
+from tribodyn.studies.gears.scenario import (
+    FilmKeys,
+    GearScenario,
+    LossKeys,
+    Oil,
+    ShaftKeys,
+    TemperatureKeys,
+    gear_fields,
+    oil_fields,
+)
+from tribodyn.studies.gears.supports import bearings_of
+from tribodyn.studies.motion.pair.case import Case
+
+
+class Operating(OiledOperatingTable):
+    """How the drive is driven and loaded: nominal speed, constant part of the load, and more."""
+
+    source: Literal["speed", "torque"] = Field(
+        "speed", description="speed: the pinion's rotation is prescribed; torque: a motor with inertia"
+    )
+    gear_torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
+        None, description="over time, added to the load"
+    )
+    gear_torque_harmonics: tuple[TorqueHarmonic, ...] = Field(
+        (), max_length=MOST_HARMONICS, description="added to the load"
+    )
+    load_inertia: fields.Inertia = written("0 kg*m**2")
+    load_damping: fields.TorsionalDamping = written(
+        "0 N*m*s/rad", description="load that grows with speed above nominal"
+    )
+    drive_inertia: fields.Inertia = written("0 kg*m**2", description="of the motor")
+    shaft_stiffness: fields.TorsionalStiffness | None = Field(
+        None, description="between motor and pinion; default: rigid"
+    )
+    shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
+    speed_regulation: fields.TorsionalDamping = written(
+        "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
+    )
+
+    @property
+    def motor_torque(self) -> float | None:
+        """Torque of the motor, given beside the load; None: it balances the load without losses."""
+        beside = self.gear_torque is not None or self.power is not None
+        return self.pinion_torque if beside else None
+
+    @property
+    def load(self) -> DutyTable:
+        """Speed and load, without the torque of the motor."""
+        return self if self.motor_torque is None else self.model_copy(update={"pinion_torque": None})
+
+
+class GearPairScenario(GearScenario):
+    """A scenario file."""
+
+    kind: Literal["gear-pair"] = "gear-pair"
+    lubricant: Oil
+    bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
+    shaft: ShaftKeys = None
+    operating: Operating
+    mesh: Mesh
+    temperature: TemperatureKeys = None
+    losses: LossKeys = None
+    film: FilmKeys = None
+    friction: Friction
+    solver: Solver = written({})
+    output: Output = written({})
+    damage: Damages = ()
+    sensor: Sensors = ()
+    housing: Housing | None = Field(None, description="that sensors sit on")
+
+
+Scenario = GearPairScenario
+
+
+def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
+    """Return the case of a scenario that has passed schema and rules."""
+    teeth = own_teeth_of(scenario.drive, scenario.mesh.tooth_sample)
+    damaged = gears_of_pair(scenario)
+    one, two = (
+        (*each, *damage_of([one for one in scenario.damage if one.gear == side], damaged[side]))
+        for each, side in zip(teeth, SIDES, strict=True)
+    )
+    teeth = one, two
+    own: dict[str, Any] = {
+        "operating": _operating(scenario),
+        "mesh": with_own_teeth(moving_mesh_of(scenario), teeth),
+        "teeth": teeth,
+    }
+    case = Case(
+        **gear_fields(scenario, toml, sha256) | own,
+        **oil_fields(scenario),
+        bearings=bearings_of(scenario),
+        solver=solver_data(scenario.solver, scenario.drive.pinion.teeth),
+        output=output_data(scenario.output, scenario.solver, scenario.drive.pinion.teeth, differ=any(teeth)),
+        sensors=sensors_of(scenario.sensor),
+        housing=housing_of(scenario.housing),
+    )
+    return with_chosen_laws(case)
+
+
+def gears_of_pair(scenario: Scenario) -> dict[str, GearPlace]:
+    """The gears that may be damaged."""
+    return {side: GearPlace(((scenario.drive, side),)) for side in SIDES}
+
+
+def _operating(scenario: Scenario) -> OperatingData:
+    operating, drive = scenario.operating, scenario.drive
+    curve = operating.gear_torque_table
+    return OperatingData(
+        **duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth)._asdict(),
+        pinion_torque=operating.motor_torque,
+        torque_table=curve.in_si() if curve else None,
+        torque_harmonics=tuple(
+            (cosine.amplitude, cosine.frequency, cosine.phase) for cosine in operating.gear_torque_harmonics
+        ),
+        **operating.model_dump(
+            exclude={"gear_torque_table", "gear_torque_harmonics", *OiledOperatingTable.model_fields}
+        ),
+    )

@@ -1,0 +1,321 @@
+"""From a gearbox to a model ready to integrate: pairs tabulated, numbers of the train assembled."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from tribodyn.dynamics import parameters
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.twist import static_twist
+from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, varying_load, with_own_teeth
+from tribodyn.studies.gears.prepare import Thermal
+from tribodyn.studies.gears.tabulated import Tabulated, tables
+from tribodyn.studies.motion.assembled import (
+    BodyInertia,
+    body_inertias,
+    engagements,
+    in_space_of,
+    link_damping,
+    table_numbers,
+)
+from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox, LoadData
+from tribodyn.studies.motion.pair.case import Case
+from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
+from tribodyn.studies.motion.warmth import at_tooth_temperatures
+from tribodyn.train.links.chain import chain_of
+from tribodyn.train.phases import Phases, entering_teeth, nominal_phases
+from tribodyn.train.planetary import CARRIER
+from tribodyn.train.positions import frame_of
+from tribodyn.train.schedule import schedule_of
+from tribodyn.train.structure import (
+    GROUND,
+    IN_SPACE,
+    TURN,
+    Bodies,
+    Links,
+    TrainLayout,
+    layout_of,
+)
+from tribodyn.tribology.closure import closure_of
+
+
+@dataclass(frozen=True)
+class PreparedGearbox:
+    """A case made ready to integrate; bodies of the model in its own order."""
+
+    case: Gearbox
+    model: parameters.Model
+    made: tuple[Tabulated, ...]  # of every mesh; equal meshes share one
+    pairs: tuple[LubricatedCase, ...]  # of every mesh, with the oil at its teeth's temperature
+    thermal: tuple[Thermal | None, ...]
+    phases: Phases  # of the teeth without load
+    order: tuple[int, ...]  # bodies of the case as the model has them; behind these the motor
+    inertias: tuple[BodyInertia, ...]  # of the case's bodies
+    given: Gearbox | Case  # what was prepared
+
+    @property
+    def cycle(self) -> MeshCycle:
+        """The mesh cycle of the first mesh."""
+        return self.made[0].cycle
+
+    @property
+    def assembly(self) -> Assembly:
+        """The gears of the first mesh, put together."""
+        return self.made[0].assembly
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the model's bodies."""
+        own = tuple(self.case.bodies[body].name for body in self.order)
+        return own if len(own) == self.model.layout.bodies else (*own, "motor")
+
+    @property
+    def bodies(self) -> tuple[BodyData, ...]:
+        """Bodies of the case as the model has them; a motor stands and turns as what it drives."""
+        own = tuple(self.case.bodies[body] for body in self.order)
+        motor = self.case.bodies[self.case.source.body]
+        return own if len(own) == self.model.layout.bodies else (*own, motor)
+
+
+def tabulated(case: Gearbox) -> tuple[Tabulated, ...]:
+    """The tables of every mesh; equal meshes share one. Raises what `gears.tabulated.tables` raises."""
+    known: dict[int, Tabulated] = {}
+    numbers = table_numbers(case)
+    for number, mesh in zip(numbers, case.meshes, strict=True):
+        if number not in known:
+            known[number] = tables(mesh.pair)
+    return tuple(known[number] for number in numbers)
+
+
+def prepare(given: Gearbox | Case, made: tuple[Tabulated, ...] | None = None) -> PreparedGearbox:
+    """Check the geometry, tabulate the meshes, assemble the model; `made` is of equal tables, if known.
+
+    Raises InputError where teeth cannot be made or run together, or a table does not cover the contact.
+    """
+    case = given.gearbox()
+    made = made or tabulated(case)
+    inertias = body_inertias(case, [each.assembly for each in made])
+    warm, thermal = zip(*at_tooth_temperatures(case, made), strict=True)
+    entries = [float(each.cycle.roll_start) for each in made]
+    engaged = engagements(case, [each.assembly for each in made], entries)
+    found = nominal_phases(case.toothed_shafts, engaged)
+    order = _order(case)
+    model = _model(case, made, warm, inertias, found, order)
+    further = static_twist(model, [mesh.rate for mesh in case.meshes])
+    model = with_own_teeth(
+        _under_load(model, case, further),
+        entering_teeth(case.toothed_shafts, engaged, found, further.tolist()),
+        [(case.gears[one].teeth, case.gears[two].teeth) for one, two in (mesh.gears for mesh in case.meshes)],
+        case.solver.cycles,
+    )
+    return PreparedGearbox(case, model, made, tuple(warm), tuple(thermal), found, order, inertias, given)
+
+
+def _held(case: Gearbox, body: int) -> bool:
+    """Whether bearings hold a body, which then moves in the plane; another one only turns."""
+    springs = any(body in link.ends and min(link.stiffness[:2]) > 0.0 for link in case.links)
+    return springs or case.bodies[body].floating
+
+
+def _order(case: Gearbox) -> tuple[int, ...]:
+    """Bodies of the case as the model has them: those that bearings hold first, the reference before all."""
+    numbers = range(len(case.bodies))
+    held = [body for body in numbers if _held(case, body)]
+    if held and 0 not in held:
+        rule = "the body that drives the reference mesh has no bearing, but others have"
+        raise InputError(case.bodies[0].key, case.bodies[0].name, rule, "give it a bearing, or none to any")
+    # those that move in space before those that only move in the plane
+    held.sort(key=lambda body: not _moves_in_space(case, body))
+    return (*held, *(body for body in numbers if body not in held))
+
+
+def structure_of(case: Gearbox) -> tuple[list[str], int, int]:
+    """Names of the model's bodies, and how many of the first ones move in the plane and in space."""
+    order = _order(case)
+    names = [case.bodies[body].name for body in order]
+    planar = [body for body in order if _held(case, body)]
+    spatial = sum(_moves_in_space(case, body) for body in planar)
+    return [*names, *(["motor"] if _has_motor(case) else [])], len(planar), spatial
+
+
+def _has_motor(case: Gearbox) -> bool:
+    """Whether a motor is a body of its own, behind a shaft that gives way."""
+    return case.source.kind == "torque" and case.source.shaft_stiffness is not None
+
+
+def _moves_in_space(case: Gearbox, body: int) -> bool:
+    """Whether a body that bearings hold moves in space: where anything tilts, all outside planetary sets.
+
+    And the reference, which comes before these.
+    """
+    return case.tilts and (body == 0 or not any(body in own.bodies for own in case.sets))
+
+
+def _model(
+    case: Gearbox,
+    made: Sequence[Tabulated],
+    pairs: Sequence[LubricatedCase],
+    inertias: Sequence[BodyInertia],
+    found: Phases,
+    order: Sequence[int],
+) -> parameters.Model:
+    source, new = case.source, {body: number for number, body in enumerate(order)}
+    closures = [closure_of(pair) for pair in pairs]
+    layout = _layout(case, new)
+    motor = [source.body] if layout.bodies > len(order) else []
+    mass = np.array([inertias[body].mass for body in order[: layout.planar]])
+    bodies = Bodies(
+        mass=mass,
+        inertia=np.array([*(inertias[body].inertia for body in order), *(source.inertia for _ in motor)]),
+        ratio=np.array([float(case.bodies[body].ratio) for body in (*order, *motor)]),
+        load=np.zeros(layout.bodies),
+        load_damping=np.zeros(layout.bodies),
+        tilting=np.array([inertias[body].tilting for body in order[: layout.spatial]]),
+        **frames_of(case, order[: layout.planar], mass),
+    )
+    for load in case.loads:
+        bodies.load[new[load.body]] += load.torque
+        bodies.load_damping[new[load.body]] += load.damping
+    stiffness = [link.stiffness for link in case.links]
+    damping = [link_damping(link, inertias) for link in case.links]
+    laws = [(link.key, link.law, dict(link.values)) for link in case.links]
+    chain, of_links = chain_of(laws, [link.stiffness[TURN] for link in case.links])
+    if motor:
+        stiffness.append((0.0, 0.0, source.shaft_stiffness or 0.0))
+        damping.append((0.0, 0.0, source.shaft_damping))
+    meshes = []
+    # meshes are damped as by their gears and shafts alone, like those of a pair
+    own = [each.inertia - body.attached for each, body in zip(inertias, case.bodies, strict=True)]
+    for mesh, each, pair, closure in zip(case.meshes, made, pairs, closures, strict=True):
+        ends = own[mesh.driver], own[mesh.driven]
+        sense = case.bodies[mesh.driver].sense * int(each.cycle.pinion_sense)
+        frame = frame_of(mesh.azimuth, sense)
+        hand = hand_of(pair.drive, clockwise=case.bodies[mesh.driver].sense < 0)
+        one, two = (case.gears[gear].axial_position for gear in mesh.gears)
+        plain = mesh_of(pair, each, closure, ends, frame, hand, (one, two))
+        meshes.append(plain._replace(**carried_of(case, mesh, plain)))
+    drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
+    varying = _varying(case)
+    first = case.meshes[0].pair
+    return parameters.Model(
+        tuple(meshes),
+        bodies,
+        Links(
+            np.array(stiffness).reshape(-1, 3),
+            np.array(damping).reshape(-1, 3),
+            of_links,
+            *_in_space(case, damping, inertias, layout),
+            *pins_of(case, layout),
+        ),
+        schedule_of(
+            [np.asarray(each.table.boundary) for each in made],
+            [mesh.rate for mesh in case.meshes],
+            [float(phase) for phase in found.meshes],
+            case.laid_out,
+        ),
+        parameters.Operation(
+            nominal_speed=source.speed / float(case.bodies[source.body].ratio),
+            pitch_angle=2.0 * pi / abs(float(first.drive.pinion.teeth)) / rolling_of(case),
+            drive_torque=source.torque,
+            speed_regulation=source.speed_regulation,
+            contact_width=first.mesh.contact_width,
+            reversal_width=first.friction.reversal_width,
+            **varying_load(varying.table, varying.harmonics),
+        ),
+        options_of(first, [each.cycle for each in made], closures[0], layout, drive)._replace(links=chain),
+    )
+
+
+def _in_space(
+    case: Gearbox,
+    damping: Sequence[tuple[float, float, float]],
+    inertias: Sequence[BodyInertia],
+    layout: TrainLayout,
+) -> tuple[Float[Array, "link 5 5"], Float[Array, "link 5 5"]]:
+    """Matrices of the links between bodies that move in space; of a motor's shaft nothing."""
+    stiffness = np.zeros((layout.links if layout.spatial else 0, IN_SPACE, IN_SPACE))
+    losses = stiffness.copy()
+    for number, link in enumerate(case.links if layout.spatial else ()):
+        body = link.ends[0]
+        of_sets = [planet for own in case.sets if body in own.bodies for planet in own.planets]
+        faces = [case.gears[gear].face_width for one in (body, *of_sets) for gear in case.bodies[one].gears]
+        width = max(faces, default=0.0)
+        stiffness[number], losses[number] = in_space_of(link, damping[number], inertias, width)
+    return stiffness, losses
+
+
+def _under_load(model: parameters.Model, case: Gearbox, further: Float[Array, " mesh"]) -> parameters.Model:
+    """The model with its meshes where the load at the start brings them, so many cycles `further`."""
+    if not np.any(further):
+        return model
+    schedule = schedule_of(
+        [np.asarray(mesh.table.boundary) for mesh in model.meshes],
+        [mesh.rate for mesh in case.meshes],
+        ((model.schedule.offset[0] + further) % 1.0).tolist(),
+        case.laid_out,
+    )
+    return model._replace(schedule=schedule)
+
+
+def _varying(case: Gearbox) -> LoadData:
+    """The load that varies over time, or the first one."""
+    varying = [number for number, load in enumerate(case.loads) if load.table or load.harmonics]
+    if len(varying) > 1:
+        rule = "two loads vary over time"
+        raise InputError(f"load.{varying[1]}.torque_table", None, rule, "let one of them be constant")
+    return case.loads[varying[0] if varying else 0] if case.loads else LoadData(0, 0.0)
+
+
+def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
+    ends = [
+        (new[link.ends[0]], GROUND if link.ends[1] == HOUSING else new[link.ends[1]]) for link in case.links
+    ]
+    source = new[case.source.body]
+    count, planar = len(new), sum(_held(case, body) for body in new)
+    shaft = _has_motor(case)
+    if shaft:
+        ends.append((count, source))
+    meshes = [(new[mesh.driver], new[mesh.driven]) for mesh in case.meshes]
+    return layout_of(
+        planar,
+        count + shaft,
+        meshes,
+        ends,
+        count if shaft else source,
+        new[_varying(case).body],
+        spatial=sum(_held(case, body) and _moves_in_space(case, body) for body in new),
+        pins=[number for number, link in enumerate(case.links) if link.lever],
+        holds=[number for number, link in enumerate(case.links) if link.holds],
+        frames=int(bool(case.sets)),
+        carriers=[new.get(mesh.carrier, GROUND) for mesh in case.meshes],
+    )
+
+
+def geometry_of(prepared: PreparedGearbox) -> dict[str, np.ndarray]:
+    """Where bodies, gears and meshes stand, as `record.TRAIN_GEOMETRY` says."""
+    case, order = prepared.case, prepared.order
+    numbers = {body: number for number, body in enumerate(order)}
+    of_body = {body: numbers[own.members[CARRIER]] for own in case.sets for body in own.bodies}
+    carriers = [of_body.get(body, HOUSING) for body in order] + [HOUSING] * (
+        len(prepared.bodies) - len(order)
+    )
+    turning = [body.sense * float(body.ratio) for body in prepared.bodies] + [0.0]  # the last: the housing
+    return {
+        "centre": np.array([body.centre for body in prepared.bodies]),
+        "sense": np.array([body.sense for body in prepared.bodies]),
+        "carrier": np.array(carriers),
+        "carried": np.array([turning[body] for body in carriers]),
+        "gear_body": np.array([numbers[gear.body] for gear in case.gears]),
+        "plane": np.array([gear.plane for gear in case.gears]),
+        "tooth_direction": np.array(prepared.phases.teeth),
+        "driver_gear": np.array([mesh.gears[0] for mesh in case.meshes]),
+        "driven_gear": np.array([mesh.gears[1] for mesh in case.meshes]),
+        "phase": np.array(prepared.phases.meshes),
+        "azimuth": np.array([mesh.azimuth for mesh in case.meshes]),
+    }

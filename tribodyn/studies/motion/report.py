@@ -1,0 +1,297 @@
+"""Reported quantities of a gearbox, of all its meshes and of each, and how far to trust them."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from tribodyn.post import verdict as of_any
+from tribodyn.post.page.mechanism import Mechanism
+from tribodyn.post.report import on_closures, on_energy, on_methods
+from tribodyn.quantities.catalogue import quantities
+from tribodyn.quantities.quantity import Quantity, Reported
+from tribodyn.record.reader import MESHES, Record
+from tribodyn.record.withheld import reasons
+from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
+from tribodyn.studies.gears.over_time.extremes_said import on_extremes
+from tribodyn.studies.gears.sensed.tables import sensor_tables
+from tribodyn.studies.motion.described.alike import between, groups_of, together
+from tribodyn.studies.motion.pictures.rolling_train import rolling_train
+from tribodyn.studies.motion.planetary.results import STAGES
+from tribodyn.studies.protocol.recording import TextTable
+
+#: Of several meshes the worst where it is not of all together.
+REPORTED: Reported = {
+    "Train": quantities("train_ratio", "common_period"),
+    "Geometry": quantities(
+        *("contact_ratio", "overlap_ratio", "total_contact_ratio", "slices", "normal_backlash"),
+        "stiffness_single_pair_at_pitch_point",
+    ),
+    "Dynamics": quantities(
+        *("mesh_frequency", "transmission_error_mean", "transmission_error_rms"),
+        *("transmission_error_peak_to_peak", "transmission_error_harmonics"),
+        *("transmission_error_normal_mean", "transmission_error_normal_peak_to_peak"),
+        *("mesh_stiffness_mean", "mesh_stiffness_peak_to_peak", "normal_load_max"),
+        *("line_load_max", "axial_force_mean"),
+        *("dynamic_factor", "dynamic_factor_iso", "resonance_ratio_iso", "contact_loss_fraction"),
+    ),
+    "Planets": quantities("mesh_load_factor", "planet_load_factor_max"),
+    "Tribology": TRIBOLOGY,
+    "Energy": ENERGY,
+    "Temperature": TEMPERATURE,
+    "Margins": quantities("S_B", "S_lambda"),
+    "Solver": quantities("solver", "steps", "rhs_evaluations", "wall_time"),
+}
+#: Of each mesh, in a table with a column for each.
+OF_A_MESH: tuple[Quantity, ...] = (
+    *quantities("contact_ratio", "normal_backlash", "stiffness_single_pair_at_pitch_point"),
+    *quantities("mesh_frequency", "transmission_error_mean", "transmission_error_rms"),
+    *quantities("transmission_error_peak_to_peak", "mesh_stiffness_mean", "mesh_stiffness_peak_to_peak"),
+    *quantities("normal_load_max", "dynamic_factor", "dynamic_factor_iso", "contact_loss_fraction"),
+    *quantities("film_min", "film_parameter_min", "film_parameter_min_roll_angle"),
+    *quantities("hertz_pressure_max", "flash_temperature_max", "friction_coefficient_mean"),
+    *quantities("power_in_mean", "power_friction_mean", "efficiency"),
+    *TEMPERATURE,
+    *quantities("S_B", "S_lambda"),
+)
+#: Of each planetary stage.
+OF_A_STAGE: tuple[Quantity, ...] = quantities(
+    *("mesh_load_factor", "planet_load_factor_max", "power_in_mean", "power_friction_mean", "efficiency")
+)
+#: One number per case, from its steady window; of several meshes the worst.
+_SWEPT = (
+    *quantities(
+        *("mesh_frequency", "transmission_error_rms", "transmission_error_peak_to_peak"),
+        "transmission_error_mean",
+        *("dynamic_factor", "normal_load_max", "hertz_pressure_max"),
+        *("film_min", "film_parameter_min", "flash_temperature_max", "friction_coefficient_mean"),
+        *("efficiency", "power_in_mean", "power_friction_mean", "friction_work_on_vibration"),
+    ),
+    *TEMPERATURE_SWEPT,
+    *quantities("contact_loss_fraction", "closure_in_range_fraction", "friction_in_range_fraction"),
+    *quantities("mesh_load_factor", "planet_load_factor_max"),
+)
+#: Of these what a sweep keeps of a single mesh without a name alone, and of others alone.
+_OF_ONE, _OF_SEVERAL = (
+    ("transmission_error_mean", "friction_coefficient_mean"),
+    ("mesh_load_factor", "planet_load_factor_max"),
+)
+#: What a sweep prints, minimum and maximum of each.
+SWEEP_TABLE = quantities(
+    *("transmission_error_rms", "transmission_error_peak_to_peak", "dynamic_factor", "normal_load_max"),
+    *("hertz_pressure_max", "film_min", "efficiency", "friction_work_on_vibration", "contact_loss_fraction"),
+)
+SHORT = {"peak_to_peak": "transmission_error_peak_to_peak", "loss": "power_friction_mean"}
+PANELS = (
+    *("transmission_error_rotational", "normal_load", "central_film_thickness"),
+    *("friction_coefficient", "power_friction", "mesh_power_friction"),
+)
+#: Meshes beside each other in a table, and named one by one in a sentence.
+ACROSS, NAMED = 4, 3
+
+
+def swept_of(*, named: bool) -> tuple[Quantity, ...]:
+    """Of these quantities what a sweep keeps where files name the meshes, and where not."""
+    left_out = _OF_ONE if named else _OF_SEVERAL
+    return tuple(quantity for quantity in _SWEPT if quantity.name not in left_out)
+
+
+def meshes_of(record: Record) -> dict[str, Mapping[str, Any]]:
+    """What the summary has of each mesh, by name, in the record's order."""
+    known = record.summary.get(MESHES)
+    names = map(str, record["mesh"]) if "mesh" in record else ()
+    return {name: known[name] for name in names if isinstance(known, Mapping) and name in known}
+
+
+def tables(record: Record) -> list[TextTable]:
+    """Quantities of each mesh, a column for each, one for those of a member of a set; and of its sensors."""
+    if not (meshes := meshes_of(record)):
+        return sensor_tables(record)
+    withheld = reasons(record.summary)
+    groups = groups_of(meshes)
+    return [
+        *_stages(record.summary),
+        *(
+            _table(groups[start : start + ACROSS], meshes, withheld)
+            for start in range(0, len(groups), ACROSS)
+        ),
+        *sensor_tables(record),
+    ]
+
+
+def mechanism(record: Record) -> Mechanism | None:
+    """The train that rolls on a page; a pair has the page's own picture."""
+    return rolling_train(record) if "mesh" in record else None
+
+
+def _stages(summary: Mapping[str, Any]) -> Iterable[TextTable]:
+    """Quantities of each planetary stage, a column for each."""
+    stages = summary.get(STAGES)
+    if not isinstance(stages, Mapping) or not stages:
+        return
+    rows = [
+        [quantity.title, *(quantity.written(own[quantity.name]) for own in stages.values()), quantity.unit]
+        for quantity in OF_A_STAGE
+    ]
+    shares = (", ".join(f"{100.0 * share:.1f}" for share in own["planet_shares"]) for own in stages.values())
+    rows.insert(1, ["Shares of the planets", *shares, "%"])
+    yield TextTable("Each planetary stage", ("", *stages, ""), rows)
+
+
+def _table(
+    groups: Sequence[Sequence[str]], meshes: Mapping[str, Mapping[str, Any]], withheld: Mapping[str, str]
+) -> TextTable:
+    rows = [
+        [what, *(together(str(meshes[name].get(what, "")) for name in names) for names in groups), ""]
+        for what in ("driver", "driven")
+    ]
+    for quantity in OF_A_MESH:
+        cells = [_cell(quantity, names, meshes, withheld) for names in groups]
+        if any(cells):
+            rows.append([quantity.title, *cells, quantity.unit])
+    title = "Each mesh" if len(groups) == len(meshes) else "Each mesh; of several planets smallest … largest"
+    return TextTable(title, ("", *map(together, groups), ""), rows)
+
+
+def _cell(
+    quantity: Quantity,
+    names: Sequence[str],
+    meshes: Mapping[str, Mapping[str, Any]],
+    withheld: Mapping[str, str],
+) -> str:
+    """A quantity of meshes as it is written: of different values the smallest and the largest."""
+    if any(f"{MESHES}/{name}/{quantity.name}" in withheld for name in names):
+        return "withheld"
+    values = [meshes[name].get(quantity.name) for name in names]
+    known = [value for value in values if value is not None]
+    return between([quantity.written(value) for value in known], known)
+
+
+def verdict(record: Record) -> list[str]:
+    """Say what vibrates, presses and is lost in which mesh, where a law is in doubt, and what to do."""
+    summary, meshes = record.summary, meshes_of(record)
+    if not meshes:
+        return of_any.of_gears(record) if "mesh" not in record else []
+    summary, meshes = of_course(summary, meshes)
+    found = [*_moved(summary, meshes), *_pressed(summary, meshes), *_lost(summary, meshes)]
+    name = max(meshes, key=lambda name: _beyond(meshes[name]))
+    for line in of_any.outside(meshes[name]):
+        found.append(f"Mesh {name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)
+        if len(found) == of_any.LINES - 1:
+            break
+    return [*found, *of_any.advised({**meshes[name], **of_any.numbers(summary)})]
+
+
+def of_course(
+    summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]
+) -> tuple[Mapping[str, Any], dict[str, Mapping[str, Any]]]:
+    """The same with the extremes of the whole run where its speed changes."""
+    courses = [mesh["course"] for mesh in meshes.values() if "course" in mesh]
+    if not courses:
+        return summary, dict(meshes)
+    from tribodyn.studies.motion.summary import worst_of  # heavy, and few runs change
+
+    over = {name: of_any.over_course(mesh) for name, mesh in meshes.items()}
+    return {**summary, **worst_of(list(over.values())), "course": courses[0]}, over
+
+
+def _beyond(mesh: Mapping[str, Any]) -> float:
+    """Share of contact or loss beyond the range of a law from which it is in doubt; 0 below."""
+    most = max(of_any.in_doubt_by(mesh, what) for what in ("film", "friction"))
+    return most if most >= of_any.IN_DOUBT else 0.0
+
+
+def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
+    factors = {name: of_any.numbers(mesh).get("dynamic_factor") for name, mesh in meshes.items()}
+    known = {name: factor for name, factor in factors.items() if factor is not None}
+    loss = of_any.numbers(summary).get("contact_loss_fraction", 0.0)
+    where = f" in {_worst(summary, meshes, 'contact_loss_fraction')}" if loss > of_any.APART else ""
+    if not known:
+        if where:
+            yield f"Teeth that carry nothing: {of_any.apart(loss)}{where}."
+        return
+    if courses := {name: mesh["course"] for name, mesh in meshes.items() if "course" in mesh}:
+        name = max(courses, key=lambda name: known.get(name, 0.0))
+        text = of_any.on_course(courses[name])
+        yield text if len(meshes) == 1 else f"Mesh {name}: {text[0].lower()}{text[1:]}"
+        return
+    if len(known) <= NAMED:
+        parts = _listed([f"{factor:.2f} ({name})" for name, factor in known.items()])
+        text = f"Vibration raises the tooth forces to {parts} times their mean"
+    else:
+        name = max(known, key=lambda name: known[name])
+        text = f"Vibration raises the tooth forces to at most {known[name]:.2f} times their mean ({name})"
+    yield f"{text}; {of_any.apart(loss)}{where}."
+
+
+def _pressed(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
+    found, parts = of_any.numbers(summary), []
+    if (pressure := found.get("hertz_pressure_max")) is not None:
+        where = _worst(summary, meshes, "hertz_pressure_max")
+        parts.append(
+            f"The flanks press with up to {of_any.with_unit('hertz_pressure_max', pressure)} ({where})"
+        )
+    if (ratio := found.get("film_parameter_min")) is not None:
+        where = _worst(summary, meshes, "film_parameter_min")
+        film = of_any.numbers(meshes[where]).get("film_min")
+        thick = "" if film is None else f"{of_any.with_unit('film_min', film)}, "
+        text = f"the oil film is at least {thick}{ratio:.2g} times the roughness ({where})"
+        parts.append(f"{text}: {of_any.lubrication(ratio)}")
+    if parts:
+        yield f"{'; '.join(parts)}."
+
+
+def _lost(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
+    losses = {
+        together(names): sum(of_any.numbers(meshes[name]).get("power_friction_mean", 0.0) for name in names)
+        for names in groups_of(meshes)
+    }
+    whole = sum(losses.values())
+    for line in of_any.lost(summary):
+        if len(losses) <= NAMED:
+            parts = [f"{of_any.share(loss / whole)} in {name}" for name, loss in losses.items()]
+            yield f"{line[:-1]}: {_listed(parts)}."
+        else:
+            name = max(losses, key=lambda name: losses[name])
+            yield f"{line[:-1]}, most of it in {name}: {of_any.share(losses[name] / whole)}."
+
+
+def _worst(summary: Mapping[str, Any], meshes: Mapping[str, Any], quantity: str) -> str:
+    """Name of the mesh that has the worst value of a quantity; the first where the summary does not say."""
+    number = of_any.numbers(summary.get("worst_mesh")).get(quantity, 1.0)
+    return list(meshes)[min(max(int(number), 1), len(meshes)) - 1]
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return " and ".join(filter(None, (", ".join(parts[:-1]), *parts[-1:])))
+
+
+def sentences(record: Record) -> list[str]:
+    """Say over which cycles means are, and of all meshes what of a pair is said of it."""
+    summary, meshes = record.summary, meshes_of(record)
+    if "mesh" not in record:
+        return [*on_methods(summary), *on_extremes(summary), *on_closures(summary), *on_energy(summary)]
+    of_train = {name: value for name, value in summary.items() if name != "averaging_cycles"}
+    said: dict[str, list[str]] = {}
+    for name, mesh in meshes.items():
+        for line in (*on_extremes(mesh), *on_closures(mesh)):
+            said.setdefault(line, []).append(name)
+    of_meshes = [
+        line if len(names) == len(meshes) else f"{line[:-1]} ({together(names)})."
+        for line, names in said.items()
+    ]
+    return [*on_methods(of_train), *_on_period(record), *of_meshes, *on_energy(summary)]
+
+
+def _on_period(record: Record) -> list[str]:
+    """Say over which cycles means are, and whether these are whole common periods of the meshes."""
+    found = of_any.numbers(record.summary)
+    if not {"averaging_cycles", "common_period"} <= set(found):
+        return []
+    cycles, period = int(found["averaging_cycles"]), max(int(found["common_period"]), 1)
+    text = f"Means are over the last {_counted(cycles, 'cycle')} of the mesh {record['mesh'][0]}"
+    if cycles % period:
+        return [f"{text}, less than the common period of {period} cycles."]
+    return [f"{text}: {_counted(cycles // period, 'common period')} of all meshes."]
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"

@@ -1,0 +1,159 @@
+"""From a gearbox to the record of its motion."""
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from math import lcm
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.modes import modes
+from tribodyn.errors import SimulationError
+from tribodyn.record.reader import MESHES
+from tribodyn.record.sensors import write_sensed
+from tribodyn.record.trust import judge_tribology
+from tribodyn.record.withheld import remarked
+from tribodyn.studies.gears.check import oil_data
+from tribodyn.studies.gears.over_time.marched import record_motion, run_until_warm
+from tribodyn.studies.gears.over_time.running import RunStatistics
+from tribodyn.studies.gears.over_time.steady import limits_in, warning_of
+from tribodyn.studies.gears.sensed.numbers import signal_quantities
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.pair.case import Case
+from tribodyn.studies.motion.planetary.jamming import jams
+from tribodyn.studies.motion.planetary.results import STAGES, stage_quantities, worst_stage
+from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.record import record_of
+from tribodyn.studies.motion.sensed import listener_of
+from tribodyn.studies.motion.summary import (
+    concluded,
+    mesh_at_rest,
+    meshes_of_run,
+    steady_quantities,
+    window_of,
+    worst_of,
+)
+from tribodyn.studies.motion.warmth import at_own_temperatures
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
+
+#: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
+REGULAR = "regular"
+AVERAGED = "radius and entrainment vanish; averaged over the contact's own half width"
+
+
+def run(
+    case: Gearbox | Case,
+    output: str | Path | None = None,
+    *,
+    force: bool = False,
+    progress: Progress | None = None,
+) -> RunResult:
+    """Run a case and write its record; see `study.Study.run`.
+
+    Where the case asks for bulk temperatures, it is run again until its own losses give them.
+    """
+    where, once = target(case, output, force), partial(_run, progress=progress)
+    return run_until_warm(case.gearbox(), where, force, once, _warmer)
+
+
+def _warmer(case: Gearbox, summary: Mapping[str, Any]) -> Gearbox | None:
+    each = [summary[MESHES][mesh.name] for mesh in case.meshes] if case.named else [summary]
+    warm = [found.get("bulk_temperature") for found in each]
+    return at_own_temperatures(case, warm, [found["power_friction_mean"] for found in each])
+
+
+def _run(case: Gearbox, path: Path, force: bool, *, progress: Progress | None) -> RunResult:
+    """Run a case once."""
+    prepared = prepare(case)
+    model, meshes = prepared.model, meshes_of_run(prepared)
+    listener = listener_of(prepared)
+    samples, cycles = case.output.samples_per_cycle, case.solver.cycles
+    rests = [mesh_at_rest(prepared, m) for m in range(len(meshes))]
+    # of a train the oil that enters its meshes, which warms in each of them
+    oil = case.meshes[0].pair.lubricant if case.named else prepared.pairs[0].lubricant
+    summary: dict[str, Any] = {
+        **constants_of(prepared),
+        "lubricant": oil_data(oil),
+        **of_meshes(case, rests),
+    }
+    kept = record_of(prepared, meshes)
+    more = {"groups": kept.groups, "scales": kept.scales}
+    with writer(case, path, kept.layout, len(case.output.kept(cycles)), force=force, **more) as record:
+        try:
+            period = lcm(case.period, case.output.revolution or 1)
+            if period > cycles:
+                period = case.period
+            window = window_of(cycles, period, max(mesh.rate for mesh in meshes))
+            motion = record_motion(case, model, meshes, window, record, kept.block, progress, listener)
+        except SimulationError as error:
+            return RunResult(record.fail(str(error), summary), "failed", str(error), summary)
+        statistics = motion.statistics
+        each = [rest | statistics.of_mesh(m, not motion.stopped) for m, rest in enumerate(rests)]
+        summary |= motion.solver | motion.done | of_meshes(case, each)
+        if motion.stopped:
+            summary |= (worst_of(each) if case.named else {}) | statistics.judge.summary()
+            failed = record.fail(motion.stopped, summary, partial(write_sensed, listener.sensed()))
+            return RunResult(failed, "failed", motion.stopped, summary)
+        sensed = listener.sensed()
+        summary |= _concluded(prepared, statistics, each, samples) | signal_quantities(sensed)
+        done = record.finish(summary, beside=partial(write_sensed, sensed))
+        return RunResult(done, "complete", "", summary)
+
+
+def of_meshes(case: Gearbox, each: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """What a summary has of the meshes: by their names where files name them, else of the only one."""
+    if not case.named:
+        return dict(each[0])
+    return {MESHES: {mesh.name: dict(own) for mesh, own in zip(case.meshes, each, strict=True)}}
+
+
+def constants_of(prepared: PreparedGearbox) -> dict[str, Any]:
+    """What does not depend on the motion: ratio, period, masses, natural frequencies, shares in them."""
+    case, model = prepared.case, prepared.model
+    found = modes(model, [made.cycle for made in prepared.made])
+    layout, ratio = model.layout, np.asarray(model.bodies.ratio)
+    masses = np.full(layout.bodies, np.nan)
+    masses[: layout.planar] = np.asarray(model.bodies.mass)
+    of_modes = {"mode_frequencies": found.frequency, "mode_shares": found.share.ravel()}
+    if not case.named:  # gears without what drives and what is driven
+        (pinion, of_pinion), (gear, of_gear) = prepared.made[0].masses
+        return {
+            "pinion_mass": pinion,
+            "gear_mass": gear,
+            "pinion_inertia": of_pinion,
+            "gear_inertia": of_gear,
+            "pitch_point": AVERAGED if model.options.averaged else REGULAR,
+            **of_modes,
+        }
+    return {
+        "train_ratio": float(ratio[layout.input] / ratio[layout.output]),
+        "common_period": case.period,
+        "body_mass": masses,
+        "body_inertia": np.asarray(model.bodies.inertia),
+        **of_modes,
+    }
+
+
+def _concluded(
+    prepared: PreparedGearbox, statistics: RunStatistics, each: list[dict[str, Any]], samples: int
+) -> dict[str, Any]:
+    """Quantities of the last cycles, and what is to be said of them."""
+    case, meshes = prepared.case, statistics.meshes
+    windows = [statistics.window_of_mesh(m) for m in range(len(meshes))]
+    work, changes = statistics.window_work(), any("course" in mesh for mesh in each)
+    whole, steady = steady_quantities(
+        windows, work, prepared, meshes, samples, statistics.in_window, changes=changes
+    )
+    for m, (window, quantities) in enumerate(zip(windows, steady, strict=True)):
+        each[m] |= limits_in(window, prepared.pairs[m]) | quantities
+        judge_tribology(statistics.judge, each[m])
+    whole = concluded(prepared, whole, each) | of_meshes(case, each if case.named else [{}])
+    if case.sets:
+        whole[STAGES] = stages = stage_quantities(prepared, windows, each)
+        whole |= worst_stage(stages)
+    fed = warning_of(whole["friction_work_on_vibration"], case.meshes[0].pair.friction.sliding)
+    whole["warning"] = remarked(*jams(prepared), fed or "") or None
+    statistics.judge.take({"efficiency": whole["efficiency"]})
+    return whole | statistics.judge.summary()

@@ -1,0 +1,178 @@
+"""Quantities of one run of a gearbox: of every mesh, of the power that passes, the worst of all meshes."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tribodyn.studies.gears.by_standard import rated
+from tribodyn.studies.gears.over_time.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.running import MeshOfRun
+from tribodyn.studies.gears.over_time.steady import LAST_ORDER, at_rest, mesh_quantities, power_quantities
+from tribodyn.studies.gears.prepare import contact_quantities, thermal_quantities
+from tribodyn.studies.gears.rated.margins import margins_of
+from tribodyn.studies.motion.described.alike import ALIKE, alike_of
+from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.train.structure import FRICTION, OUT, rotational_error, work_of, work_of_mesh
+
+#: Numbers that an attribute of a record holds, and that a spectrum may have.
+_LONGEST = 8000.0
+#: Mesh cycles at the end of a run that means are of, at most.
+WIDEST_WINDOW = 400
+#: Quantities of which the train's is the largest of its meshes' (1), or the smallest (−1).
+WORST = {
+    "transmission_error_rms": 1,
+    "transmission_error_peak_to_peak": 1,
+    "dynamic_factor": 1,
+    "contact_loss_fraction": 1,
+    "normal_load_max": 1,
+    "hertz_pressure_max": 1,
+    "film_min": -1,
+    "film_parameter_min": -1,
+    "flash_temperature_max": 1,
+    "contact_temperature_max": 1,
+    "bulk_temperature": 1,
+    "S_B": -1,
+    "S_lambda": -1,
+    "closure_in_range_fraction": -1,
+    "friction_in_range_fraction": -1,
+}
+#: Of the mesh of a pair what it is of the whole gearbox.
+_POWERS = ("power_in_mean", "power_friction_mean", "efficiency")
+#: Of an order, not of a mesh's own cycles: not told where the window holds no whole number of them.
+_BY_ORDER = ("transmission_error_harmonics", "spectrum_frequencies", "spectrum_amplitudes")
+
+
+def window_of(cycles: int, period: int, fastest: float) -> int:
+    """Reference cycles at the end of a run that its means are of.
+
+    A quarter of them; whole common periods if the run has one. `fastest` is the largest rate of a mesh.
+    """
+    most = max(1, int(min(WIDEST_WINDOW, _LONGEST / (LAST_ORDER * fastest))))
+    window = max(1, min(cycles // 4, most))
+    if period > cycles:
+        return window
+    return max(window // period, 1) * period
+
+
+def meshes_of_run(prepared: PreparedGearbox) -> list[MeshOfRun]:
+    """The meshes, as the summary of a run sees them."""
+    found = []
+    for number, (mesh, made, pair) in enumerate(
+        zip(prepared.case.meshes, prepared.made, prepared.pairs, strict=True)
+    ):
+        phase = float(prepared.model.schedule.offset[0, number])  # under load
+        oil = pair.lubricant.temperature
+        place = number + 1 if prepared.case.named else None
+        found.append(
+            MeshOfRun(made.cycle, made.assembly, pair.drive.module, oil, float(mesh.rate), phase, place)
+        )
+    return found
+
+
+def mesh_at_rest(prepared: PreparedGearbox, m: int) -> dict[str, Any]:
+    """Quantities of a mesh that do not depend on its motion, and the names of its gears."""
+    rest = at_rest(prepared.pairs[m], prepared.made[m]) | _by_standard(prepared, m)
+    if not prepared.case.named:
+        return rest
+    driver, driven = (prepared.case.gears[gear].name for gear in prepared.case.meshes[m].gears)
+    name = alike_of(prepared.case)[m]
+    return {"driver": driver, "driven": driven} | ({ALIKE: name} if name else {}) | rest
+
+
+def _by_standard(prepared: PreparedGearbox, m: int) -> dict[str, float]:
+    """K_v by ISO 6336-1 of an involute mesh with a quality whose driver drives; nothing of others."""
+    pair, made = prepared.pairs[m], prepared.made[m]
+    operating = pair.operating
+    if pair.quality is None or not made.assembly.family.involute or operating.gear_torque <= 0.0:
+        return {}
+    duty = operating.pinion_speed, operating.gear_torque
+    found = rated(made.assembly, pair.materials, made.masses, pair.quality, duty)
+    return {"dynamic_factor_iso": found.dynamic.factor, "resonance_ratio_iso": found.dynamic.resonance_ratio}
+
+
+def steady_quantities(
+    windows: Sequence[Mapping[str, np.ndarray]],
+    work: np.ndarray,
+    prepared: PreparedGearbox,
+    meshes: Sequence[MeshOfRun],
+    samples: int,
+    extremes: Sequence[RunningExtremes],
+    *,
+    changes: bool = False,
+) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+    """Quantities of the gearbox, and of each mesh, over the last whole reference cycles of a run.
+
+    `windows` have the datasets of every mesh over these cycles, last sample not included, so many `samples`
+    in each; `work` is the change of the state over them. Where the speed `changes`, teeth also carry what
+    accelerates the load.
+    """
+    case, model = prepared.case, prepared.model
+    layout, operation = model.layout, model.operation
+    cycles = len(windows[0]["normal_load"]) / samples
+    # by the actual rotation: a driven reference need not turn at its nominal speed
+    duration = float(cycles * operation.pitch_angle / operation.nominal_speed + work[layout.lag])
+    whole = {"averaging_cycles": int(cycles), "mesh_frequency": cycles / duration}
+    whole |= power_quantities(work, duration, layout)
+    each = []
+    for m, (window, mesh, found) in enumerate(zip(windows, meshes, extremes, strict=True)):
+        if case.is_pair and not changes:
+            force = _mean_force(prepared, work, cycles)
+        else:
+            arm = float(mesh.cycle.gear_sense * mesh.cycle.gear_pitch_radius)
+            force = float(np.mean(window["driven_torque"])) / arm
+        frequency = mesh.rate * cycles / duration
+        quantities = mesh_quantities(window, mesh.cycle, found, force, frequency, samples, mesh.rate)
+        if abs(cycles * mesh.rate - round(cycles * mesh.rate)) > 1e-6:
+            quantities = {name: value for name, value in quantities.items() if name not in _BY_ORDER}
+        if case.is_pair:
+            quantities |= {name: whole[name] for name in _POWERS}
+        else:
+            quantities |= _powers_of_mesh(window, float(work[work_of_mesh(layout, m, FRICTION)]) / duration)
+        put_in, efficiency = quantities["power_in_mean"], quantities["efficiency"]
+        quantities |= thermal_quantities(prepared.thermal[m], put_in, efficiency)
+        each.append(quantities | found.values())
+        each[-1] |= contact_quantities(prepared.pairs[m].lubricant, each[-1])
+        each[-1] |= margins_of(case.meshes[m].pair, mesh.assembly, window, each[-1])
+    return whole, each
+
+
+def _mean_force(prepared: PreparedGearbox, work: np.ndarray, cycles: float) -> float:
+    """Mean force of a pair along the pitch tangent, N, by its work over the gear's rotation.
+
+    Neither depends on the sampling.
+    """
+    cycle, model = prepared.cycle, prepared.model
+    turned = cycle.pinion_pitch_radius * cycle.pitch_angle * cycles
+    turned = turned - float(rotational_error(work, 0, model))
+    return float(work[work_of(model.layout, OUT)] / turned)
+
+
+def _powers_of_mesh(window: Mapping[str, np.ndarray], lost: float) -> dict[str, float]:
+    """Mean power that drives a mesh, what friction takes of it, W, and its efficiency."""
+    through = float(np.mean(window["driven_power"]))
+    put_in = through + lost if through > 0.0 else -through
+    efficiency = 1.0 - lost / put_in if put_in > 0.0 else float("nan")
+    return {"power_in_mean": put_in, "power_friction_mean": lost, "efficiency": efficiency}
+
+
+def concluded(
+    prepared: PreparedGearbox, whole: Mapping[str, Any], each: Sequence[Mapping[str, Any]]
+) -> dict[str, Any]:
+    """The summary of the gearbox: with the worst of its meshes, or with its only mesh where none is named."""
+    if prepared.case.named:
+        return {name: value for name, value in whole.items() if name != "driving_gear"} | worst_of(each)
+    return {**each[0], **whole}
+
+
+def worst_of(meshes: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """The worst of all meshes by quantity, and which mesh has it, its number from 1."""
+    found = {}
+    for name, sign in WORST.items():
+        values = [mesh.get(name) for mesh in meshes]
+        known = [(sign * value, -m) for m, value in enumerate(values) if value is not None and value == value]
+        if known:
+            worst, place = max(known)
+            found[name] = sign * worst
+            found.setdefault("worst_mesh", {})[name] = 1 - place
+    return found

@@ -1,0 +1,1 @@
+"""Trains: what their scenarios say, and what is theirs alone."""

@@ -1,0 +1,231 @@
+"""Quantities of a train as a differentiable function of some of its numbers.
+
+A mesh is differentiated as a pair of gears; here its numbers are those of the train's scenario: speed and
+load reach every mesh by the ratios, losses not counted, and a gear may be in several meshes.
+"""
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+import tomli_w
+from pydantic import BaseModel
+
+from tribodyn.derivatives.differentiable import Differentiable, check_keys
+from tribodyn.derivatives.numbers import numbers_of, unit_at
+from tribodyn.derivatives.quantities import ALSO, QUANTITIES
+from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.geometry.drive import SIDES
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.described.drawn import Moving, ends_of, key_in_train, moving
+from tribodyn.studies.motion.described.duty import torques_of
+
+#: Quantities of the whole train, of the friction losses of all meshes.
+TOTALS = {
+    "efficiency": "quasi-static efficiency",
+    "friction_power": "quasi-static friction loss of all meshes",
+}
+#: The duty of a pair, which follows from the train's.
+_OF_DUTY = ("operating.pinion_speed", "operating.gear_torque")
+#: Tables of a train's scenario that all pairs have alike.
+_COMMON = ("mesh", "lubricant", "film", "friction", "temperature")
+#: Keys of a stage that do not matter to its pair; pairs that are alike share compiled programs.
+_OF_PLACE = ("name", "gears", "azimuth")
+
+
+class _Part(NamedTuple):
+    """A mesh that is evaluated."""
+
+    mesh: int
+    function: Differentiable
+    places: list[int]  # of its numbers among the keys and, after these, what `_Duty` gives
+
+
+class DifferentiableTrain:
+    """Quantities of a train as a function of some of its numbers.
+
+    Parameters
+    ----------
+    case : of a train
+    schema : of its scenario
+    of : of a mesh ``MESH.NAME``, with a name of `QUANTITIES` or `ALSO`; of the whole train one of `TOTALS`
+    wrt : dotted keys of the train's scenario, each once; those of a stage move its own mesh alone
+
+    Raises
+    ------
+    InputError
+        For an unknown mesh, quantity or key, and a quantity that a mesh does not have.
+
+    Attributes
+    ----------
+    of, wrt, about, parts, at, units, key_units : as of a `Differentiable`
+    """
+
+    def __init__(self, case: Gearbox, schema: type[BaseModel], of: Sequence[str], wrt: Sequence[str]) -> None:
+        for own in case.sets:
+            rule = f"the stage {own.name} is planetary, and derivatives are of trains of external gears"
+            raise InputError(own.key, None, rule, "take differences of runs")
+        table = tomllib.loads(case.toml)
+        scenario: Any = schema.model_validate(table)
+        train = moving(scenario)
+        self.of, self.wrt = tuple(of), tuple(wrt)
+        self._wanted = [_mesh_and_name(case, name) for name in of]
+        self._duty = _Duty(case, scenario, train)
+        known = {key: (value, unit_at(schema, key)) for key, value in self._duty.numbers.items()}
+        pairs = [_pair(case, train, table, mesh) for mesh in range(len(case.meshes))]
+        names: list[dict[str, str]] = []  # keys of every pair -> those of the train
+        for mesh, pair in enumerate(pairs):
+            numbers = numbers_of(pair, schema)
+            names.append({key: own for key in numbers if (own := _key(key, train, mesh))})
+            known |= {own: (float(numbers[key].value), numbers[key].unit) for key, own in names[-1].items()}
+        check_keys(self.wrt, known)
+        if twice := [key for key in self.wrt if self.wrt.count(key) > 1]:
+            raise InputError("wrt", quoted(twice[0]), "is named twice", "name every key once")
+        self.at = np.array([known[key][0] for key in self.wrt])
+        self.key_units = tuple(known[key][1] for key in self.wrt)
+        self._parts = []
+        for mesh, pair in enumerate(pairs):
+            places = {key: self.wrt.index(own) for key, own in names[mesh].items() if own in self.wrt}
+            if not places or not self._duty.numbers.keys().isdisjoint(self.wrt):
+                places |= {key: len(wrt) + i * len(pairs) + mesh for i, key in enumerate(_OF_DUTY)}
+            if needed := self._needed(pairs, mesh):
+                try:
+                    function = Differentiable(pair, schema, needed, list(places))
+                except InputError as error:
+                    if error.key != _OF_DUTY[1]:
+                        raise
+                    rule = f"carries no load: {error.rule}"
+                    raise InputError(case.meshes[mesh].key, None, rule, error.remedy) from None
+                self._parts.append(_Part(mesh, function, list(places.values())))
+        quantities = [QUANTITIES[ALSO.get(name, name)] for _, name in self._wanted]
+        self.units = tuple(quantity.unit for quantity in quantities)
+        self.about = tuple(
+            TOTALS[name] if mesh < 0 else f"{quantity.about}, mesh {case.meshes[mesh].name}"
+            for (mesh, name), quantity in zip(self._wanted, quantities, strict=True)
+        )
+        self.parts = tuple((pairs[part.mesh], name) for part in self._parts for name in part.function.of)
+
+    def values(self, x: Float[Array, " key"]) -> Float[Array, " value"]:
+        """As `Differentiable.values`."""
+        return self._evaluated(x, slopes=False)[0]
+
+    def jacobian(self, x: Float[Array, " key"]) -> tuple[Float[Array, " value"], Float[Array, "value key"]]:
+        """As `Differentiable.jacobian`."""
+        return self._evaluated(x, slopes=True)
+
+    def gradient(self, x: Float[Array, " key"]) -> tuple[float, Float[Array, " key"]]:
+        """As `Differentiable.gradient`."""
+        values, slopes = self.jacobian(x)
+        return float(values[0]), slopes[0]
+
+    def _needed(self, pairs: Sequence[LubricatedCase], mesh: int) -> list[str]:
+        """Quantities of a mesh that are asked for, or that those of the whole train are made of."""
+        names = [name for one, name in self._wanted if one == mesh]
+        loaded = [pair.operating.gear_torque != 0.0 for pair in pairs]
+        if any(one < 0 for one, _ in self._wanted) and (loaded[mesh] or not any(loaded)):
+            names.append("friction_power")
+        return list(dict.fromkeys(names))
+
+    def _evaluated(self, x: Any, *, slopes: bool) -> tuple[Any, Any]:
+        duty, by_duty = self._duty.at(dict(zip(self.wrt, x, strict=True)))
+        numbers, by_numbers = np.concatenate([x, duty]), np.vstack([np.eye(len(x)), by_duty])
+        found: dict[tuple[int, str], tuple[Any, Any]] = {}
+        for mesh, function, places in self._parts:
+            at = numbers[places]
+            values, by = function.jacobian(at) if slopes else (function.values(at), np.zeros((1, len(at))))
+            by = np.broadcast_to(by @ by_numbers[places], (len(values), len(x)))
+            found |= {(mesh, name): each for name, *each in zip(function.of, values, by, strict=True)}
+        if any(mesh < 0 for mesh, _ in self._wanted):
+            lost = [each for (_, name), each in found.items() if name == "friction_power"]
+            loss, by_loss = (sum(parts) for parts in zip(*lost, strict=True))
+            # what drives, the input or a load, puts in what loads take, and the loss unless the input brakes
+            put_in, by_put_in = numbers[-2] + loss, by_numbers[-2] + by_loss
+            if put_in < numbers[-1]:
+                put_in, by_put_in = numbers[-1], by_numbers[-1]
+            found[-1, "friction_power"] = loss, by_loss
+            found[-1, "efficiency"] = 1.0 - loss / put_in, (loss * by_put_in / put_in - by_loss) / put_in
+        values, by = zip(*(found[wanted] for wanted in self._wanted), strict=True)
+        return np.array(values), np.array(by)
+
+
+DIFFERENTIABLE = DifferentiableTrain
+
+
+class _Duty:
+    """Speeds and torques of all meshes as functions of the numbers of [operating] and [[load]]."""
+
+    def __init__(self, case: Gearbox, scenario: Any, train: Moving) -> None:
+        operating, ratio = scenario.operating, np.array(train.motion.ratio, dtype=float)
+        given = [
+            name
+            for name in ("input_speed", "output_speed", "output_torque", "power", "input_torque")
+            if getattr(operating, name) is not None
+        ][: 1 if ends_of(scenario)[1] is None else 2]  # an input torque beside a load is the motor's
+        self.numbers = {f"operating.{name}": float(getattr(operating, name)) for name in given}
+        self.numbers |= {f"load.{place}.torque": load.torque for place, load in enumerate(scenario.load)}
+        self._given = given
+        bodies = [load.body for load in case.loads]
+        units = np.eye(len(case.bodies))[bodies]
+        self._torques = np.array([torques_of(train, list(unit)).driven for unit in units]).T
+        self._driver, self._ratio = ratio[list(train.motion.driver)], ratio[bodies]
+
+    def at(self, changed: Mapping[str, float]) -> tuple[Float[Array, " out"], Float[Array, "out key"]]:
+        """Speeds of the drivers, torques of the driven gears, powers that loads take and put in; slopes."""
+        import jax
+        import jax.numpy as jnp
+
+        def function(x: Any) -> Any:
+            numbers = self.numbers | dict(zip(changed, x, strict=True))
+            speed, *loads = (numbers[key] for key in self.numbers)
+            if "output_speed" in self._given:
+                speed = speed / self._ratio[0]
+            if self._given[-1] in ("power", "input_torque"):
+                put_in = loads[0] / speed if self._given[-1] == "power" else loads[0]
+                loads[0] = (put_in - jnp.stack([0.0, *loads[1:]])[1:] @ self._ratio[1:]) / self._ratio[0]
+            torques = jnp.stack(loads)
+            power = torques * self._ratio * speed
+            ends = [jnp.where(sign * power > 0.0, sign * power, 0.0).sum() for sign in (1.0, -1.0)]
+            return jnp.concatenate([self._driver * speed, self._torques @ torques, jnp.stack(ends)])
+
+        with jax.enable_x64(True):
+            x = jnp.array(list(changed.values()))
+            return np.array(function(x)), np.array(jax.jacfwd(function)(x))
+
+
+def _mesh_and_name(case: Gearbox, asked: str) -> tuple[int, str]:
+    """Number of the mesh, −1 for the whole train, and the quantity, that a name means."""
+    meshes = [mesh.name for mesh in case.meshes]
+    mesh, _, name = asked.rpartition(".")
+    if mesh and mesh not in meshes:
+        raise unknown_name("of", mesh, meshes, "mesh")
+    known = ALSO.get(name, name)
+    if mesh or known in TOTALS:
+        return (meshes.index(mesh), name) if mesh else (-1, known)
+    if known not in QUANTITIES:
+        raise unknown_name("of", name, QUANTITIES, "quantity that can be differentiated")
+    remedy = f'name one: "{meshes[0]}.{name}"; the whole train has: {", ".join(TOTALS)}'
+    raise InputError("of", quoted(asked), "is a quantity of a mesh", remedy)
+
+
+def _key(key: str, train: Moving, mesh: int) -> str:
+    """Where the train's scenario has a number of a mesh's pair; "" where it does not have it as such."""
+    own = key_in_train(key, train, mesh)
+    of_bare_gear = own.startswith("mesh.") and key.split(".")[1] in SIDES  # both gears are in one table
+    return "" if of_bare_gear or key in _OF_DUTY else own
+
+
+def _pair(case: Gearbox, train: Moving, table: dict[str, Any], mesh: int) -> LubricatedCase:
+    """A mesh's pair of gears, with the text of a scenario of its own."""
+    drive = table.get("drive")
+    if drive is None:
+        group, place = train.parts.meshes[train.motion.meshes[mesh]].key.split(".")
+        gears = [train.parts.gears[gear].name for gear in train.motion.gears[mesh]]
+        drive = {name: table[name] for name in ("material", "mean_roughness") if name in table}
+        drive |= {name: own for name, own in table[group][int(place)].items() if name not in _OF_PLACE}
+        drive |= {side: table.get("gear", {}).get(name, {}) for side, name in zip(SIDES, gears, strict=True)}
+    text = {"drive": drive} | {name: table[name] for name in _COMMON if name in table}
+    return replace(case.meshes[mesh].pair, toml=tomli_w.dumps(text))

@@ -1,0 +1,169 @@
+"""Rules that tie several keys of a train's scenario together: whether it is a train that can be made."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from tribodyn.errors import InputError, InputErrors, quoted
+from tribodyn.scenario.tables.bearings import broken_bearing
+from tribodyn.scenario.tables.drive_data import gives_backlash
+from tribodyn.scenario.tables.sensors import broken_sensor_rules
+from tribodyn.studies.gears.damage_rules import broken_damage
+from tribodyn.studies.gears.motion import (
+    broken_flank_rules,
+    broken_mesh_rules,
+    broken_output_rules,
+    broken_solver_rules,
+    broken_source_rules,
+)
+from tribodyn.studies.gears.scenario import broken_gear_rules
+from tribodyn.studies.motion.described.drawn import Moving, drawn, in_terms_of_train, moving
+from tribodyn.studies.motion.described.duty import broken_duty_rules, duty_of
+from tribodyn.studies.motion.described.names import broken_names, broken_sort
+from tribodyn.studies.motion.train.own_teeth import gears_of_train
+from tribodyn.studies.motion.train.scenario import Scenario, pair_view, reference_teeth
+from tribodyn.train.links.linear import LAW as LINEAR_LINK
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that the scenario breaks; none: it is consistent."""
+    if broken := list(broken_sort(scenario)):
+        yield from broken
+        return
+    broken = [
+        *broken_names(scenario),
+        *_of_all_gears(scenario),
+        *_bearings(scenario),
+        *_link_laws(scenario),
+        *broken_source_rules(scenario.operating, "input_torque"),
+        *broken_duty_rules(scenario),
+    ]
+    if not isinstance(scenario.mesh, tuple):
+        broken += [
+            *broken_mesh_rules(scenario.mesh),
+            *_stiffness_of_stages(scenario.stage, scenario.mesh.compliance),
+        ]
+    else:
+        broken += _bare_meshes(scenario.mesh)
+    broken += broken_solver_rules(scenario.solver)
+    broken += broken_sensor_rules(scenario.sensor, scenario.housing)
+    yield from broken
+    if not broken:
+        yield from _of_train(scenario)
+
+
+def _of_train(scenario: Scenario) -> Iterator[InputError]:
+    """What can be said once names and duty are sound: of the train, then of its pairs, then of room."""
+    try:
+        train = moving(scenario)
+    except InputError as error:
+        yield error
+        return
+    if broken := [*_each_mesh_once(train), *_hands(train), *_pairs(scenario, train)]:
+        yield from broken
+        return
+    if scenario.damage and isinstance(scenario.mesh, tuple):
+        yield InputError(
+            "damage", None, "the meshes of a bare model are given, without teeth", "leave it out"
+        )
+        return
+    try:
+        drawn(train)
+    except InputErrors as error:
+        yield from error.errors
+    except InputError as error:
+        yield error
+    else:
+        yield from broken_damage(scenario.damage, gears_of_train(train))
+
+
+def _each_mesh_once(train: Moving) -> Iterator[InputError]:
+    """Refuse two meshes of one name, and of the same two gears."""
+    names: dict[str, str] = {}
+    pairs: dict[frozenset[int], str] = {}
+    for mesh in train.parts.meshes:
+        if (first := pairs.setdefault(frozenset(mesh.gears), mesh.key)) != mesh.key:
+            yield InputError(mesh.key, None, f"its gears mesh in {first} already", "write the mesh once")
+        elif (first := names.setdefault(mesh.name, mesh.key)) != mesh.key:
+            rule = f"names two meshes, that of {first} too"
+            yield InputError(f"{mesh.key}.name", quoted(mesh.name), rule, "use another name")
+
+
+def _hands(train: Moving) -> Iterator[InputError]:
+    """Ask for the hand of a helical gear that meshes with several: no mesh can choose it alone."""
+    for number, gear in enumerate(train.parts.gears):
+        helical = [mesh for mesh, _ in train.meshes_of(number) if train.drives[mesh].helix_angle]
+        if len(helical) > 1 and gear.table.hand is None:
+            rule = "missing: the gear meshes with several, and its helix has one hand"
+            yield InputError(f"{gear.key}.hand", None, rule, 'add hand = "right"')
+
+
+def _pairs(scenario: Scenario, train: Moving) -> Iterator[InputError]:
+    """Rules of every mesh as a pair of gears, and of its load; what all meshes share is said once."""
+    said: set[str] = set()
+    yield from broken_output_rules(scenario.output, scenario.solver, reference_teeth(train))
+    unloaded: set[str] = set()
+    duty = duty_of(scenario, train)
+    for mesh, torque in enumerate(duty.torques.driven):
+        view = pair_view(scenario, train, mesh)
+        part = train.parts.meshes[train.motion.meshes[mesh]]
+        back = view.mesh.backlash is not None or gives_backlash(view.drive)
+        for error in broken_gear_rules(view, every_duty=True, internal=True, every_tooth=True):
+            error = in_terms_of_train(error, train, mesh)
+            if str(error) not in said:
+                said.add(str(error))
+                yield error
+        for error in broken_flank_rules(part.key, torque, back, view.mesh):
+            if error.rule not in unloaded:  # of all stages that are driven backwards the first
+                unloaded.add(error.rule)
+                yield error
+
+
+def _of_all_gears(scenario: Scenario) -> Iterator[InputError]:
+    """Name what no gear says of itself where it is said for all of them."""
+    tables = [*scenario.gear.values()]
+    bare = isinstance(scenario.mesh, tuple)
+    if scenario.drive is not None:
+        return
+    if scenario.material is None and (bare or all(gear.material is None for gear in tables)):
+        remedy = 'add material = "18CrNiMo7-6", of all gears that name none'
+        yield InputError("material", None, "missing", remedy)
+    flanks = any(gear.mean_roughness for gear in tables) or any(stage.roughness for stage in scenario.stage)
+    if scenario.mean_roughness is None and not flanks:
+        remedy = 'add mean_roughness = "0.6 um", Ra of the flanks of all gears that say none'
+        yield InputError("mean_roughness", None, "missing", remedy)
+
+
+def _stiffness_of_stages(stages: Any, compliance: str) -> Iterator[InputError]:
+    for number, stage in enumerate(stages):
+        for name in ("stiffness", "sun_stiffness", "ring_stiffness"):
+            given = getattr(stage, name, None)
+            if given is not None and compliance != "constant":
+                rule = f'contradicts mesh.compliance = "{compliance}"'
+                remedy = 'leave it out, or write compliance = "constant" with a stiffness for other meshes'
+                yield InputError(f"stage.{number}.{name}", f"{given:g} N/m", rule, remedy)
+
+
+def _bearings(scenario: Scenario) -> Iterator[InputError]:
+    for name, bearing in scenario.bearings.by_name.items():
+        yield from broken_bearing(f"bearings.{name}", bearing)
+        if bearing.matrix is not None:
+            remedy = "give stiffness_x, stiffness_y and damping_ratio"
+            yield InputError(f"bearings.{name}.matrix", None, "is taken of gear pairs alone", remedy)
+
+
+def _link_laws(scenario: Scenario) -> Iterator[InputError]:
+    for name in ("link", "shaft"):
+        for number, table in enumerate(getattr(scenario, name)):
+            if table.law != LINEAR_LINK.name and not table.stiffness:
+                key, rule = f"{name}.{number}.stiffness", f"missing: law = {quoted(table.law)} needs it"
+                yield InputError(key, table.stiffness, rule, 'add stiffness = "1e5 N*m/rad"')
+
+
+def _bare_meshes(meshes: Any) -> Iterator[InputError]:
+    for number, mesh in enumerate(meshes):
+        key = f"mesh.{number}.stiffness"
+        if mesh.stiffness is None and mesh.table is None:
+            yield InputError(key, None, "missing", 'add stiffness = "2.8e8 N/m", or a table')
+        if mesh.stiffness is not None and mesh.table is not None:
+            rule = "contradicts table, which gives it over the roll angle"
+            yield InputError(key, f"{mesh.stiffness:g} N/m", rule, "give the one or the other")

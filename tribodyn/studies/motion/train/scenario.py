@@ -1,0 +1,338 @@
+"""The scenario of a train, and the case that is made of it."""
+
+from typing import Annotated, Any, Literal, NamedTuple
+
+from pydantic import Discriminator, Field, Tag
+
+from tribodyn.dynamics.data import BearingData, OperatingData
+from tribodyn.geometry.drive import SIDES, BodyMass
+from tribodyn.scenario.fields import ScenarioHead, head_of
+from tribodyn.scenario.quantity import Count, model_file, written
+from tribodyn.scenario.tables.bearings import bearing_of
+from tribodyn.scenario.tables.damage import Damages
+from tribodyn.scenario.tables.drive_data import masses_of, materials_of, teeth_of
+from tribodyn.scenario.tables.laws import law_values
+from tribodyn.scenario.tables.material import MaterialReference
+from tribodyn.scenario.tables.model_files import (
+    DriveTable,
+    Grade,
+    QualityEdition,
+    Roughness,
+)
+from tribodyn.scenario.tables.own_teeth import with_own_teeth
+from tribodyn.scenario.tables.quality import grade_of, tolerances_of
+from tribodyn.scenario.tables.sensors import Housing, Sensors, housing_of, sensors_of
+from tribodyn.studies.gears.by_standard import quality_of
+from tribodyn.studies.gears.case import LubricatedCase, with_chosen
+from tribodyn.studies.gears.motion import (
+    Friction,
+    Mesh,
+    Output,
+    Solver,
+    moving_mesh_of,
+    output_data,
+    solver_data,
+)
+from tribodyn.studies.gears.prepare import with_chosen_laws
+from tribodyn.studies.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
+from tribodyn.studies.motion.case import (
+    HOUSING,
+    BodyData,
+    Gearbox,
+    GearData,
+    LinkData,
+    SourceData,
+    TrainMesh,
+)
+from tribodyn.studies.motion.described.drawn import Drawn, Moving, drawn, moving
+from tribodyn.studies.motion.described.duty import TrainDuty, duty_of, motor_torque
+from tribodyn.studies.motion.described.structure import bearings_by_body, mesh_table
+from tribodyn.studies.motion.described.tables import (
+    MOST_PARTS,
+    AnyStage,
+    BareBody,
+    BareMesh,
+    Link,
+    LoadTable,
+    PartName,
+    Shaft,
+    TrainBearings,
+    TrainGear,
+    TrainOperating,
+)
+from tribodyn.studies.motion.planetary.linked import links_of_set, set_data
+from tribodyn.studies.motion.train.own_teeth import own_teeth
+from tribodyn.train.links import LINK_LAWS
+
+
+def _sort(mesh: Any) -> str:
+    """Whether [mesh] is written, or [[mesh]] of a bare model."""
+    return "(list)" if isinstance(mesh, (list, tuple)) else "(table)"
+
+
+Meshes = Annotated[
+    Annotated[Mesh, Tag("(table)")]
+    | Annotated[tuple[BareMesh, ...], Tag("(list)"), Field(max_length=MOST_PARTS)],
+    Discriminator(_sort),
+]
+
+
+class TrainSolver(Solver):
+    """How the equations are solved."""
+
+    max_period: Count = Field(
+        200, description="cycles of the reference mesh that steady states may last, at most"
+    )
+
+
+class GearTrainScenario(ScenarioHead):
+    """A scenario file."""
+
+    kind: Literal["gear-train"] = "gear-train"
+    drive: Annotated[DriveTable | None, model_file("drives")] = Field(
+        None, description="a pair of gears, in place of [gear] and [[stage]]: a train of one stage"
+    )
+    gear: dict[PartName, TrainGear] = written({}, description="gears by name")
+    stage: tuple[AnyStage, ...] = Field((), max_length=MOST_PARTS, description="which gears mesh")
+    shaft: tuple[Shaft, ...] = Field((), max_length=MOST_PARTS, description="which gears turn together")
+    body: tuple[BareBody, ...] = Field((), max_length=MOST_PARTS, description="bodies without teeth")
+    link: tuple[Link, ...] = Field((), max_length=MOST_PARTS, description="springs between bodies")
+    material: MaterialReference | None = Field(None, description="of all gears that name none")
+    mean_roughness: Roughness | None = Field(None, description="Ra of the flanks of all gears that say none")
+    quality: Grade | None = Field(None, description="tolerance class of all gears that say none")
+    quality_edition: QualityEdition = Field(2013, description="edition of ISO 1328-1 of these classes")
+    lubricant: Oil
+    bearings: Annotated[TrainBearings, model_file("bearings")] = written("rigid-1e9")
+    operating: TrainOperating
+    load: tuple[LoadTable, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
+    mesh: Meshes = Field(description="of all stages; a list: the meshes of a bare model")
+    temperature: TemperatureKeys = None
+    film: FilmKeys = None
+    friction: Friction
+    solver: TrainSolver = written({})
+    output: Output = written({})
+    damage: Damages = ()
+    sensor: Sensors = ()
+    housing: Housing | None = Field(None, description="that sensors sit on")
+
+
+Scenario = GearTrainScenario
+
+
+class PairView(NamedTuple):
+    """A mesh as a scenario of one pair of gears, for what those share; its pinion drives."""
+
+    title: str
+    name: str
+    kind: str
+    drive: DriveTable
+    mesh: Mesh
+    operating: TrainOperating
+    lubricant: Any
+    film: Any
+    friction: Friction
+    temperature: Any
+
+
+def pair_view(scenario: Any, train: Moving, mesh: int) -> PairView:
+    """Look at a mesh, by its number in the train's order, as at a pair of gears."""
+    part = train.parts.meshes[train.motion.meshes[mesh]]
+    table, helical = mesh_table(scenario, part), [bool(drive.helix_angle) for drive in train.drives]
+    if any(helical) and not helical[mesh] and table.compliance != "fem":
+        # slices are of the helical meshes
+        table = table.model_copy(update={"slices": None, "slice_coupling": True})
+    return PairView(
+        scenario.title,
+        scenario.name or "scenario",
+        scenario.kind,
+        train.drives[mesh],
+        table,
+        scenario.operating,
+        scenario.lubricant,
+        scenario.film,
+        scenario.friction,
+        scenario.temperature,
+    )
+
+
+def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
+    """Return the case of a scenario that has passed schema and rules."""
+    train = moving(scenario)
+    figure = drawn(train)
+    duty = duty_of(scenario, train)
+    head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
+    gears = _gears(train, figure)
+    teeth = reference_teeth(train)
+    meshes = _meshes(scenario, train, figure, duty, head)
+    return Gearbox(
+        **head,
+        gears=gears,
+        bodies=_bodies(scenario, train, figure, duty),
+        links=_links(scenario, train, figure),
+        meshes=meshes,
+        source=_source(scenario, train, duty),
+        loads=duty.loads,
+        period=train.motion.period,
+        max_period=scenario.solver.max_period,
+        solver=solver_data(scenario.solver, teeth),
+        output=output_data(
+            scenario.output, scenario.solver, teeth, differ=any(any(mesh.pair.teeth) for mesh in meshes)
+        ),
+        sensors=sensors_of(scenario.sensor),
+        housing=housing_of(scenario.housing),
+        sets=tuple(set_data(own, train) for own in train.parts.sets),
+    )
+
+
+def reference_teeth(train: Moving) -> int:
+    """Teeth of the gear that drives the first mesh: its cycles in a revolution against the mesh's frame."""
+    return abs(train.parts.gears[train.motion.gears[0][0]].teeth)
+
+
+def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:
+    new, found = train.numbers, []
+    for number, gear in enumerate(train.parts.gears):
+        meshes = train.meshes_of(number)
+        mesh, side = meshes[0]
+        material = materials_of(train.drives[mesh])[SIDES.index(side)]
+        found.append(
+            GearData(
+                gear.name,
+                gear.key,
+                new[gear.body],
+                figure.shafts[number],
+                gear.teeth,
+                figure.planes[number],
+                gear.tooth_angle,
+                _given_mass(train, number),
+                material.density,
+                meshes,
+                float(gear.table.face_width),
+                gear.axial_position,
+            )
+        )
+    return tuple(found)
+
+
+def _given_mass(train: Moving, number: int) -> BodyMass:
+    """Mass and inertia of a gear; gears of a bare model have none, for their bodies have it."""
+    gear = train.parts.gears[number]
+    if gear.key.startswith("mesh."):
+        return BodyMass(0.0, 0.0)
+    return BodyMass(gear.table.mass, gear.table.inertia)
+
+
+def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tuple[BodyData, ...]:
+    motion, operating, found = train.motion, scenario.operating, []
+    floating = {body for own in train.parts.sets for body in own.floating}
+    for number, body in enumerate(motion.bodies):
+        part = train.parts.bodies[body]
+        attached = sum(own for at, own in duty.inertias if at == number)
+        if number == motion.input and operating.shaft_stiffness is None:
+            attached += operating.drive_inertia
+        x, y = figure.places.centres[number]
+        gears = tuple(place for place, gear in enumerate(train.parts.gears) if gear.body == body)
+        found.append(
+            BodyData(
+                part.name,
+                part.key,
+                gears,
+                part.mass,
+                part.inertia + attached,
+                motion.ratio[number],
+                motion.sense[number],
+                (float(x), float(y)),
+                attached,
+                body in floating,
+            )
+        )
+    return tuple(found)
+
+
+def _links(scenario: Any, train: Moving, figure: Drawn) -> tuple[LinkData, ...]:
+    new, found = train.numbers, []
+    bearings = bearings_by_body(scenario, train.parts)
+    without = {body for own in train.parts.sets for body in (*own.planets, *own.floating)}
+    for number, body in enumerate(train.motion.bodies):
+        bearing = bearings[body]
+        if bearing is not None and body not in without:
+            data: BearingData = bearing_of(bearing)
+            found.append(
+                LinkData(
+                    f"bearing-{train.parts.bodies[body].name}",
+                    "bearings",
+                    (number, HOUSING),
+                    (data.stiffness_x, data.stiffness_y, 0.0),
+                    (0.0, 0.0, 0.0),
+                    (data.damping_ratio_x, data.damping_ratio_y, 0.0),
+                    bearing=data,
+                )
+            )
+    for own in train.parts.sets:
+        found += links_of_set(own, train, figure, bearings)
+    for link in train.parts.links:
+        one, two = (HOUSING if end < 0 else new[end] for end in link.ends)
+        ends = (two, one) if one == HOUSING else (one, two)
+        law, values = LINK_LAWS[link.table.law], law_values(link.table)
+        found.append(
+            LinkData(link.name, link.key, ends, link.stiffness, link.damping, link.damping_ratio, law, values)
+        )
+    return tuple(found)
+
+
+def _meshes(
+    scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty, head: dict[str, Any]
+) -> tuple[TrainMesh, ...]:
+    motion, found = train.motion, []
+    first: LubricatedCase | None = None
+    for mesh, place in enumerate(motion.meshes):
+        view = pair_view(scenario, train, mesh)
+        driver, carrier = motion.driver[mesh], motion.carrier[mesh]
+        teeth = own_teeth(scenario, train, mesh, view)
+        speed = duty.speed * float(motion.ratio[driver] - motion.carried(driver, carrier))
+        pair = LubricatedCase(
+            **head,
+            **teeth_of(view.drive),
+            masses=masses_of(view.drive),
+            operating=OperatingData("speed", speed, duty.torques.driven[mesh]),
+            mesh=with_own_teeth(moving_mesh_of(view), teeth),
+            teeth=teeth,
+            quality=quality_of(
+                [grade_of(view.drive, gear) for gear in (view.drive.pinion, view.drive.gear)],
+                tolerances_of(view.drive),
+                view.drive.quality_edition,
+            ),
+            **oil_fields(view),
+        )
+        # one film and one friction law hold in the whole train: where "auto" chooses, for its first mesh
+        pair = with_chosen_laws(pair) if first is None else with_chosen(pair, first)
+        first = first or pair
+        part = train.parts.meshes[place]
+        found.append(
+            TrainMesh(
+                part.name,
+                part.key,
+                motion.driver[mesh],
+                motion.driven[mesh],
+                motion.gears[mesh],
+                figure.places.azimuths[mesh],
+                motion.rate[mesh],
+                pair,
+                carrier,
+            )
+        )
+    return tuple(found)
+
+
+def _source(scenario: Any, train: Moving, duty: TrainDuty) -> SourceData:
+    operating, given = scenario.operating, motor_torque(scenario)
+    return SourceData(
+        operating.source,
+        train.motion.input,
+        duty.speed,
+        duty.torques.source if given is None else given,
+        operating.drive_inertia,
+        operating.shaft_stiffness,
+        operating.shaft_damping,
+        operating.speed_regulation,
+    )
