@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from tests.support.soak_parameters import all_in_soak
 from tests.support.states import PAIR, TURN_G
 from tests.support.timing import least
 from tools.peers import steady
@@ -134,6 +135,7 @@ def test_native_run_is_faster_than_lsoda_on_the_compiled_right_hand_side(case, c
     assert ratio > 10.0
 
 
+@pytest.mark.soak  # LSODA marches for minutes
 def test_a_steady_sweep_is_20_times_faster_than_marching_with_lsoda(capsys):
     """But for the compilation, against LSODA, given the cycles after which the motion repeats."""
     speeds = steady.grid(0.05, 32)
@@ -174,14 +176,18 @@ def extremes_cost(name: str, overrides: dict[str, str], maximum: float) -> float
 
 @pytest.mark.parametrize(
     ("name", "overrides", "maximum"),
-    [
-        ("crc-23-47", {}, 1.1),
-        ("crc-23-47-300", {}, 1.1),
-        ("involute-23-47", {"operating.pinion_speed": "100 rad/s"}, 1.1),
-        ("crc-23-47", {"operating.pinion_speed": "100 rad/s", "friction.sliding": "dynamic"}, 1.1),
-        # without friction the rest takes half the time
-        ("crc-23-47", {"operating.pinion_speed": "300 rad/s", "friction.law": "none"}, 1.125),
-    ],
+    all_in_soak(
+        [
+            ("crc-23-47", {}, 1.1),
+            ("crc-23-47-300", {}, 1.1),
+            ("involute-23-47", {"operating.pinion_speed": "100 rad/s"}, 1.1),
+            ("crc-23-47", {"operating.pinion_speed": "100 rad/s", "friction.sliding": "dynamic"}, 1.1),
+            # without friction the rest takes half the time
+            ("crc-23-47", {"operating.pinion_speed": "300 rad/s", "friction.law": "none"}, 1.125),
+        ],
+        lambda case: case[0] == "crc-23-47" and "none" not in case[1].values(),
+        names=3,
+    ),
 )
 def test_extremes_cost_a_run_at_most_a_tenth(name, overrides, maximum):
     """In processes of their own: where one puts the machine code of a kernel decides on a twentieth."""

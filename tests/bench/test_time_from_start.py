@@ -14,6 +14,7 @@ import sys
 import numpy as np
 import pytest
 
+from tests.support.soak_parameters import all_in_soak
 from tools.time_from_start import RUN, least, times_of
 
 pytestmark = pytest.mark.bench
@@ -51,6 +52,7 @@ def test_a_picture_is_less_than_the_work_of_two_and_a_half_runs(figures, capsys)
     assert ratio < 3.5
 
 
+@pytest.mark.soak
 def test_the_first_run_compiles_in_the_time_of_twenty_loops(figures, tmp_path, capsys):
     """The target is missed: kernels that seek extremes and turns of friction compile for 12 to 15 loops."""
     first, _ = times_of(RUN, tmp_path, TRIBODYN_CACHE=str(tmp_path / "cache"))
@@ -84,8 +86,6 @@ TWICE = {
     "validate": (["validate", "efremenkov-2024"], "validate('efremenkov-2024')"),
 }
 
-#: Kinds that take longer, in `make soak`.
-LONG = ("design", "sweep", "validate")
 PATIENT = "import gc; gc.set_threshold(300_000)"
 
 
@@ -99,9 +99,7 @@ def import_of_xarray(tmp_path_factory):
     return np.median(times[:, 0] - times[:, 1], axis=0)
 
 
-@pytest.mark.parametrize(
-    "kind", [pytest.param(kind, marks=pytest.mark.soak) if kind in LONG else kind for kind in TWICE]
-)
+@pytest.mark.parametrize("kind", all_in_soak(TWICE, ("gear-pair",)))
 def test_python_takes_as_long_as_the_command_line(kind, tmp_path, capsys, monkeypatch, request):
     """With all threads of BLAS, as a program has them; in turn, until the median of the ratios is calm.
 

@@ -13,6 +13,7 @@ import pytest
 import tomli_w
 
 from tests.support.planet_sets import planet_set
+from tests.support.soak_parameters import all_in_soak
 from tests.support.timing import least
 from tests.support.train_scenarios import case_of_table, prepared_train, train_case
 from tribodyn.dynamics.equations import derivatives
@@ -35,6 +36,7 @@ from tribodyn.train.structure import rotational_error
 pytestmark = pytest.mark.bench
 
 REDUCER = "two-stage-reducer"
+LAWS = "none", "masjedi-khonsari"
 #: Places in a common period at which the right-hand side is evaluated, and how often over.
 PLACES, OVER = 600, 40
 #: Right-hand side of a train over the sum of those of its pairs, at most.
@@ -100,7 +102,7 @@ def measured(law: str, lanes: bool) -> list[float]:
 
 
 @pytest.mark.parametrize("lanes", [False, True])
-@pytest.mark.parametrize("law", ["none", "masjedi-khonsari"])
+@pytest.mark.parametrize("law", all_in_soak(LAWS, ("masjedi-khonsari",)))
 def test_a_right_hand_side_costs_what_its_meshes_cost(law, lanes, capsys):
     """Of two meshes and three bodies no more than 1.3 times that of two pairs, which have four.
 
@@ -121,7 +123,7 @@ def test_a_right_hand_side_costs_what_its_meshes_cost(law, lanes, capsys):
     assert ratio < MOST
 
 
-@pytest.mark.parametrize("law", ["none", "masjedi-khonsari"])
+@pytest.mark.parametrize("law", all_in_soak(LAWS, ("masjedi-khonsari",)))
 def test_a_reducer_runs_in_five_times_the_time_of_its_faster_pair(law, tmp_path, capsys):
     """Over 20 cycles of the faster mesh; SciPy's LSODA on the same compiled right-hand side takes far longer.
 

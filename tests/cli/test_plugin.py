@@ -271,7 +271,9 @@ def test_a_module_that_cannot_be_imported_is_one_error(plugin, tmp_path, what):
     assert_named(used.stderr.strip())
 
 
-@pytest.mark.parametrize("what", [("friction law",), tuple(BROKEN)], ids=["one", "all"])
+@pytest.mark.parametrize(
+    "what", [pytest.param(("friction law",), marks=pytest.mark.soak), tuple(BROKEN)], ids=["one", "all"]
+)
 def test_modules_that_cannot_be_imported_are_a_line_each_where_they_would_be_listed(plugin, tmp_path, what):
     with broken(plugin, {BROKEN[part][0] for part in what}):
         listed = plugin("list", "--json", folder=tmp_path)

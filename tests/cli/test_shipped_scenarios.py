@@ -1,14 +1,13 @@
 """Every shipped scenario runs as a user would run it, shortened; and what it leaves behind can be used."""
 
 import json
-from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
+from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import in_a_process, sets
 from tribodyn.record.reader import Record
 from tribodyn.scenario.sources import names, shipped
@@ -25,6 +24,8 @@ def tribodyn(*arguments: str, folder: Path) -> str:
 #: Whose picture is drawn: one of every kind, and with reversed loads, many pairs, changing speed.
 STUDIES = {"efficiency-crc-23-47", "load-contact-18-36", "irefc", "backlash-oscillator"}
 DRAWN = {"crc-23-47", "rattle", "high-contact-ratio", "run-up"} | STUDIES
+#: Those of `make test`; the figures of every kind are drawn by `unit/studies/test_contract.py`.
+PICTURES = {"crc-23-47", "run-up"}
 #: Drives of a paper whose flanks touch at a very small radius where contact ends.
 OUTSIDE_THE_MODEL = {"jia-parabolic-17-29"}
 
@@ -40,14 +41,17 @@ QUICK_SEARCHES = ("design-cycloid-23-47", "design-shift-23-47")
 ALIKE = {
     "assessment-helical-24-95",
     "crc-23-47-300",
+    "efficiency-helical-24-95",
     "efficiency-involute-18-36",
     "ehl-crc-23-47",
+    "helical-car-27-71",
     "involute-18-36-tip-relief",
     "involute-23-47",
     "involute-23-47-frictionless",
     "involute-shifted-23-47",
     "irefc-as-published",
     "jia-involute-17-29",
+    "two-stage-reducer-hunting",
     "wind-turbine-gearbox",
     "wind-turbine-gearbox-assessment",
 }
@@ -66,12 +70,7 @@ SHORTER = {
 }
 
 
-def with_soak(found: Iterable[str], soak: Callable[[str], bool]) -> list[Any]:
-    """Names as parameters of a test, some of them for soak alone."""
-    return [pytest.param(name, marks=pytest.mark.soak) if soak(name) else name for name in found]
-
-
-@pytest.mark.parametrize("name", with_soak(SEARCHES, lambda name: name not in QUICK_SEARCHES))
+@pytest.mark.parametrize("name", all_in_soak(SEARCHES, QUICK_SEARCHES))
 def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     ended = forked("run", name, *sets(*FEW, *REACHED.get(name, ())), "--json", "--no-plot", folder=tmp_path)
     assert ended.returncode == 0, ended.stderr
@@ -81,12 +80,21 @@ def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
 
 
 @pytest.mark.parametrize(
-    "name",
-    with_soak([name for name in names(shipped("scenarios")) if name not in SEARCHES], ALIKE.__contains__),
+    ("name", "drawn"),
+    all_in_soak(
+        [
+            (name, drawn)
+            for name in names(shipped("scenarios"))
+            if name not in SEARCHES
+            for drawn in {name in DRAWN, name in PICTURES}
+        ],
+        lambda case: case[0] not in ALIKE and case[1] is (case[0] in PICTURES),
+        names=2,
+    ),
 )
-def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
+def test_it_runs(name: str, drawn: bool, tmp_path: Path, forked: ForkedVerbs):
     shorter = sets(*SHORTER.get(name, SHORTER.get(load_scenario(name).kind, ())))
-    words = (name, *shorter, *(() if name in DRAWN else ("--no-plot",)))
+    words = (name, *shorter, *(() if drawn else ("--no-plot",)))
     ended = forked("run", *words, "--json", folder=tmp_path)
     assert ended.returncode == 0, ended.stderr
     # no progress bar where nobody watches, and no warning but that of a drive outside its model
@@ -99,7 +107,7 @@ def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     # an assessment has those of its parts
     balance = next((result["summary"][name] for name in residuals if name in result["summary"]), 0.0)
     assert abs(balance) < 1e-5  # 10 × rtol
-    assert len(result["pictures"]) == (name in DRAWN)
+    assert len(result["pictures"]) == drawn
     for picture in result["pictures"]:
         assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
     with Record(tmp_path / result["record"]) as record:

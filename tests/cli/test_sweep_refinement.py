@@ -32,9 +32,15 @@ def curve(path: Path) -> tuple[np.ndarray, np.ndarray]:
         return record["pinion_speed"] / RPM, record["transmission_error_rms"].ravel()
 
 
-def test_peaks_are_found_with_a_seventh_of_the_cases(tmp_path: Path):
+@pytest.fixture(scope="module")
+def resonances(tmp_path_factory: pytest.TempPathFactory) -> tuple[np.ndarray, np.ndarray]:
+    """The curve of values 5 rpm apart."""
+    return curve(swept(tmp_path_factory.mktemp("fine") / "fine.h5", "5"))
+
+
+def test_peaks_are_found_with_a_seventh_of_the_cases(resonances, tmp_path: Path):
     """Both resonances to 1 % of their height and 1 % of their speed, against values 5 rpm apart."""
-    fine_speed, fine = curve(swept(tmp_path / "fine.h5", "5"))
+    fine_speed, fine = resonances
     refined = swept(tmp_path / "refined.h5", "100", "--refine", "20")
     speed, error = curve(refined)
     assert len(speed) == 33 <= len(fine_speed) / 7
@@ -54,13 +60,13 @@ def test_peaks_are_found_with_a_seventh_of_the_cases(tmp_path: Path):
     assert np.max(coarse) < 0.99 * np.max(fine)
 
 
-def test_a_sweep_that_is_fine_enough_stops_by_itself(tmp_path: Path):
+def test_a_sweep_that_is_fine_enough_stops_by_itself(resonances, tmp_path: Path):
     """Halfway between its values the straight line is off by less than the bend that counts."""
     speed, error = curve(swept(tmp_path / "s.h5", "40", "--refine", "200"))
     assert 31 < len(speed) < 231
     spacing = np.diff(speed)
     assert np.min(spacing) >= 40.0 / PARTS
-    fine_speed, fine = curve(swept(tmp_path / "fine.h5", "8"))
+    fine_speed, fine = resonances
     assert np.max(np.abs(np.interp(fine_speed, speed, error) - fine)) < BEND * np.ptp(fine)
 
 

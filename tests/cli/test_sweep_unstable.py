@@ -60,6 +60,7 @@ def test_it_is_said_and_drawn(jump: Path, tmp_path: Path):
     assert all(Path(picture).stat().st_size > 10_000 for picture in said["pictures"])
 
 
+@pytest.mark.soak
 def test_one_worker_gives_the_same_bits_as_two(jump: Path, tmp_path: Path):
     invoke(*SWEEP, "--workers", "1", "-o", tmp_path / "single.h5")
     assert differences(tmp_path / "single.h5", jump) == []

@@ -1,8 +1,12 @@
 """Refinement: tolerance, table, smoothing widths; and the energy balance at every tolerance."""
 
+from itertools import product
+from typing import Any
+
 import numpy as np
 import pytest
 
+from tests.support.soak_parameters import all_in_soak
 from tests.support.states import TURN_G, WORK_IN, WORK_PARAMETRIC, recorded, sampled
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
@@ -58,31 +62,45 @@ def _closes(case, rtol, **options):
     return abs(energy_residual(states[0], states[-1], stored, case.model.layout))
 
 
-DRIVES = [
-    {},
-    {"friction.sliding": "dynamic"},
-    {"operating.source": "torque", "operating.drive_inertia": "0.02 kg*m**2"},
-    {
+DRIVES: dict[str, dict[str, Any]] = {
+    "speed": {},
+    "sliding": {"friction.sliding": "dynamic"},
+    "torque": {"operating.source": "torque", "operating.drive_inertia": "0.02 kg*m**2"},
+    "shaft": {
         "operating.source": "torque",
         "operating.drive_inertia": "0.02 kg*m**2",
         "operating.shaft_stiffness": "3000 N*m/rad",
         "operating.shaft_damping": "0.5 N*m*s/rad",
         "operating.speed_regulation": "0.5 N*m*s/rad",
     },
-    {"mesh.hertz": "load-dependent"},
-    {"mesh.backlash": "15 um", "operating.gear_torque": "20 N*m"},
-]
+    "hertz": {"mesh.hertz": "load-dependent"},
+    "backlash": {"mesh.backlash": "15 um", "operating.gear_torque": "20 N*m"},
+}
 
 
-@pytest.mark.parametrize("formulation", ["classical", "energy-consistent"])
+#: Drive, formulation and method of the balances: every one with some of the others, for each is compiled.
+BALANCED = {
+    ("speed", "classical", "dopri5"),
+    ("speed", "energy-consistent", "rodas4"),
+    ("sliding", "classical", "rodas4"),
+    ("torque", "energy-consistent", "dopri5"),
+    ("shaft", "classical", "dopri5"),
+    ("hertz", "energy-consistent", "rodas4"),
+    ("backlash", "classical", "dopri5"),
+    ("backlash", "classical", "rodas4"),
+}
+
+
 @pytest.mark.parametrize(
-    "overrides", DRIVES, ids=["speed", "sliding", "torque", "shaft", "hertz", "backlash"]
+    ("drive", "formulation", "method"),
+    all_in_soak(product(DRIVES, ["classical", "energy-consistent"], ["dopri5", "rodas4"]), BALANCED, names=3),
 )
 @pytest.mark.parametrize("rtol", [1e-5, 1e-7])
-@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
-def test_energy_balance_closes_within_ten_tolerances(prepared, formulation, overrides, rtol, method):
+def test_energy_balance_closes_within_ten_tolerances(prepared, formulation, drive, rtol, method):
     case = prepared(
-        "crc-23-47", **overrides, **{"operating.pinion_speed": "300 rad/s", "mesh.formulation": formulation}
+        "crc-23-47",
+        **DRIVES[drive],
+        **{"operating.pinion_speed": "300 rad/s", "mesh.formulation": formulation},
     )
     assert _closes(case, rtol, method=method) < 10 * rtol
 

@@ -1,8 +1,11 @@
 """Trains: the energy audit at every tolerance, and errors that fall with it."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
+from tests.support.soak_parameters import all_in_soak
 from tests.support.states import sampled
 from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.solve.initial import initial_state
@@ -49,13 +52,23 @@ def missing(model, method, rtol, initial="static"):
     return abs(energy_residual(states[0], states[-1], float(energy[-1] - energy[0]), model.layout))
 
 
+SOURCES = {"speed": {}, "motor": MOTOR}
+#: Every train with either source, formulation and method, not each with each.
+BALANCED = {
+    *((name, "speed", "classical", "dopri5") for name in TRAINS),
+    *((name, "motor", "energy-consistent", "rodas4") for name in TRAINS),
+}
+
+
 @pytest.mark.parametrize("rtol", [1e-6, 1e-8])
-@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
-@pytest.mark.parametrize("formulation", ["classical", "energy-consistent"])
-@pytest.mark.parametrize("overrides", [{}, MOTOR], ids=["speed", "motor"])
-@pytest.mark.parametrize("name", TRAINS)
-def test_the_energy_balance_closes_within_ten_tolerances(name, overrides, formulation, method, rtol):
-    assert missing(model_of(name, formulation, **overrides), method, rtol) < 10 * rtol
+@pytest.mark.parametrize(
+    ("name", "source", "formulation", "method"),
+    all_in_soak(
+        product(TRAINS, SOURCES, ["classical", "energy-consistent"], ["dopri5", "rodas4"]), BALANCED, names=4
+    ),
+)
+def test_the_energy_balance_closes_within_ten_tolerances(name, source, formulation, method, rtol):
+    assert missing(model_of(name, formulation, **SOURCES[source]), method, rtol) < 10 * rtol
 
 
 @pytest.mark.parametrize("method", ["dopri5", "rodas4"])
@@ -73,8 +86,13 @@ def test_the_energy_balance_closes_when_flanks_strike(method):
         assert missing(model, method, rtol, "unloaded") < 10 * rtol
 
 
-@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
-@pytest.mark.parametrize("name", TRAINS)
+#: Every train, either method.
+SOME = [("two-stage-reducer", "dopri5"), ("idler-train", "rodas4"), ("two-pinions-bull-gear", "dopri5")]
+
+
+@pytest.mark.parametrize(
+    ("name", "method"), all_in_soak(product(TRAINS, ["dopri5", "rodas4"]), SOME, names=2)
+)
 def test_errors_fall_in_proportion_to_the_tolerance(name, method):
     """Over the range of the coordinate that is worst; steps end where the friction of any mesh reverses."""
     model = model_of(name, **{"friction.sliding": "kinematic"})
@@ -90,8 +108,9 @@ def test_errors_fall_in_proportion_to_the_tolerance(name, method):
     assert errors[1] < 1e-5
 
 
-@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
-@pytest.mark.parametrize("name", TRAINS)
+@pytest.mark.parametrize(
+    ("name", "method"), all_in_soak(product(TRAINS, ["dopri5", "rodas4"]), SOME, names=2)
+)
 def test_friction_against_the_moving_bodies_costs_little_accuracy(name, method):
     """The places where it turns are found on the way, in any mesh."""
     model = model_of(name, **{"friction.sliding": "dynamic"})

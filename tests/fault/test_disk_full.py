@@ -12,6 +12,7 @@ import pytest
 
 from tests.support.killed_sweeps import differences
 from tests.support.record_samples import SWEEP_HEAD, block, gear_pair_writer, geometry, sweep_record
+from tests.support.soak_parameters import all_in_soak
 from tribodyn.errors import OutputError
 from tribodyn.numerics import cache
 from tribodyn.record import disk
@@ -94,7 +95,7 @@ def bytes_of(work, folder: Path, monkeypatch: pytest.MonkeyPatch) -> int:
 
 
 #: Into how many parts a record is cut: places at which the disk is full.
-PARTS = pytest.mark.parametrize("parts", [8, pytest.param(400, marks=pytest.mark.soak)])
+PARTS = pytest.mark.parametrize("parts", all_in_soak([4, 400], [4]))
 
 
 @PARTS
@@ -167,7 +168,7 @@ def test_what_waits_holds_no_foreign_memory(tmp_path: Path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="limits of POSIX")
-@pytest.mark.parametrize("blocks", [1, 200])
+@pytest.mark.parametrize("blocks", all_in_soak([1, 200], [200]))
 def test_the_command_ends_with_one_message_and_status_3(blocks: int, tmp_path: Path):
     """A limit to the size of files, which the system reports like a full disk."""
     command = f"ulimit -f {blocks}; exec {sys.executable} -m tribodyn run crc-23-47 --no-plot -o run.h5"

@@ -15,6 +15,7 @@ from matplotlib.text import Text
 import tribodyn as td
 from tests.support.hostile_texts import HOSTILE, LONG, hostile_copy
 from tests.support.short_studies import ShortRuns, shortened, written_template
+from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import ended
 from tribodyn.post.style import house_style, literal, save
 from tribodyn.record.reader import Record
@@ -31,8 +32,8 @@ from tribodyn.studies.pages import (
 )
 
 OLD = Path(__file__).parents[1] / "fixtures" / "records-0.1.0"
-SLOW = ("load-contact", "design", "assessment", "train-assessment")
-KINDS = [pytest.param(kind, marks=pytest.mark.slow) if kind in SLOW else kind for kind in STUDIES]
+#: Kinds whose figures and pages `make test` draws: of samples over time, of a curve; the others in soak.
+DRAWN = ("gear-pair", "irefc")
 
 
 def drawn(figure: Figure) -> list[str]:
@@ -49,7 +50,7 @@ def hostile(short_runs: ShortRuns, tmp_path: Path):
     return lambda kind, text: hostile_copy(short_runs(kind).path, tmp_path, text)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", all_in_soak(STUDIES, DRAWN))
 def test_every_figure_and_page_of_a_kind(kind: str, hostile):
     path = hostile(kind, HOSTILE)
     with Record(path) as record, Record(path) as other:

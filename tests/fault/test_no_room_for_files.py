@@ -12,6 +12,7 @@ import pytest
 
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tests.support.short_studies import SHORT, ShortRuns
+from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import complaint, ended, invoke, sets
 from tribodyn.errors import OutputError
 from tribodyn.numerics.output_files import MARKS, write_output
@@ -48,7 +49,7 @@ VERBS = {
 }
 
 
-@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize("verb", all_in_soak(VERBS, ("plot", "report", "init", "run")))
 def test_no_file_is_cut(verb: str, short_runs: ShortRuns, tmp_path: Path):
     record = str(short_runs("backlash-oscillator").path) if "RECORD" in VERBS[verb] else ""
     words = [record if word == "RECORD" else word for word in VERBS[verb]]

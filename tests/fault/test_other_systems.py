@@ -45,7 +45,7 @@ builtins.open = io.open = elsewhere
 """
 VERBS = (
     ("run", "crc-23-47", "--set", "solver.cycles=2", "-o", "run.h5"),
-    ("sweep", "crc-23-47", "--vary", "operating.gear_torque=100:500:100N*m", "-o", "sweep.h5"),
+    ("sweep", "crc-23-47", "--vary", "operating.gear_torque=100:500:200N*m", "-o", "sweep.h5"),
     ("run", "search.toml", "-o", "search.h5", "--no-plot"),
     ("show", "search.h5"),
 )

@@ -10,6 +10,7 @@ import pytest
 from tests.support.cheap_searches import SEARCH
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.short_studies import shortened, written_template
+from tests.support.soak_parameters import all_in_soak
 from tribodyn.post.page import pdf
 
 #: Modules of Python, of the packages that are used, and of those that Python imports by itself.
@@ -25,8 +26,8 @@ NAMES = sorted(
 #: Commands in order, in one folder.
 VERBS: tuple[tuple[str, ...], ...] = (
     ("run", "irefc", "-o", "one.h5", "--set", "output.samples_per_cycle=8"),
-    ("run", "irefc", "-o", "two.h5", "--set", "output.samples_per_cycle=10", "--plot"),
-    ("run", "search.toml", "-o", "search.h5", "--no-plot"),
+    ("run", "irefc", "-o", "two.h5", "--set", "output.samples_per_cycle=10", "--plot", "--force"),
+    ("run", "search.toml", "-o", "search.h5", "--no-plot", "--force"),
     ("design", "search.toml", "-o", "design.h5", "--force", "--no-plot"),
     ("show", "one.h5"),
     ("plot", "one.h5", "two.h5"),
@@ -42,6 +43,8 @@ VERBS: tuple[tuple[str, ...], ...] = (
     ("schema",),
     ("validate", "efremenkov-2024"),
 )
+#: Of these a drawing, a search in several processes and a check, in `make test`.
+SOME = (*VERBS[1:3], ("check", "crc-23-47"))
 #: The same from Python, in a thread, where a process that looks through records is kept.
 SCRIPT = """
 import sys, threading
@@ -107,14 +110,15 @@ def test_what_is_planted_would_run(planted: Path):
 
 
 @pytest.mark.slow
-def test_no_verb_runs_it(planted: Path, forked: ForkedVerbs):
-    for words in VERBS:
+@pytest.mark.parametrize("verbs", all_in_soak([SOME, VERBS], [SOME]), ids=["some", "all"])
+def test_no_verb_runs_it(verbs: tuple[tuple[str, ...], ...], planted: Path, forked: ForkedVerbs):
+    for words in verbs:
         ended = forked(*words, folder=planted)
         assert ended.returncode == 0, f"{words}: {ended.stderr}"
         assert executed(planted) == [], words
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 def test_no_function_runs_it(planted: Path, forked: ForkedVerbs):
     """From a program that does not itself import from there."""
     if not (planted / "one.h5").exists():
@@ -125,7 +129,9 @@ def test_no_function_runs_it(planted: Path, forked: ForkedVerbs):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("words", [VERBS[0], CLUSTER], ids=["a drawing", "a cluster"])
+@pytest.mark.parametrize(
+    "words", all_in_soak([VERBS[0], CLUSTER], [VERBS[0]]), ids=["a drawing", "a cluster"]
+)
 def test_no_new_process_runs_it(words, planted: Path):
     """The command as it is installed; `python -m` itself imports from the current folder before we begin."""
     more = ("--engine", "dask", "--workers", "1", "-o", "cluster.h5") if words is CLUSTER else ("--force",)

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.killed_sweeps import MOVING_ERROR, differences
+from tests.support.soak_parameters import all_in_soak
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.motion import batch
 from tribodyn.sweep.engines import DaskEngine, Engine, LocalEngine
@@ -63,7 +64,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory):
     return record
 
 
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("way", all_in_soak(WAYS, ("steady", "transient", "followed and refined")))
 def test_interruptions_change_no_bit(way: str, alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     # stopped within the first grid, at its end, and in a later round where there is one
     for chunk, stop, workers in ((1, 1, 2), (2, 2, 1), (1, 1, 2), (1, 1, 1), (3, 0, 2)):

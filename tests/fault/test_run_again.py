@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.cheap_searches import SEARCH
+from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import ROOT, complaint, invoke
 from tribodyn.record.reader import Record
 from tribodyn.record.writing_lock import WritingLock
@@ -182,7 +183,7 @@ def test_a_failed_run_keeps_the_record_and_bars_no_other(scenario: Path, tmp_pat
     assert {path.name for path in tmp_path.iterdir()} == {"mine.h5", "mine.previous.h5", "mine.toml"}
 
 
-@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize("end", all_in_soak([signal.SIGINT, signal.SIGKILL], [signal.SIGKILL]))
 def test_an_interrupted_run_keeps_the_record(end: signal.Signals, scenario: Path, tmp_path: Path):
     cycles(scenario, 2)
     invoke(*RUN, folder=tmp_path)

@@ -165,8 +165,7 @@ STARTS = {
 }
 
 
-@pytest.mark.parametrize("asked", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("start", STARTS)
+@pytest.mark.parametrize(("start", "asked"), [("imports", signal.SIGINT), ("words", signal.SIGTERM)])
 def test_a_start_that_is_interrupted(start: str, asked: signal.Signals, tmp_path: Path):
     """No traceback of imports, and no end without a word."""
     slow = STARTS[start].replace("WAIT", "open('begun', 'w').close(); import time; time.sleep(100)")

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.short_studies import ShortRuns
+from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import complaint, ended, invoke
 from tribodyn.errors import InputError
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
@@ -38,7 +39,7 @@ VERBS = {
 }
 
 
-@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize("verb", all_in_soak(VERBS, ("plot", "report", "gear")))
 def test_a_verb_replaces_its_own_files_and_no_others(verb: str, record: Path, tmp_path: Path):
     words = [str(record) if word == "RECORD" else word for word in VERBS[verb][0]]
     for _ in range(2):

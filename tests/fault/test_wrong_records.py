@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 import tribodyn as td
 from tests.support.record_samples import sweep_record
 from tests.support.short_studies import ShortRuns
+from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import ended
 from tests.support.wrong_records import changed, changes, drawn
 from tribodyn.errors import InputError
@@ -105,7 +106,7 @@ def no_child(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("name", SAMPLES)
 def test_some_changes(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     no_child(monkeypatch)
-    for change in drawn(OLD / f"{name}.h5", 6, seed=1):
+    for change in drawn(OLD / f"{name}.h5", 3, seed=1):
         check(changed(OLD / f"{name}.h5", tmp_path / "a.h5", change), OLD / f"{name}.h5")
 
 
@@ -197,7 +198,7 @@ def test_a_group_of_many_things_is_refused_at_once(tmp_path: Path):
     assert time.process_time() - begun < LIMIT
 
 
-@pytest.mark.parametrize("table", ["", "[operating]\n"])
+@pytest.mark.parametrize("table", all_in_soak(["", "[operating]\n"], ["[operating]\n"]))
 def test_a_scenario_of_many_keys_is_refused_at_once(table: str, tmp_path: Path):
     path = tmp_path / "a.toml"
     keys = "".join(f"key{number} = {number}\n" for number in range(300_000))

@@ -1,17 +1,18 @@
-"""A thousand of the inputs of `make fuzz`: taken, or refused by a readable message; nothing else."""
+"""Half a thousand of the inputs of `make fuzz`: taken, or refused by a readable message; nothing else."""
 
 import os
 import signal
 
 import pytest
 
+from tests.support.soak_parameters import all_in_soak
 from tools.fuzz import targets
 from tools.fuzz.inputs import SHARES, Input, drawn, of_corpus
 from tools.fuzz.records import QUICK
 from tools.fuzz.runs import Result, run_all, run_corpus
 from tools.fuzz.targets import REFUSED, TAKEN
 
-#: With the corpus a thousand.
+#: With the corpus a thousand, of which `make soak` runs all.
 DRAWN = 726
 
 
@@ -33,7 +34,7 @@ def test_what_once_went_wrong():
     assert_sound(run_corpus(), len(inputs))
 
 
-@pytest.mark.parametrize("part", range(3))
+@pytest.mark.parametrize("part", all_in_soak(range(3), [0]))
 def test_drawn_inputs(part: int):
     count = DRAWN // 3
     inputs = quick(range(part * count, (part + 1) * count))

@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.support.soak_parameters import all_in_soak
 from tools.soak.cases import CASES, GROUP
 from tools.soak.outcome import FAULTY, Outcome, run_one
 from tools.soak.outcomes import add, read, store
@@ -17,7 +18,7 @@ def written(found: Outcome, options: str = "") -> str:
     return "\n    ".join([again, *found.faults])
 
 
-@pytest.mark.parametrize("number", SHORT_CASES)
+@pytest.mark.parametrize("number", all_in_soak(SHORT_CASES, (3, 10, 11)))
 def test_a_few_cases(number: int):
     found = run_one(SHORT_SEED, number, short=True)
     assert found.status != FAULTY, written(found, " --short")

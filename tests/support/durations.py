@@ -1,6 +1,7 @@
 """How long tests take: measured into tests/durations.json, which orders files and chooses the quick tests.
 
 `make durations` measures, in seconds of processor time, so that the machine may be busy; only ratios matter.
+`pytest FILE --measure-durations` measures one file anew.
 Files and tests that were never measured run first, and belong to the quick ones.
 """
 
@@ -68,7 +69,7 @@ class Durations:
         self.seconds[_name(report.nodeid)] += report.duration
 
     def pytest_sessionfinish(self, exitstatus: int) -> None:
-        """Write the durations down, in the process that hears of all tests.
+        """Write the durations down, in the process that hears of all tests; of other files what was known.
 
         With `--quick` the longer of both measurements of a test holds, and all else stays: where the first
         user of something expensive is left out, the next one prepares it.
@@ -76,15 +77,24 @@ class Durations:
         wanted = self.config.getoption("--measure-durations") and not hasattr(self.config, "workerinput")
         if not wanted or exitstatus not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
             return
-        tests: Mapping[str, float] = self.seconds
-        files, limit = _by_file(tests), _quick_limit(tests.values())
-        if self.config.getoption("--quick"):
-            files, limit = self.files, self.limit
-            known = self.tests
-            tests = {name: max(tests.get(name, 0.0), known.get(name, 0.0)) for name in {*tests, *known}}
-        listed = {name: seconds for name, seconds in tests.items() if round(seconds, 2) >= LISTED}
-        written = {"quick limit": limit, "files": _longest_first(files), "tests": _longest_first(listed)}
+        measured, known, quick = self.seconds, self.tests, self.config.getoption("--quick")
+        if quick:
+            measured = {name: max(value, known.get(name, 0.0)) for name, value in measured.items()}
+        ran = _by_file(measured)
+        files = dict.fromkeys(files_of_tests(), 0.0)
+        files = {name: self.files.get(name, seconds) for name, seconds in files.items()}
+        files |= {} if quick else ran
+        kept = {name: value for name, value in known.items() if name.partition("::")[0] in files}
+        kept = {name: value for name, value in kept.items() if quick or name.partition("::")[0] not in ran}
+        tests = kept | {name: value for name, value in measured.items() if round(value, 2) >= LISTED}
+        limit = self.limit if quick else _quick_limit(tests.values(), sum(files.values()))
+        written = {"quick limit": limit, "files": _longest_first(files), "tests": _longest_first(tests)}
         MEASURED.write_text(json.dumps(written, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def files_of_tests() -> list[str]:
+    """Files of tests, as the list names them; benches and what `make soak` alone runs are listed with 0."""
+    return sorted(path.relative_to(TESTS).as_posix() for path in TESTS.rglob("test_*.py"))
 
 
 def processor_time(process: str = "self") -> float:
@@ -123,14 +133,13 @@ def _by_file(tests: Mapping[str, float]) -> dict[str, float]:
     return files
 
 
-def _quick_limit(seconds: Iterable[float]) -> float:
-    """Return the duration up to which a test is quick, rounded as in the list."""
-    ordered = sorted(seconds)
-    share = QUICK_SHARE * sum(ordered)
-    limit, total = LISTED, 0.0
+def _quick_limit(listed: Iterable[float], whole: float) -> float:
+    """Return the duration up to which a test is quick, rounded as in the list; `whole`: of all tests, s."""
+    ordered = sorted(listed)
+    limit, total = LISTED, max(0.0, whole - sum(ordered))  # those not listed are quick
     for duration in ordered:
         total += duration
-        if total > share:
+        if total > QUICK_SHARE * whole:
             break
         limit = max(limit, round(duration, 2))
     return limit

@@ -1,7 +1,10 @@
 """Architecture rules 1 and 2: arrows point one way, physics stands alone, a kind of study is one folder."""
 
 import ast
+import json
 import re
+import subprocess
+import tomllib
 from collections import Counter
 from functools import cache
 from pathlib import Path
@@ -9,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import tribodyn
+from tests.support.durations import files_of_tests
 from tools.package_shape import ROOT_FILES, by_file, by_folder, circles, folder, imports, lines, modules
 from tribodyn.studies import STUDIES
 
@@ -91,13 +95,16 @@ def wrong_arrows(source: str, *, typing_only: bool) -> list[str]:
 
 
 @cache
+def nodes(path: Path) -> list[ast.AST]:
+    """All nodes of a file's tree, which takes longer to make than to look through."""
+    return list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+
+
+@cache
 def strings(path: Path) -> set[str]:
     """String constants of a file, those in docstrings not taken apart."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
     return {
-        node.value
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+        node.value for node in nodes(path) if isinstance(node, ast.Constant) and isinstance(node.value, str)
     }
 
 
@@ -205,7 +212,7 @@ def test_a_class_name_means_one_class():
     classes = [
         node.name
         for path in FILES.values()
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in nodes(path)
         if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
     ]
     assert [name for name, count in Counter(classes).items() if count > 1] == []
@@ -214,7 +221,7 @@ def test_a_class_name_means_one_class():
 def test_no_function_takes_more_than_nine_positional_arguments():
     long = []
     for path in ROOT.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text())):
+        for node in nodes(path):
             if isinstance(node, ast.FunctionDef) and len(node.args.posonlyargs + node.args.args) > 9:
                 long.append(f"{path.relative_to(ROOT)}: {node.name}")
     assert long == []
@@ -236,6 +243,26 @@ def test_tests_share_through_support_alone():
         if any(shared.match(line.strip()) for line in path.read_text(encoding="utf-8").splitlines())
     ]
     assert not found, "\n".join(found)
+
+
+def test_every_file_of_tests_is_in_the_order():
+    """`pytest FILE --measure-durations` adds a new one, and takes out what is gone."""
+    listed = json.loads((TESTS / "durations.json").read_text(encoding="utf-8"))["files"]
+    assert sorted(listed) == files_of_tests()
+
+
+def test_nothing_lies_at_the_top_that_no_distribution_holds():
+    """No stray record, picture or pickle: what lies there is part of a source distribution."""
+    top = ROOT.parent
+    kept = subprocess.run(["git", "ls-files"], cwd=top, capture_output=True, text=True, check=False)
+    if kept.returncode != 0 or not (top / ".git").exists():
+        pytest.skip("no repository")
+    project = tomllib.loads((top / "pyproject.toml").read_text(encoding="utf-8"))
+    distributed = {
+        name.strip("/") for name in project["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
+    }
+    found = {line.partition("/")[0] for line in kept.stdout.splitlines()}
+    assert found - distributed - {"pyproject.toml", ".gitignore", ".ci"} == set()
 
 
 def test_one_module_starts_processes():

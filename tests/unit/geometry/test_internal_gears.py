@@ -4,6 +4,7 @@ Planet and ring of a planetary stage, z 36/-93, m 21 mm: the report's figures to
 """
 
 import math
+from itertools import product
 from typing import Any
 
 import jax
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 from tests.support.ring_outlines import penetration
+from tests.support.soak_parameters import all_in_soak
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
 from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
@@ -166,8 +168,10 @@ def test_gradients_by_the_cutter_are_those_of_differences():
     assert np.array(found) == pytest.approx(np.array([by_shift, by_rounding]), rel=1e-7)
 
 
-@pytest.mark.parametrize("off", [0.0, 0.2e-3])
-@pytest.mark.parametrize("shift", [0.1171, -0.2])
+@pytest.mark.parametrize(
+    ("shift", "off"),
+    all_in_soak(product([0.1171, -0.2], [0.0, 0.2e-3]), [(0.1171, 0.2e-3), (-0.2, 0.0)], names=2),
+)
 def test_planet_and_ring_roll_without_penetration(shift: float, off: float):
     """On the flanks they touch: 0 within a nanometre; with backlash the back flanks are its width apart."""
     ring = RING._replace(profile_shift=shift, cutter_teeth=30.0, tip_radius=None, addendum=0.9)

@@ -59,13 +59,12 @@ def estimate(heard, seed: int):
 
 
 @pytest.mark.slow
-def test_a_few_seeds_find_the_truth_within_four_half_widths(heard):
-    for seed in (1, 2):
-        shares, half, truth, rest = estimate(heard, seed)
-        assert np.all(np.abs(shares - truth) < 2.0 * half)
-        assert np.all(half < 0.1)
-        assert np.std(rest) == pytest.approx(NOISE, rel=0.1)
-        assert whiteness(rest) > 1e-3
+def test_a_seed_finds_the_truth_within_four_half_widths(heard):
+    shares, half, truth, rest = estimate(heard, 1)
+    assert np.all(np.abs(shares - truth) < 2.0 * half)
+    assert np.all(half < 0.1)
+    assert np.std(rest) == pytest.approx(NOISE, rel=0.1)
+    assert whiteness(rest) > 1e-3
 
 
 @pytest.mark.soak

@@ -9,6 +9,7 @@ import pytest
 from jax.extend.core import jaxprs_in_params
 
 import tribodyn as td
+from tests.support.soak_parameters import all_in_soak
 from tribodyn.derivatives import numbers
 from tribodyn.derivatives.differentiable import FORWARDS, fixed_of
 from tribodyn.derivatives.quantities import QUANTITIES, PairEvaluation, quantity_of
@@ -227,7 +228,9 @@ def primitives(jaxpr):
             yield from primitives(inner)
 
 
-@pytest.mark.parametrize("name", [*FAMILIES, "helical-23-47"])
+@pytest.mark.parametrize(
+    "name", all_in_soak([*FAMILIES, "helical-23-47"], (INVOLUTE, "spline-23-47", "helical-23-47"))
+)
 def test_no_slope_depends_on_the_equality_of_numbers(name):
     """JAX's slope of a minimum is lost where a program computes its arguments once more and rounds apart."""
     case = td.scenario(name)

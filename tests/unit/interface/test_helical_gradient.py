@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from tests.support.soak_parameters import all_in_soak
 from tribodyn.derivatives.differentiable import fixed_of
 from tribodyn.derivatives.numbers import numbers_of
 from tribodyn.derivatives.quantities import PairEvaluation, quantity_of
@@ -28,6 +29,8 @@ KEYS = {
 }
 #: The gear's face is wider: at equal widths the common one has a kink.
 FEW = {"drive.gear.face_width": "26 mm", "mesh.slices": 5}
+#: What is differentiated as a whole; XLA compiles for as long as there are quantities.
+SOME = ["transmission_error_swing", "efficiency", "hertz_pressure_max"]
 OTHERS = {
     "coupled": {"mesh.hertz": "load-dependent", "drive.hand": "left"},
     "apart": {"mesh.slice_coupling": False},
@@ -43,20 +46,25 @@ def value(case, name):
     return float(quantity_of(case, name).function(PairEvaluation(case, fixed_of(case))))
 
 
-def quantities(case):
+def quantities(case, of=OF):
     at = PairEvaluation(case, fixed_of(case))
-    return np.array([float(quantity_of(case, name).function(at)) for name in OF])
+    return np.array([float(quantity_of(case, name).function(at)) for name in of])
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", OTHERS)
-def test_slopes_are_those_of_other_scenarios(name):
-    overrides = FEW | OTHERS[name]
-    function = td.differentiable(PAIR, OF, list(KEYS), overrides)
+@pytest.mark.parametrize(
+    ("name", "of", "slices"),
+    all_in_soak(
+        [("apart", SOME, 3), *((name, OF, 5) for name in OTHERS)], lambda case: case[1] is SOME, names=3
+    ),
+)
+def test_slopes_are_those_of_other_scenarios(name, of, slices):
+    overrides = FEW | OTHERS[name] | {"mesh.slices": slices}
+    function = td.differentiable(PAIR, of, list(KEYS), overrides)
     values, slopes = function.jacobian(function.at)
-    assert values == pytest.approx(quantities(td.scenario(PAIR, overrides)), rel=1e-10)
+    assert values == pytest.approx(quantities(td.scenario(PAIR, overrides), of), rel=1e-10)
     for key, at, slope in zip(KEYS, function.at, slopes.T, strict=True):
-        ends = [quantities(changed(overrides, key, (1.0 + way * 1e-5) * at)) for way in (1, -1)]
+        ends = [quantities(changed(overrides, key, (1.0 + way * 1e-5) * at), of) for way in (1, -1)]
         expected = (ends[0] - ends[1]) / (2e-5 * at)
         np.testing.assert_allclose(slope, expected, rtol=1e-5, atol=1e-7 * np.abs(values / at).min())
 

@@ -112,6 +112,7 @@ def compare(source, of, groups, overrides=None, rel=1e-5):
             IDLER,
             {"gear.driven.face_width": "36 mm"},
             id="idler",
+            marks=pytest.mark.soak,
         ),
         pytest.param(
             shipped("two-pinions-bull-gear", power="200 kW"),
@@ -124,6 +125,7 @@ def compare(source, of, groups, overrides=None, rel=1e-5):
             ["operating.input_torque", "load.0.torque"],
             {},
             id="torque-put-in",
+            marks=pytest.mark.soak,
         ),
         pytest.param(DRIVE, ["drive.gear.addendum", "drive.module"], {}, id="drive"),
     ],

@@ -51,7 +51,7 @@ print(json.dumps(found))
 #: Studies whose systems are large enough for threads, coarse.
 STUDIES = {
     "ehl": {"output.positions": 4},
-    "load-contact": {"output.positions_per_cycle": 24, "mesh.slices": 21},
+    "load-contact": {"output.positions_per_cycle": 8, "mesh.slices": 21},
 }
 
 

@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 
 import tribodyn as td
 from tests.support.short_studies import FINITE_ELEMENTS, short_case, written_template
+from tests.support.soak_parameters import all_in_soak
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES
@@ -163,7 +164,13 @@ def test_a_quantity_has_one_value(kind: str, short_runs):
         assert brief < full
 
 
-@pytest.mark.parametrize("kind", [kind for kind in RUNS if kind not in ("gear-pair", "gear-train")])
+@pytest.mark.parametrize(
+    "kind",
+    all_in_soak(
+        [kind for kind in KINDS if kind not in ("gear-pair", "gear-train")],
+        lambda kind: kind not in ("design", "assessment", "train-assessment"),
+    ),
+)
 def test_quantities_without_a_record_are_those_of_the_run(kind: str, short_runs, tmp_path: Path):
     study, summary = STUDIES[kind], short_runs(kind).summary
     figures = study.quantities_of(short_case(kind, tmp_path))

@@ -22,7 +22,7 @@ ALSO: dict[str, dict[str, Any]] = {
     "assessment": {"drive.quality": 6},
 }
 #: Kinds that run every family in a second, and those that run one, whose shape has arrays, in seconds.
-QUICK, ONE, FAMILY = ("gear-pair", "efficiency"), ("load-contact", "design"), "spline"
+QUICK, ONE, FAMILY = ("gear-pair", "efficiency"), ("load-contact",), "spline"
 
 
 @cache

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.soak_parameters import all_in_soak
 from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.archive import Archive, SpentError
 from tribodyn.studies.design.candidates.candidates import start_of
@@ -88,7 +89,7 @@ def test_the_minimum_of_a_bowl(method: str, most: int):
     assert archive.evaluations == kept
 
 
-@pytest.mark.parametrize("method", ["cobyqa", "slsqp", "differential-evolution"])
+@pytest.mark.parametrize("method", all_in_soak(["cobyqa", "slsqp", "differential-evolution"], ["slsqp"]))
 def test_a_minimum_on_a_constraint(method: str):
     """Of x² + y² where x + y ≥ 1: both a half."""
     formulas = Formulas(**{F: lambda x, y: 1.0 + x * x + y * y, G: lambda x, y: 2.0 + x + y})

@@ -165,6 +165,7 @@ def test_nothing_of_the_users_is_replaced(tmp_path: Path):
         search(tmp_path / "a.h5")
 
 
+@pytest.mark.soak
 def test_a_cluster_finds_what_this_machine_finds(tmp_path: Path):
     distributed = pytest.importorskip("distributed")
     here = search(tmp_path / "here.h5")
