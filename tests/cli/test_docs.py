@@ -21,6 +21,7 @@ from matplotlib import pyplot
 from typer.main import get_command
 from typer.testing import CliRunner
 
+from tests.support.passed_before import unless_passed
 from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import sets
 from tribodyn.cli.app import app
@@ -144,7 +145,12 @@ def names_of_scenarios() -> frozenset[str]:
 @pytest.mark.parametrize(
     "page", all_in_soak(PAGES_WITH_COMMANDS, lambda page: page.name not in LONG), ids=lambda page: page.name
 )
-def test_commands_run(page: Path, folder: Path):
+def test_commands_run(page: Path, folder: Path, request: pytest.FixtureRequest):
+    with unless_passed(request, page.read_text(encoding="utf-8")):
+        run_commands(page, folder)
+
+
+def run_commands(page: Path, folder: Path) -> None:
     """In the order of the page, in one folder; validations, sweeps and assessments are tested elsewhere."""
     write_tables(page, folder)
     for block in blocks("console"):
@@ -167,10 +173,17 @@ def test_commands_run(page: Path, folder: Path):
             assert ended.exit_code == 0, f"{block}: {shlex.join(words)}\n{ended.output}\n{ended.exception}"
 
 
-def test_the_readme_works_pasted_in_order_into_one_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """Commands, then Python, nothing replaced and nothing there before; sweep and validation as above."""
+def test_the_readme_works_pasted_in_order_into_one_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+):
     monkeypatch.chdir(tmp_path)
     readme = ROOT / "README.md"
+    with unless_passed(request, readme.read_text(encoding="utf-8")):
+        run_all_of(readme)
+
+
+def run_all_of(readme: Path) -> None:
+    """Commands, then Python, nothing replaced and nothing there before; sweep and validation as above."""
     for block in blocks("console"):
         for words in commands(block) if block.page == readme else ():
             if words[0] not in ("validate", "sweep"):
@@ -224,11 +237,12 @@ def test_every_toml_block_is_one_or_the_other():
     ),
     ids=str,
 )
-def test_python_runs(block: Block, folder: Path):
+def test_python_runs(block: Block, folder: Path, request: pytest.FixtureRequest):
     matplotlib.use("agg")
     write_tables(block.page, folder)
     try:
-        exec(compile(block.text, str(block), "exec"), {"__name__": "__main__"})
+        with unless_passed(request, block.page.read_text(encoding="utf-8")):
+            exec(compile(block.text, str(block), "exec"), {"__name__": "__main__"})
     finally:
         pyplot.close("all")
 

@@ -9,6 +9,8 @@ import matplotlib
 import pytest
 from matplotlib import pyplot
 
+from tests.support.passed_before import unless_passed
+
 NOTEBOOKS = sorted((Path(__file__).parents[2] / "docs" / "notebooks").glob("*.md"))
 #: What takes long in a notebook -> a shorter one that runs the same cells.
 SHORTER = {
@@ -45,7 +47,9 @@ def execute(source: str, where: str, line: int, names: dict[str, Any]) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("page", NOTEBOOKS, ids=lambda page: page.stem)
-def test_a_notebook_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_notebook_runs(
+    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+):
     matplotlib.use("agg")
     if page.stem in NEEDS:
         pytest.importorskip(NEEDS[page.stem])
@@ -58,11 +62,12 @@ def test_a_notebook_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyP
     found = cells(text)
     assert len(found) == text.count("```{code-cell}") > 4
     try:
-        for line, source in found:
-            execute(source, str(page), line, names)
+        with unless_passed(request, text):
+            for line, source in found:
+                execute(source, str(page), line, names)
+            assert list(tmp_path.iterdir()) == []  # nothing is left in the reader's folder
     finally:
         pyplot.close("all")
-    assert list(tmp_path.iterdir()) == []  # nothing is left in the reader's folder
 
 
 @pytest.mark.parametrize("page", NOTEBOOKS, ids=lambda page: page.stem)

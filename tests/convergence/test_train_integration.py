@@ -31,11 +31,13 @@ RATTLE = {
     "operating.output_torque_harmonics": [{"amplitude": "400 N*m", "frequency": "600 Hz"}],
     "load.0.torque": "8 N*m",
 }
+#: One law for all, so that they share their kernels.
+RUBBING = {"friction.law": "coulomb", "friction.coefficient": 0.06}
 CYCLES, SAMPLES = 6, 40
 
 
 def model_of(name, formulation="classical", **overrides):
-    return prepare(load_scenario(name, {"mesh.formulation": formulation, **overrides})).model
+    return prepare(load_scenario(name, {"mesh.formulation": formulation, **RUBBING, **overrides})).model
 
 
 def motion(model, method, rtol, initial="static"):

@@ -28,6 +28,7 @@ def share_right(found: dict[tuple[str, str], Ratios], what: str) -> float:
     return sum(hits) / len(hits)
 
 
+@pytest.mark.soak
 def test_fresh_contacts_inside_the_ranges():
     found = ratios(SEED, len(OILS))
     for what in ("film", "friction"):

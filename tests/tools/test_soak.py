@@ -69,6 +69,7 @@ def test_every_sort_has_its_share_and_every_family():
     assert sum(SORTS.values()) == SHARES
 
 
+@pytest.mark.soak
 def test_every_kind_is_drawn_with_every_family(tmp_path):
     """Kinds are those of the registry; of each sort of gears a group has every family."""
     kinds = {opened(name)["kind"] for name in BASES}

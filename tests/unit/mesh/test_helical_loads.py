@@ -214,10 +214,11 @@ def test_deflection_converges_with_the_square_of_the_slices_width(overlap):
     assert np.mean(orders) > 1.8
 
 
+@pytest.mark.soak  # `tests/unit/interface/test_helical_gradient.py` differentiates by the helix angle too
 def test_tables_and_loads_are_traced():
     """Gradient of the mean deflection in the helix angle against a difference quotient."""
     base = helical_pair(1.1)
-    layout = slice_layout(base, ENERGY, 3)._replace(nodes=33)
+    layout = slice_layout(base, ENERGY, 5)._replace(nodes=65)
 
     def mean(angle):
         pair = assemble(involute.FAMILY, base.drive._replace(helix_angle=angle))
