@@ -18,6 +18,7 @@ EXAMPLES = (
     "  tribodyn gear liu-ni-involute-23-47 --set drive.pinion.profile_shift=0.3\n"
     "  tribodyn gear my-drive.toml -o drawings\n"
     "  tribodyn gear liu-ni-crc-23-47 --as-spline 9\n"
+    "  tribodyn gear two-stage-reducer --mesh second\n"
     "\b\nWith -o: the pair as SVG, PNG and DXF; each gear and its rack cutter as DXF;\n"
     "the points of each gear's profile as CSV."
 )
@@ -42,6 +43,9 @@ def gear(
             metavar="N",
         ),
     ] = None,
+    mesh: Annotated[
+        str | None, typer.Option(help="Of a train: the mesh whose gears are meant.", metavar="NAME")
+    ] = None,
     force: ReplaceOption = False,
     json: JsonOption = False,
 ) -> None:
@@ -53,7 +57,7 @@ def gear(
     from tribodyn.studies.gears.check import sheet_tables
     from tribodyn.studies.gears.drive_file import load_drive
 
-    loaded = load_drive(model, overrides(settings))
+    loaded = load_drive(model, overrides(settings), mesh)
     written: list[Path] = []
     if as_spline is not None:
         loaded, file = _fitted(loaded, as_spline, output or Path(), force)

@@ -31,9 +31,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _loaded(model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None) -> DriveModel:
+def _loaded(
+    model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None, mesh: str | None = None
+) -> DriveModel:
     changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
-    return load_drive(in_toml(model) if isinstance(model, Mapping) else str(model), changes)
+    return load_drive(in_toml(model) if isinstance(model, Mapping) else str(model), changes, mesh)
 
 
 class GearPair:
@@ -41,7 +43,7 @@ class GearPair:
 
     Parameters
     ----------
-    model, overrides
+    model, overrides, mesh
         As `drive` takes them.
 
     Attributes
@@ -55,9 +57,12 @@ class GearPair:
     """
 
     def __init__(
-        self, model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None = None
+        self,
+        model: str | Path | Mapping[str, Any],
+        overrides: Mapping[str, Any] | None = None,
+        mesh: str | None = None,
     ) -> None:
-        self._model = _loaded(model, overrides)
+        self._model = _loaded(model, overrides, mesh)
         self.title, self.family = self._model.title, self._model.family
         with self._model.origins.naming():
             self._assembly = check(family(self.family), self._model.drive)
@@ -187,7 +192,11 @@ class GearPair:
 
 @in_python()
 @checked
-def drive(model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> GearPair:
+def drive(
+    model: str | Path | Mapping[str, Any],
+    overrides: Mapping[str, Any] | None = None,
+    mesh: str | None = None,
+) -> GearPair:
     """Make a gear pair, without a load or a speed.
 
     Parameters
@@ -196,6 +205,8 @@ def drive(model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | 
         Name of a shipped drive or scenario, or a file of either sort; or what a drive file holds.
     overrides : mapping, optional
         Dotted key to value: ``{"drive.pinion.profile_shift": 0.3}``.
+    mesh : str, optional
+        Of a scenario of a train: the mesh whose gears are meant, its driver the pinion.
 
     Returns
     -------
@@ -206,7 +217,7 @@ def drive(model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | 
     InputError
         If there is none, or no such gears can be made.
     """
-    return GearPair(model, overrides)
+    return GearPair(model, overrides, mesh)
 
 
 @in_python()

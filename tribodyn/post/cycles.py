@@ -212,12 +212,11 @@ def pair_history(record: Record, name: str) -> tuple[np.ndarray, np.ndarray]:
     return roll[order], np.concatenate(values)[order]
 
 
-def path_limits(record: Record) -> tuple[float, float]:
-    """Find the roll angles at which the path of contact begins and ends, rad.
+def limits_of(table: Mapping[str, Any]) -> tuple[float, float] | None:
+    """Roll angles at which the path of contact of a table begins and ends, rad.
 
-    A table by finite elements reaches beyond both, where the tips' corners touch.
+    None of spur teeth by finite elements, whose table reaches beyond both.
     """
-    table = record.mesh_cycle
     limits = float(table["roll_start"]), float(table["roll_end"])
     reach = (limits[1] - limits[0]) * table["pinion_teeth"] / (2 * np.pi)
     if reach <= table["contact_ratio"] * (1 + 1e-9):
@@ -225,6 +224,17 @@ def path_limits(record: Record) -> tuple[float, float]:
     if "face_position" in table:  # the table begins and ends with the edges of the face
         overlap = (limits[1] - limits[0]) * (1.0 - table["contact_ratio"] / reach)
         return limits[0] + overlap / 2.0, limits[1] - overlap / 2.0
+    return None
+
+
+def path_limits(record: Record) -> tuple[float, float]:
+    """Find the roll angles at which the path of contact begins and ends, rad.
+
+    A table by finite elements reaches beyond both, where the tips' corners touch.
+    """
+    table = record.mesh_cycle
+    if (limits := limits_of(table)) is not None:
+        return limits
     roll, distance = pair_history(record, "signed_distance")
     first, last = (np.hypot(*record.geometry["path_of_contact"][end]) for end in (0, -1))
     return float(np.interp(-first, distance, roll)), float(np.interp(last, distance, roll))

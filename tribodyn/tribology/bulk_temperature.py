@@ -34,7 +34,9 @@ class TemperatureData:
     ambient_temperature: float = 293.15  # K
     #: mean loss to tooth friction, W, where it is known from the motion; None: quasi-static
     mesh_loss: float | None = None
-    other_heat: float = 0.0  # what other meshes give to the same oil, W
+    #: what other meshes, and bearings that are counted with them, give to the same oil and housing, W
+    other_heat: float = 0.0
+    other_housing_heat: float = 0.0
 
 
 class Heat(NamedTuple):

@@ -173,6 +173,9 @@ class LossData:
     oil_volume: float | None = None  # in the sump, m³
     #: (BearingDragData or None, the same), of the pinion's and the gear's shaft
     drag: tuple[BearingDragData | None, BearingDragData | None] = (None, None)
+    #: of a mesh of several: which of both gears it counts, and bearings of shafts with their speeds, rad/s
+    counted: tuple[bool, bool] = (True, True)
+    further: tuple[tuple[BearingDragData, float], ...] = ()
 
 
 def losses_of_pair(
@@ -191,12 +194,14 @@ def losses_of_pair(
         found["churning"] = _sum(iso_14179_1(wheel, viscosity, density) for wheel in dipping)
     if data.windage is not None:
         windage = {"dawson": dawson, "anderson-loewenthal": anderson_loewenthal}[data.windage]
-        found["windage"] = _sum(map(windage, wheels))
+        counted = [wheel for wheel, own in zip(wheels, data.counted, strict=True) if own]
+        found["windage"] = _sum(map(windage, counted))
     if data.bearings is not None:
+        turning = [(drag, wheel.speed) for wheel, drag in zip(wheels, data.drag, strict=True)]
         found["bearings"] = _sum(
-            palmgren(bearings, wheel.speed, viscosity, density)
-            for wheel, bearings in zip(wheels, data.drag, strict=True)
-            if bearings is not None
+            palmgren(drag, speed, viscosity, density)
+            for drag, speed in (*turning, *data.further)
+            if drag is not None
         )
     return found
 

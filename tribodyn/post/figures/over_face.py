@@ -1,7 +1,7 @@
 """Figures of helical pairs: the line load over a flank, and what moves along and about the axes."""
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.post import style
-from tribodyn.post.cycles import last_cycles, path_limits
+from tribodyn.post.cycles import last_cycles, limits_of
 from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import View, abscissa, abscissa_label, record_label, record_title
 from tribodyn.post.figures.scale import scale
@@ -32,41 +32,70 @@ class FlankMap(NamedTuple):
 
 
 def helical(record: Record) -> bool:
-    """Whether a record is of a helical pair."""
+    """Whether a record has the loads of helical pairs in slices."""
     return "line_load" in record and "pair" in record and record.axis == "time"
 
 
-def flank_map(record: Record) -> FlankMap:
+def helical_meshes(record: Record) -> list[int]:
+    """Numbers of the meshes of a train whose pairs are in slices."""
+    names = map(str, record["mesh"])
+    return [m for m, name in enumerate(names) if "face_position" in record.of_mesh(name, "mesh_cycle")]
+
+
+def flank_map(record: Record, mesh: int | None = None) -> FlankMap:
     """Line load (N/m) over a flank; its parts are of the pairs that follow each other in the last cycle.
 
-    Over the roll angle of each section of its own, by which the lines of contact are inclined.
+    Over the roll angle of each section of its own, by which the lines of contact are inclined; of a train of
+    this `mesh`.
     """
-    table, window = record.mesh_cycle, last_cycles(record, 1)
-    fronts = [slot for slot, pair in enumerate(record.pairs) if pair <= 1]
+    table = table_of(record, mesh)
+    if mesh is None:
+        window = last_cycles(record, 1)
+        phase, known = window.phase[:-1], record["line_load"][window.part][:-1]
+    else:
+        cycles = record["mesh_phase"][:, mesh]
+        last = (cycles >= np.floor(cycles[-1]) - 1.0) & (cycles < np.floor(cycles[-1]))
+        phase, known = cycles[last] % 1.0, record["line_load"][last, mesh][..., : len(table["face_position"])]
+    fronts = [
+        slot for slot, pair in enumerate(record.pairs) if pair <= 1 and np.any(np.isfinite(known[:, slot]))
+    ]
     pitch = 2.0 * np.pi / table["pinion_teeth"]
-    phase = window.phase[:-1]
-    turned = np.concatenate([phase + len(fronts) - 1 - slot for slot in fronts[::-1]])
-    loads = np.concatenate([record["line_load"][window.part][:-1, slot] for slot in fronts[::-1]])
-    face = np.asarray(record["slice"])
-    roll = np.linspace(*path_limits(record), _PLACES)
+    turned = np.concatenate([phase + age for age in range(len(fronts))])
+    loads = np.concatenate([known[:, slot] for slot in fronts[::-1]])
+    face = np.asarray(table["face_position"])
+    limits = limits_of(table)
+    assert limits is not None, "of slices"
+    roll = np.linspace(*limits, _PLACES)
     late = face * table["pitch_slope"] / table["pinion_pitch_radius"]
     own = table["roll_start"] + pitch * turned
     values = [np.interp(roll, own - shift, column) for shift, column in zip(late, loads.T, strict=True)]
     return FlankMap(roll, face, np.stack(values))
 
 
+def table_of(record: Record, mesh: int | None) -> dict[str, Any]:
+    """The mesh cycle of a record, of a train that of a mesh."""
+    return record.mesh_cycle if mesh is None else record.of_mesh(str(record["mesh"][mesh]), "mesh_cycle")
+
+
 def line_load_figure(records: Sequence[Record], _view: View) -> Figure:
-    """Draw the line load of a pair over roll angle and face, with its lines of contact."""
-    maps = [flank_map(record) for record in records]
+    """Draw the line load of a pair over roll angle and face, with its lines of contact; of a train of all."""
+    shown: list[tuple[Record, int | None]] = [
+        (record, mesh)
+        for record in records
+        for mesh in (helical_meshes(record) if "mesh" in record else [None])
+    ]
+    maps = [flank_map(*one) for one in shown]
     top = 1e-3 * max(float(np.max(found.values)) for found in maps)
     figure = style.new_figure(style.WIDTH, (style.PANEL_HEIGHT + 0.4) * len(maps) + 0.4)
     rows = figure.subplots(len(maps), 1, squeeze=False)[:, 0]
-    for letter, axes, record, found in zip("abcdefghij", rows, records, maps, strict=False):
-        image = _draw_map(axes, record, found, top)
+    for letter, axes, (record, mesh), found in zip("abcdefghij", rows, shown, maps, strict=False):
+        image = _draw_map(axes, table_of(record, mesh), found, top)
         bar = figure.colorbar(image, ax=axes, label="Line load (N/mm)", pad=0.02)
         bar.outline.set_visible(False)
-        title = record_label(record) if len(records) > 1 else "Line load of one pair from entry to exit"
-        style.mark_panel(axes, letter if len(records) > 1 else "", title)
+        parts = [record_label(record)] if len(records) > 1 else []
+        parts += [] if mesh is None else [style.literal(str(record["mesh"][mesh]))]
+        title = ", ".join(parts) or "Line load of one pair from entry to exit"
+        style.mark_panel(axes, letter if len(shown) > 1 else "", title)
     head = record_title(records[0]) if len(records) == 1 else "Line load of one pair from entry to exit."
     figure.suptitle(
         f"{head}\nWhite: lines of contact, a fifth of a mesh cycle apart; dotted: as a pair enters. "
@@ -78,8 +107,7 @@ def line_load_figure(records: Sequence[Record], _view: View) -> Figure:
     return figure
 
 
-def _draw_map(axes: Axes, record: Record, found: FlankMap, top: float) -> QuadMesh:
-    table = record.mesh_cycle
+def _draw_map(axes: Axes, table: Mapping[str, Any], found: FlankMap, top: float) -> QuadMesh:
     edge = 1e3 * float(table["face_width"]) / 2.0
     roll, face, values = np.degrees(found.roll), 1e3 * found.face, 1e-3 * found.values
     across = np.linspace(-edge, edge, _PLACES)

@@ -9,7 +9,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.cycles import CHANGING, Spectrum, Window, amplitude_spectrum, last_cycles
+from tribodyn.post.cycles import CHANGING, Spectrum, Window, amplitude_spectrum, last_cycles, of_mesh
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, name_above, new_figure
 from tribodyn.record.reader import Record
@@ -160,7 +160,7 @@ def track(record: Record) -> Track:
     per_cycle = whole.samples_per_cycle
     count = round(whole.phase[-1]) - WINDOW
     size, step = WINDOW * per_cycle, min(HOP, max(1, count // MOST_HOPPED)) * per_cycle
-    signal = record["transmission_error_rotational"][whole.part]
+    signal = of_mesh(record["transmission_error_rotational"], 0 if "mesh" in record else None)[whole.part]
     if signal.size < 2 * size:
         raise _too_few(record, round(whole.phase[-1]))
     starts = np.arange(0, signal.size - size, step)
@@ -181,7 +181,8 @@ def _too_few(record: Record, kept: int) -> InputError:
     of, remedies = "", []
     by_turns = record.scenario.get("solver", {}).get("revolutions") is not None
     if ran < 2 * WINDOW:
-        turns = -(-800 // int(record.mesh_cycle["pinion_teeth"]))
+        first = record.mesh_cycle if "mesh" not in record else record.of_mesh(record["mesh"][0], "mesh_cycle")
+        turns = -(-800 // int(first["pinion_teeth"]))
         longer = f"solver.revolutions = {turns}" if by_turns else "solver.cycles = 800"
         remedies.append(f"run at least {2 * WINDOW}: {longer}")
     if ran > kept or by_turns:
@@ -209,7 +210,8 @@ def orders_figure(records: Sequence[Record], view: View) -> Figure:
         below.plot(x, line, color=PALETTE[order - 1], label=f"order {order}")
     below.set_ylabel("Amplitude (µm)")
     below.set_ylim(bottom=0)
-    below.set_xlabel("Time (ms)" if over_time else "Pinion speed (rpm)")
+    of = "Pinion speed" if "dof" in record else "Speed of the first body"
+    below.set_xlabel("Time (ms)" if over_time else f"{of} (rpm)")
     below.legend(ncols=2)
     over = "time" if over_time else "the speed"
     mark_panel(above, "a", f"Amplitudes of the transmission error over its order and {over}")
@@ -231,4 +233,7 @@ def _draw_map(figure: Figure, axes: Axes, x: np.ndarray, tracked: Track) -> None
 
 
 def _pinion_speed(record: Record) -> np.ndarray:
+    """Speed of the pinion, of a train of the body that drives the first mesh."""
+    if "speed" in record:
+        return record["speed"][:, 0]
     return record["velocity"][:, list(record["dof"]).index("theta_p")]

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import Field
 
@@ -39,6 +39,15 @@ class DutyTable(Table):
     power: Power | None = Field(None, description="transmitted, in place of a torque")
 
 
+def given_twice(table: Any, key: str, speeds: Sequence[str], loads: Sequence[str]) -> Iterator[InputError]:
+    """Go through what gives the speed or the load of the table at a key once more; by names of its fields."""
+    for what, names in (("the speed", speeds), ("the load", loads)):
+        first, *others = [name for name in names if getattr(table, name) is not None] or [""]
+        for name in others:
+            rule = f"gives {what}, as {first} does"
+            yield InputError(f"{key}.{name}", None, rule, "leave one of them out")
+
+
 def broken_duty_rules(
     table: DutyTable, key: str = "operating", speed_needed: bool = True
 ) -> list[InputError]:
@@ -49,11 +58,7 @@ def broken_duty_rules(
     speeds, loads = (
         [name for name in names if getattr(table, name) is not None] for names in (SPEEDS, LOADS)
     )
-    errors = [
-        InputError(f"{key}.{name}", None, f"gives {what}, as {first} does", "leave one of them out")
-        for what, (first, *others) in (("the speed", speeds or [""]), ("the load", loads or [""]))
-        for name in others
-    ]
+    errors = [*given_twice(table, key, SPEEDS, LOADS)]
     if not loads:
         errors.append(InputError(f"{key}.gear_torque", rule="missing: the load", remedy=_LOAD_REMEDY))
     if not speeds and "power" in loads:
@@ -102,8 +107,6 @@ def duty_of(table: DutyTable, pinion_teeth: float, gear_teeth: float) -> Duty:
     return Duty(speed, (table.power or 0.0) * ratio / speed)
 
 
-#: What a duty says in place of [operating].
-_TAKEN = (*SPEEDS, *LOADS, "oil_temperature")
 #: Duties of a spectrum.
 MOST_DUTIES = 1000
 
@@ -113,6 +116,10 @@ class SpectrumDuty(DutyTable):
 
     share: Positive = Field(description="of the time; shares count by their sum")
     oil_temperature: Temperature | None = Field(None, description="in place of that of [operating]")
+
+    #: what gives its speed, and its load
+    speeds: ClassVar[tuple[str, ...]] = SPEEDS
+    loads: ClassVar[tuple[str, ...]] = LOADS
 
 
 class OperatingTable(DutyTable):
@@ -168,9 +175,7 @@ def broken_spectrum_rules(scenario: Any) -> Iterator[InputError]:
         has = f"the load spectrum has {len(duties)}" if duties else "there is no load spectrum"
         yield InputError("operating.duty", number, has, "add [[duty]] tables, or name another")
     for place, duty in enumerate(duties):
-        for error in broken_duty_rules(duty, f"duty.{place}"):
-            if "missing" not in error.rule and "without a speed" not in error.rule:
-                yield error
+        yield from given_twice(duty, f"duty.{place}", duty.speeds, duty.loads)
 
 
 def unnamed_duty(scenario: Any) -> Iterator[InputError]:
@@ -182,10 +187,10 @@ def unnamed_duty(scenario: Any) -> Iterator[InputError]:
         yield InputError("operating.duty", None, rule, remedy)
 
 
-def of_duty(error: InputError, number: int) -> InputError:
-    """Name a duty as where a mistake stands that its scenario has in [operating]."""
+def of_duty(error: InputError, number: int, scenario: Any) -> InputError:
+    """Name a duty as where a mistake stands that the scenario with it has in [operating]."""
     table, _, name = error.key.partition(".")
-    known = {*SpectrumDuty.model_fields}
+    known = {*type(scenario.duty[number - 1]).model_fields}
     key = f"duty.{number - 1}.{name}" if table == "operating" and name in known else error.key
     return InputError(key, error.value, error.rule, error.remedy, error.file)
 
@@ -193,7 +198,8 @@ def of_duty(error: InputError, number: int) -> InputError:
 def _with(scenario: Any, number: int) -> Any:
     """The scenario with the keys of one of its duties in [operating]; its duties say all of theirs."""
     duties = tuple(_completed(duty, scenario.operating) for duty in scenario.duty)
-    keys = {name for name in _TAKEN if hasattr(scenario.operating, name)}
+    taken = *duties[0].speeds, *duties[0].loads, "oil_temperature"
+    keys = {name for name in taken if hasattr(scenario.operating, name)}
     update = {name: getattr(duties[number - 1], name) for name in keys} | {"duty": number}
     operating = scenario.operating.model_copy(update=update)
     return scenario.model_copy(update={"operating": operating, "duty": duties})
@@ -202,7 +208,7 @@ def _with(scenario: Any, number: int) -> Any:
 def _completed(duty: SpectrumDuty, operating: Any) -> SpectrumDuty:
     """A duty with what it does not give from [operating]."""
     missing: dict[str, Any] = {}
-    for names in (SPEEDS, LOADS, ("oil_temperature",)):
+    for names in (duty.speeds, duty.loads, ("oil_temperature",)):
         if all(getattr(duty, name) is None for name in names):
             missing |= {name: getattr(operating, name, None) for name in names}
     return duty.model_copy(update=missing)

@@ -1,7 +1,7 @@
 """The tables ``[losses]``, load-independent ones, and ``[temperature]``, of the teeth, from all losses."""
 
-from collections.abc import Iterator
-from typing import Annotated, Literal
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
@@ -29,61 +29,93 @@ class BearingDrag(Table):
     count: Count = Field(2, description="bearings on the shaft")
 
 
-class LossesTable(Table):
-    """Which load-independent losses are added, and what their formulas need."""
+class LossFormulas(Table):
+    """Which load-independent losses are added."""
 
     churning: Literal["changenet-velex", "iso-14179-1"] | None = Field(None, description="formula")
     windage: Literal["dawson", "anderson-loewenthal"] | None = Field(None, description="formula")
     bearings: Literal["palmgren"] | None = Field(None, description="formula")
-    pinion_immersion: Depth = written("0 mm", description="of its tip circle below the oil's level")
-    gear_immersion: Depth = written("0 mm", description="of its tip circle below the oil's level")
     oil_volume: Annotated[float, InUnit(units.positive(units.VOLUME))] | None = Field(
         None, description='in the sump, of churning = "changenet-velex"'
     )
+
+    @property
+    def any(self) -> bool:
+        """Whether there is one."""
+        return bool(self.churning or self.windage or self.bearings)
+
+
+class LossesTable(LossFormulas):
+    """Which load-independent losses are added, and what their formulas need."""
+
+    pinion_immersion: Depth = written("0 mm", description="of its tip circle below the oil's level")
+    gear_immersion: Depth = written("0 mm", description="of its tip circle below the oil's level")
     pinion_bearings: BearingDrag | None = Field(None, description="of the pinion's shaft")
     gear_bearings: BearingDrag | None = Field(None, description="of the gear's shaft")
 
 
 def losses_of(table: LossesTable | None) -> LossData | None:
     """Return what a table asks for; None: no load-independent losses."""
-    if table is None or not (table.churning or table.windage or table.bearings):
+    if table is None or not table.any:
         return None
     numbers = table.model_dump(exclude={"pinion_bearings", "gear_bearings"})
-    return LossData(**numbers, drag=(_drag(table.pinion_bearings), _drag(table.gear_bearings)))
+    return LossData(**numbers, drag=(drag_of(table.pinion_bearings), drag_of(table.gear_bearings)))
 
 
-def _drag(table: BearingDrag | None) -> BearingDragData | None:
+def drag_of(table: BearingDrag | None) -> BearingDragData | None:
+    """Return what a table says of the bearings of a shaft; None: nothing."""
     if table is None:
         return None
     factor = DRAG_FACTORS[table.type] if table.drag_factor is None else table.drag_factor
     return BearingDragData(table.mean_diameter, factor, table.count)
 
 
+class LossKeys(NamedTuple):
+    """Keys of a table of losses, and examples of a missing one: (key, remedy)."""
+
+    immersed: Sequence[str]
+    drags: Sequence[str]
+    immersion: tuple[str, str]
+    bearings: tuple[str, str]
+
+
 def broken_loss_rules(table: LossesTable | None) -> Iterator[InputError]:
     """Go through the rules that the table breaks: what a formula needs, and what none reads."""
     if table is None:
         return
-    immersed = [f"{side}_immersion" for side in SIDES if getattr(table, f"{side}_immersion")]
+    keys = LossKeys(
+        [f"{side}_immersion" for side in SIDES if getattr(table, f"{side}_immersion")],
+        [f"{side}_bearings" for side in SIDES if getattr(table, f"{side}_bearings") is not None],
+        ("gear_immersion", 'add gear_immersion = "20 mm", or pinion_immersion'),
+        (
+            "pinion_bearings",
+            'add [losses.pinion_bearings] with type = "deep-groove-ball" and mean_diameter = "60 mm"',
+        ),
+    )
+    yield from broken_formulas(table, keys)
+
+
+def broken_formulas(table: LossFormulas, keys: LossKeys) -> Iterator[InputError]:
+    """Go through what the formulas of a table need, and what none reads."""
     if table.churning is None:
-        unread = [*immersed, *(["oil_volume"] if table.oil_volume is not None else [])]
+        unread = [*keys.immersed, *(["oil_volume"] if table.oil_volume is not None else [])]
         yield from (_unread(name, "churning", "iso-14179-1") for name in unread)
     else:
-        if not immersed:
-            rule = f"missing: churning = {quoted(table.churning)} needs a gear that dips into the oil"
-            remedy = 'add gear_immersion = "20 mm", or pinion_immersion'
-            yield InputError("losses.gear_immersion", rule=rule, remedy=remedy)
+        if not keys.immersed:
+            (name, remedy), formula = keys.immersion, quoted(table.churning)
+            rule = f"missing: churning = {formula} needs a gear that dips into the oil"
+            yield InputError(f"losses.{name}", rule=rule, remedy=remedy)
         if table.churning == "changenet-velex" and table.oil_volume is None:
             rule, remedy = 'missing: churning = "changenet-velex" needs it', 'add oil_volume = "2 l"'
             yield InputError("losses.oil_volume", rule=rule, remedy=remedy)
         if table.churning != "changenet-velex" and table.oil_volume is not None:
             yield _unread("oil_volume", "churning", "changenet-velex")
-    shafts = [f"{side}_bearings" for side in SIDES if getattr(table, f"{side}_bearings") is not None]
     if table.bearings is None:
-        yield from (_unread(name, "bearings", "palmgren") for name in shafts)
-    elif not shafts:
-        rule = f"missing: bearings = {quoted(table.bearings)} needs the bearings of a shaft"
-        remedy = 'add [losses.pinion_bearings] with type = "deep-groove-ball" and mean_diameter = "60 mm"'
-        yield InputError("losses.pinion_bearings", rule=rule, remedy=remedy)
+        yield from (_unread(name, "bearings", "palmgren") for name in keys.drags)
+    elif not keys.drags:
+        (name, remedy), formula = keys.bearings, quoted(table.bearings)
+        rule = f"missing: bearings = {formula} needs the bearings of a shaft"
+        yield InputError(f"losses.{name}", rule=rule, remedy=remedy)
 
 
 def _unread(name: str, formula: str, choice: str) -> InputError:

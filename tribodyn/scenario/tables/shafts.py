@@ -128,7 +128,7 @@ def broken_shaft_rules(shafts: DrawnShafts | None, bearings: Bearings | None) ->
     for side in SIDES:
         if shafts is None or (shaft := getattr(shafts, side)) is None:
             continue
-        yield from _broken_shaft(f"shaft.{side}", shaft)
+        yield from broken_shaft(f"shaft.{side}", shaft)
         if bearings is not None and bearings.written_out and getattr(bearings, side) is not None:
             rule = f"gives the stiffness of the {side}'s shaft again, which [shaft.{side}] draws"
             yield InputError(f"bearings.{side}", None, rule, f"leave out the one or the other for the {side}")
@@ -138,7 +138,8 @@ def _shown(length: float) -> str:
     return f"{1e3 * length:.6g} mm"
 
 
-def _broken_shaft(key: str, shaft: DrawnShaft) -> Iterator[InputError]:
+def broken_shaft(key: str, shaft: DrawnShaft) -> Iterator[InputError]:
+    """Go through what is wrong with the shaft that a key draws."""
     length = sum(section.length for section in shaft.section)
     thinnest = min(range(len(shaft.section)), key=lambda number: shaft.section[number].diameter)
     for number, section in enumerate(shaft.section):

@@ -31,7 +31,7 @@ from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.drive_file import sheet_of
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.american import agma_part
-from tribodyn.studies.gears.rated.bearings import bearing_part
+from tribodyn.studies.gears.rated.bearings import bearing_part, shafts_of_pair
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins, required
 from tribodyn.studies.gears.rated.limits import not_judged
 from tribodyn.studies.gears.rated.margins import strength_of
@@ -168,7 +168,7 @@ def assessed(
         "not_judged": not_judged(case.limits, case.lubricant.fzg),
         "reasons": numbered(outcome.parted),
         **_duties(case, outcome.capacity),
-        **bearing_part(case, case.lubricant),
+        **bearing_part(shafts_of_pair(case), case.lubricant),
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
         **outcome.judged,
     }

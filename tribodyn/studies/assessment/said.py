@@ -10,7 +10,7 @@ from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.parts import Part
 from tribodyn.studies.assessment.unknowns import described
-from tribodyn.studies.gears.rated.bearings import bearing_remarks
+from tribodyn.studies.gears.rated.bearings import bearing_remarks, shafts_of_pair
 from tribodyn.studies.gears.rated.said import factors_said, life_said
 from tribodyn.studies.gears.rated.strength import metal_remarks
 from tribodyn.studies.protocol.part import TaskResult
@@ -55,7 +55,7 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
             f"{len(case.spectrum)}: at the others its stresses part from the standard's as there. Its own "
             "safeties and lives hang on which duty that is; those by the standard do not."
         )
-    sentences += bearing_remarks(case, case.lubricant)
+    sentences += bearing_remarks(shafts_of_pair(case), case.lubricant)
     scatter = ""
     if settings.samples:
         varied = described(case, settings.unknowns, settings.damping_ratio)

@@ -88,19 +88,24 @@ class _DriveAlone(Table):
     drive: DriveTable
 
 
-def load_drive(model: str | Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> DriveModel:
+def load_drive(
+    model: str | Mapping[str, Any], overrides: Mapping[str, Any] | None = None, mesh: str | None = None
+) -> DriveModel:
     """Read the gear pair of a drive file or of a scenario.
 
     `model` is the name of a shipped drive or scenario, the path of a file of either sort, or what a drive
     file holds; `overrides` are dotted keys, as in a scenario, to values: ``{"drive.pinion.profile_shift":
-    "0.3"}``. Raises InputError if there is no such file, or it describes no pair of gears or is wrong.
+    "0.3"}``; of a train `mesh` names the mesh whose gears are meant. Raises InputError if there is no such
+    file, or it describes no pair of gears or is wrong.
     """
     if isinstance(model, Mapping):
+        _refuse(mesh)
         return _of_table(dict(model), Path("drive"), overrides or {})
     path = find_drive_or_scenario(model)
     written = read_toml(path)
     if "drive" in written or "kind" in written:
-        return _of_scenario(path, overrides or {})
+        return _of_scenario(path, overrides or {}, mesh)
+    _refuse(mesh)
     return _of_table(written, path, overrides or {})
 
 
@@ -134,10 +139,19 @@ def _of_table(written: dict[str, Any], path: Path, overrides: Mapping[str, Any])
     )
 
 
-def _of_scenario(path: Path, overrides: Mapping[str, Any]) -> DriveModel:
+def _refuse(mesh: str | None) -> None:
+    """Refuse a mesh of what has but one."""
+    if mesh is not None:
+        raise InputError("mesh", quoted(mesh), "is of trains: a pair of gears has one mesh", "omit it")
+
+
+def _of_scenario(path: Path, overrides: Mapping[str, Any], mesh: str | None) -> DriveModel:
     case, study, _, origins = load(path, overrides)
     if not study.has_gears:
-        raise _no_pair(path, f"not a pair of gears, but {study.about}")
+        if (whole := study.whole()) is None:
+            raise _no_pair(path, f"not a pair of gears, but {study.about}")
+        return _of_table(whole.pair(case, mesh or "")["drive"], path, {})
+    _refuse(mesh)
     # a quasi-static study needs no masses
     masses = getattr(case, "masses", (BodyMass(), BodyMass()))
     table = tomllib.loads(case.toml)["drive"]

@@ -87,7 +87,10 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
         known = wanted.mesh_loss
         lost = mesh_loss(replace(case, lubricant=lubricant)) if known is None else known
         losses = idle_losses(case, assembly, lubricant_at(oil, around))
-        heat = _heat(lost, losses, wanted.housing_ambient > 0.0, wanted.other_heat)
+        heat = _heat(lost, losses, wanted.housing_ambient > 0.0)
+        heat = heat._replace(
+            oil=heat.oil + wanted.other_heat, housing=heat.housing + wanted.other_housing_heat
+        )
         found, given_off = _temperatures(case, assembly, wanted, heat, lost, supplied)
         latest[:] = [Thermal(lubricant, lost, losses, found, heat, given_off)]
         return found.bulk, found.oil
@@ -181,11 +184,11 @@ def contact_quantities(lubricant: LubricantData, summary: Mapping[str, Any]) -> 
     return {} if warm is None or flash is None else {"contact_temperature_max": float(warm + flash)}
 
 
-def _heat(mesh_loss: float, losses: dict[str, Loss], housing: bool, other: float = 0.0) -> Heat:
-    """Heat by where it arises: that of bearings in the housing, where there is one; `other` in the oil."""
+def _heat(mesh_loss: float, losses: dict[str, Loss], housing: bool) -> Heat:
+    """Heat by where it arises: that of bearings in the housing, where there is one."""
     power = {name: loss.power for name, loss in losses.items()}
     bearings = power.get("bearings", 0.0)
-    in_oil = other + power.get("churning", 0.0) + power.get("windage", 0.0)
+    in_oil = power.get("churning", 0.0) + power.get("windage", 0.0)
     to_oil, to_housing = (in_oil, bearings) if housing else (in_oil + bearings, 0.0)
     return Heat(SHARE * mesh_loss, (1.0 - SHARE) * mesh_loss, to_oil, to_housing)
 

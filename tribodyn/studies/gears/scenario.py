@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import fields
+from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field
@@ -12,7 +13,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
 from tribodyn.mesh.table import MeshData
 from tribodyn.scenario.fields import Slices, head_of
-from tribodyn.scenario.quantity import Switch, model_file
+from tribodyn.scenario.quantity import Switch, Table, Text, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings, broken_bearing_rules
 from tribodyn.scenario.tables.drive_data import masses_of, teeth_of
 from tribodyn.scenario.tables.drive_rules import (
@@ -86,11 +87,30 @@ SampleNumber = Annotated[
 _ALIGNED = MisalignmentTable(from_quality=0.0)
 
 
+class GearboxTable(Table):
+    """A mesh of another scenario."""
+
+    scenario: Text = Field(description="name of a scenario of a train, or its file")
+    mesh: Text = written("", description="name of the mesh; default: the only one")
+
+
 class GearScenario(SpectrumScenario):
     """A scenario of gears; each kind adds its tables."""
 
     kind: Any
+    gearbox: GearboxTable | None = Field(
+        None, description="a mesh of a train, with its duty, in place of drive, and of other tables left out"
+    )
     drive: Annotated[DriveTable, model_file("drives")]
+
+    @classmethod
+    def completed(cls, data: dict[str, Any], folder: Path) -> dict[str, Any]:
+        """A scenario's data with the pair of gears of its `gearbox`, if any; see `of_gearbox.with_pair`."""
+        if "gearbox" not in data:
+            return data
+        from tribodyn.studies.gears.of_gearbox import with_pair  # loads the gearbox
+
+        return with_pair(data, cls, folder)
 
 
 def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:

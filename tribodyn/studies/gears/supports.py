@@ -62,6 +62,8 @@ def supports_of(scenario: Any) -> GearSupports:
 
     Raises InputError where a shaft is not held under the load of its gear, or the teeth have no path.
     """
+    if (known := getattr(scenario, "supports", None)) is not None:  # of a mesh of several
+        return known
     if not has_supports(scenario):
         return GearSupports()
     shafts, bearings = getattr(scenario, "shaft", None), getattr(scenario, "bearings", None)
@@ -74,9 +76,9 @@ def supports_of(scenario: Any) -> GearSupports:
     found: dict[str, GearSupport | None] = dict.fromkeys(SIDES)
     for side, load in zip(SIDES, loads, strict=True):
         if (shaft := drawn[side]) is not None:
-            found[side] = _drawn(f"shaft.{side}", shaft, load)
+            found[side] = drawn_support(f"shaft.{side}", shaft, load)
         elif (matrix := matrices[side]) is not None:
-            found[side] = _on_matrix(f"bearings.{side}.matrix", bearing_of(matrix), load)
+            found[side] = matrix_support(f"bearings.{side}.matrix", bearing_of(matrix), load)
     angle = float(assembly.path.pressure_angle(0.0))
     stand = misalignment_of([_of(one, "displacement") for one in found.values()], angle)
     return GearSupports(found["pinion"], found["gear"], stand, angle)
@@ -84,6 +86,8 @@ def supports_of(scenario: Any) -> GearSupports:
 
 def has_supports(scenario: Any) -> bool:
     """Whether a scenario draws a shaft or gives a matrix."""
+    if (known := getattr(scenario, "supports", None)) is not None:
+        return known.pinion is not None or known.gear is not None
     shafts, bearings = getattr(scenario, "shaft", None), getattr(scenario, "bearings", None)
     drawn = drawn_sides(shafts) if isinstance(shafts, DrawnShafts) else ()
     return bool(drawn) or any(_with_matrix(bearings, side) for side in SIDES)
@@ -149,7 +153,8 @@ def _with_matrix(bearings: Any, side: str) -> Bearing | None:
     return bearing if bearing is not None and bearing.matrix is not None else None
 
 
-def _on_matrix(key: str, data: BearingData, load: Five) -> GearSupport:
+def matrix_support(key: str, data: BearingData, load: Five) -> GearSupport:
+    """What a matrix holds a gear by under a load; InputError where it does not."""
     assert data.matrix is not None
     matrix, force = np.array(data.matrix), np.array(load)
     moved, *_ = np.linalg.lstsq(matrix, force, rcond=None)
@@ -159,7 +164,8 @@ def _on_matrix(key: str, data: BearingData, load: Five) -> GearSupport:
     return GearSupport(data, tuple(moved.tolist()), (0.0,) * 5)
 
 
-def _drawn(key: str, table: DrawnShaft, load: Five) -> GearSupport:
+def drawn_support(key: str, table: DrawnShaft, load: Five) -> GearSupport:
+    """What a shaft as drawn holds its gear by under a load; InputError where it does not."""
     try:
         moved, stiffness, answers = _settled(_shaft_of(table), load)
     except NotHeld as error:

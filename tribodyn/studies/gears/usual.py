@@ -14,7 +14,7 @@ from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.studies.gears.case import GearCase
 from tribodyn.studies.gears.duty import HERTZ, duty_lines, nominal_duty
-from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_rows
+from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_rows, shafts_of_pair
 from tribodyn.studies.protocol.recording import CaseHead, CheckResult, TextTable
 from tribodyn.tribology.oil import T_40, T_100, ZERO_CELSIUS, LubricantData
 
@@ -194,7 +194,7 @@ def with_duty(checked: CheckResult, case: CaseHead) -> CheckResult:
     rows = [(name, f"{_four_digits(value)} {unit}".strip()) for name, (value, unit) in lines.items()]
     table = TextTable("Duty", ("quantity", "value"), rows)
     unusual = unusual_values(case)
-    held = bearing_part(case, getattr(case, "lubricant", None))
+    held = bearing_part(shafts_of_pair(case), getattr(case, "lubricant", None))
     data = {"duty": lines, "unusual": unusual, **held} | checked.data
     tables = [table]
     if held:

@@ -24,7 +24,7 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.gears.check import sheet_and_stiffness
-from tribodyn.studies.gears.rated.bearings import bearing_part, opening_part
+from tribodyn.studies.gears.rated.bearings import bearing_part, opening_part, shafts_of_pair
 from tribodyn.studies.load_contact.along import of_one_cycle
 from tribodyn.studies.load_contact.case import BODIES, LAYOUT, OILED, LoadContactCase
 from tribodyn.studies.load_contact.film import film_over_face
@@ -185,7 +185,7 @@ def loaded_quantities(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, 
         "gear_torque": study.case.operating.gear_torque,
         "slices": study.case.mesh.slices,
         **opening_part(study.case, study.flexible.width),
-        **bearing_part(study.case),
+        **bearing_part(shafts_of_pair(study.case)),
     }
 
 

@@ -5,7 +5,7 @@ torque count positive in its own sense of rotation; x, y are the train's, seen f
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
@@ -16,11 +16,13 @@ from tribodyn.numerics.curve import Table
 from tribodyn.sensing.data import HousingData, SensorData
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gears.case import LubricatedCase, OutputData
+from tribodyn.studies.gears.supports import GearSupport
 from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.train.links.law import LinkLaw
 from tribodyn.train.links.linear import LAW as LINEAR_LINK
 from tribodyn.train.phases import ToothedShaft
 from tribodyn.train.planetary import SetTeeth
+from tribodyn.tribology.law import FilmData, FrictionData
 
 #: As an end of a link: the housing.
 HOUSING = -1
@@ -165,6 +167,7 @@ class Gearbox(CaseHead):
     solver: SolverData
     output: OutputData
     sets: tuple[SetData, ...] = ()
+    supports: Mapping[int, GearSupport] = field(default_factory=dict)  # drawn shafts and matrices, by body
     sensors: tuple[SensorData, ...] = ()
     housing: HousingData = field(default_factory=HousingData)  # that they sit on
     #: whether its file names the meshes: then a record has a dimension over them; else there is one mesh
@@ -178,6 +181,24 @@ class Gearbox(CaseHead):
     def pairs(self) -> tuple[LubricatedCase, ...]:
         """The pair of gears in every mesh."""
         return tuple(mesh.pair for mesh in self.meshes)
+
+    @property
+    def film(self) -> FilmData:
+        """The film law, one in all meshes."""
+        return self.meshes[0].pair.film
+
+    @property
+    def friction(self) -> FrictionData:
+        """The friction law, one in all meshes."""
+        return self.meshes[0].pair.friction
+
+    def under_laws(self, **laws: Any) -> "Gearbox":
+        """The gearbox with other laws, arguments as of `tribology.closure.with_laws`."""
+        from tribodyn.tribology.closure import with_laws  # the registries of all laws
+
+        return replace(
+            self, meshes=tuple(replace(mesh, pair=with_laws(mesh.pair, **laws)) for mesh in self.meshes)
+        )
 
     @property
     def is_pair(self) -> bool:

@@ -9,6 +9,12 @@ import numpy as np
 from tribodyn.dynamics.modes import Modes, modes
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.gears.prepare import PreparedGears
+from tribodyn.studies.gears.rated.bearings import (
+    TurningShaft,
+    bearing_part,
+    bearing_remarks,
+    bearing_rows,
+)
 from tribodyn.studies.gears.usual import with_duty
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.described.alike import together
@@ -63,9 +69,18 @@ def check(given: Gearbox | Case) -> CheckResult:
         "mesh_frequencies": dict(zip(names, mesh_frequencies(prepared), strict=True)),
         "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
     }
+    speed = float(prepared.model.operation.nominal_speed)
+    shafts = [
+        TurningShaft(case.bodies[body].name, held, float(case.bodies[body].ratio) * speed)
+        for body, held in case.supports.items()
+    ]
+    oil = case.meshes[0].pair.lubricant
+    if held := bearing_part(shafts, oil):
+        data |= held
+        tables.insert(0, TextTable("Bearings", *bearing_rows(held["bearings"])))
     tables = [*_train_tables(prepared, train), *_set_tables(prepared), *tables]
     details = list(_once(names, [checked.tables for checked in of_meshes]))
-    remarks = list(_named(names, [checked.remarks for checked in of_meshes]))
+    remarks = [*_named(names, [checked.remarks for checked in of_meshes]), *bearing_remarks(shafts, oil)]
     said = _named(names, [checked.warnings for checked in of_meshes])
     warnings = tuple(dict.fromkeys((*jams(prepared), *said)))
     return CheckResult(data, tables, remarks, warnings, details)

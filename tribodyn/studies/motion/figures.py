@@ -13,6 +13,7 @@ from tribodyn.post import style
 from tribodyn.post.cycles import last_cycles
 from tribodyn.post.figures import by_revolution, over_face, over_mesh, sensed, spectrum
 from tribodyn.post.figures.drawing import Drawing, drawing
+from tribodyn.post.figures.over_face import helical
 from tribodyn.post.figures.panel import (
     ORDER,
     Trace,
@@ -134,6 +135,42 @@ def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], vie
     return figure
 
 
+def _whole(trace: Trace, of: Any, records: Sequence[Record], view: View) -> Figure:
+    """Draw curves by their names, each record in a panel of its own."""
+    figure, rows = _rows(len(records), records)
+    for letter, axes, record in zip(_letters(records), rows, records, strict=True):
+        curves = of(record)
+        draw_curves(axes, record, np.stack(list(curves.values()), axis=1), list(curves), trace, view)
+        style.mark_panel(axes, letter, record_label(record) if len(records) > 1 else trace.title)
+    _finish(figure, rows, records)
+    return figure
+
+
+#: rad to µrad.
+MICRO = 1e6
+AXIAL_FORCE = Trace("axial_force", "Axial force of each mesh on its driver", "$F_a$", "N")
+AXIAL = Trace("z", "Displacement of each body along its axis", "$z$", "µm")
+TILT_X = Trace("tilt_x", "Tilt of each body about x of the train", "tilt", "µrad")
+TILT_Y = TILT_X._replace(dataset="tilt_y", title="Tilt of each body about y of the train")
+
+
+def in_space_figure(records: Sequence[Record], view: View) -> Figure:
+    """Draw of the first record axial forces of its meshes, and motions of bodies along and about axes."""
+    record = records[0]
+    figure, rows = _rows(4, [record])
+    for letter, axes, trace in zip("abcd", rows, (AXIAL_FORCE, AXIAL, TILT_X, TILT_Y), strict=True):
+        names = mesh_labels(record) if trace is AXIAL_FORCE else body_labels(record)
+        values = record[trace.dataset] * (MICRO if trace.unit == "µrad" else 1.0)
+        draw_curves(axes, record, values, names, trace, view)
+        style.mark_panel(axes, letter, trace.title)
+        if trace in (AXIAL_FORCE, AXIAL):
+            axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=7)
+        axes.set_xlabel("" if axes is not rows[-1] else axes.get_xlabel())
+    figure.align_ylabels()
+    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)
+    return figure
+
+
 def _rows(count: int, records: Sequence[Record]) -> tuple[Any, list[Axes]]:
     height = style.PANEL_HEIGHT if count <= _FEW else _LOW
     figure = style.new_figure(style.WIDTH, (height + 0.15) * count + 0.6)
@@ -239,6 +276,16 @@ _OF_TRAIN: dict[str, Drawing] = {
     "normal-load": _per_mesh("normal load of every pair of every mesh", over_mesh.NORMAL_LOAD),
     "friction": _per_mesh("friction coefficient of every pair", over_mesh.FRICTION_COEFFICIENT),
     "film": _per_mesh("film thickness of every pair", over_mesh.FILM_THICKNESS),
+    "entrainment": _per_mesh("entrainment speed of every pair", over_mesh.ENTRAINMENT),
+    "efficiency": Drawing(
+        "instantaneous efficiency of the whole train",
+        partial(_whole, EFFICIENCY, lambda record: {"train": record["efficiency"]}),
+    ),
+    "orders": _OF_PAIR["orders"],
+    "line-load": _OF_PAIR["line-load"],
+    "in-space": Drawing(
+        "axial force of every mesh, axial displacements and tilts of every body", in_space_figure, helical
+    ),
     "film-parameter": _per_mesh("film thickness over roughness", over_mesh.FILM_PARAMETER),
     "pressure": _per_mesh("Hertz pressure of every pair", PRESSURE),
     "mesh-stiffness": _per_mesh("stiffness of every pair", over_mesh.STIFFNESS),

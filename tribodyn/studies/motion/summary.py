@@ -39,6 +39,9 @@ WORST = {
 }
 #: Of the mesh of a pair what it is of the whole gearbox.
 _POWERS = ("power_in_mean", "power_friction_mean", "efficiency")
+#: Load-independent losses; the last is their sum.
+IDLE = ("power_churning", "power_windage", "power_bearings", "power_load_independent")
+_TOLD_ONCE = (*IDLE, "efficiency_with_losses", "losses_outside")
 #: Of an order, not of a mesh's own cycles: not told where the window holds no whole number of them.
 _BY_ORDER = ("transmission_error_harmonics", "spectrum_frequencies", "spectrum_amplitudes")
 
@@ -114,7 +117,7 @@ def steady_quantities(
     duration = float(cycles * operation.pitch_angle / operation.nominal_speed + work[layout.lag])
     whole = {"averaging_cycles": int(cycles), "mesh_frequency": cycles / duration}
     whole |= power_quantities(work, duration, layout)
-    each = []
+    each, idle = [], list[dict[str, Any]]()
     for m, (window, mesh, found) in enumerate(zip(windows, meshes, extremes, strict=True)):
         if case.is_pair and not changes:
             force = _mean_force(prepared, work, cycles)
@@ -130,11 +133,14 @@ def steady_quantities(
         else:
             quantities |= _powers_of_mesh(window, float(work[work_of_mesh(layout, m, FRICTION)]) / duration)
         put_in, efficiency = quantities["power_in_mean"], quantities["efficiency"]
-        quantities |= thermal_quantities(prepared.thermal[m], put_in, efficiency)
+        thermal = thermal_quantities(prepared.thermal[m], put_in, efficiency)
+        if case.named:  # of shafts and gears of several meshes: told of all together
+            idle.append({name: thermal.pop(name) for name in _TOLD_ONCE if name in thermal})
+        quantities |= thermal
         each.append(quantities | found.values())
         each[-1] |= contact_quantities(prepared.pairs[m].lubricant, each[-1])
         each[-1] |= margins_of(case.meshes[m].pair, mesh.assembly, window, each[-1])
-    return whole, each
+    return whole | _idle_losses(whole, idle), each
 
 
 def _mean_force(prepared: PreparedGearbox, work: np.ndarray, cycles: float) -> float:
@@ -160,9 +166,21 @@ def concluded(
     prepared: PreparedGearbox, whole: Mapping[str, Any], each: Sequence[Mapping[str, Any]]
 ) -> dict[str, Any]:
     """The summary of the gearbox: with the worst of its meshes, or with its only mesh where none is named."""
-    if prepared.case.named:
-        return {name: value for name, value in whole.items() if name != "driving_gear"} | worst_of(each)
-    return {**each[0], **whole}
+    if not prepared.case.named:
+        return {**each[0], **whole}
+    return {name: value for name, value in whole.items() if name != "driving_gear"} | worst_of(each)
+
+
+def _idle_losses(whole: Mapping[str, Any], each: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Load-independent losses of all meshes together, and the efficiency with them; nothing without any."""
+    names = [name for name in IDLE if any(name in own for own in each)]
+    if not names:
+        return {}
+    found: dict[str, Any] = {name: sum(float(own.get(name, 0.0)) for own in each) for name in names}
+    put_in = float(whole["power_in_mean"])
+    found["efficiency_with_losses"] = whole["efficiency"] * put_in / (put_in + found[IDLE[-1]])
+    outside = dict.fromkeys(own["losses_outside"] for own in each if "losses_outside" in own)
+    return found | ({"losses_outside": "; ".join(outside)} if outside else {})
 
 
 def worst_of(meshes: Sequence[Mapping[str, Any]]) -> dict[str, Any]:

@@ -1,12 +1,16 @@
 """Temperatures of the meshes of a train: each by its own loss, in oil that all of them heat."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.families import family
 from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.prepare import Thermal, at_own_temperature, at_tooth_temperature
+from tribodyn.studies.gears.prepare import CLOSE as CLOSE_TO
+from tribodyn.studies.gears.prepare import Thermal, at_tooth_temperature
 from tribodyn.studies.gears.tabulated import Tabulated, quasi_static_loss
 from tribodyn.studies.motion.case import Gearbox
+from tribodyn.tribology.losses import Loss
 
 #: Change of a mesh's loss, as a share of it, that is not worth another pass; passes at most.
 CLOSE, PASSES = 1e-3, 8
@@ -19,21 +23,7 @@ def at_tooth_temperatures(case: Gearbox, made: Sequence[Tabulated]) -> list[Warm
 
     In a lumped network all meshes heat one oil and one housing; that heat and the losses settle together.
     """
-    lost: list[Callable[[LubricatedCase], float]] = [quasi_static_loss(each) for each in made]
-    pairs = [mesh.pair for mesh in case.meshes]
-    losses = [_loss(pair, loss) if _shares_oil(case) else 0.0 for pair, loss in zip(pairs, lost, strict=True)]
-    found: list[Warm] = []
-    for _ in range(PASSES):
-        found = [
-            at_tooth_temperature(pair, each.assembly, loss)
-            for pair, each, loss in zip(_heated(case, losses), made, lost, strict=True)
-        ]
-        if not _shares_oil(case):
-            break
-        before, losses = losses, [heat.mesh_loss if heat else 0.0 for _, heat in found]
-        if all(abs(new - old) <= CLOSE * abs(new) for new, old in zip(losses, before, strict=True)):
-            break
-    return found
+    return _settled(case, [each.assembly for each in made], [quasi_static_loss(each) for each in made])
 
 
 def at_own_temperatures(
@@ -44,24 +34,55 @@ def at_own_temperatures(
     `bulk` are the temperatures at which it was run, K; `losses` the mean losses to tooth friction, W. The
     means of these and of those before are taken: the oil of several meshes would swing to and fro.
     """
-    before = [
-        mesh.pair.temperature.mesh_loss if mesh.pair.temperature and len(case.meshes) > 1 else None
-        for mesh in case.meshes
-    ]
+    temperatures = [pair.temperature for pair in case.pairs]
+    before = [known and known.mesh_loss if len(temperatures) > 1 else None for known in temperatures]
     losses = [
         lost if known is None else 0.5 * (lost + known) for lost, known in zip(losses, before, strict=True)
     ]
-    pairs = [
-        at_own_temperature(pair, warm, lost)
-        for pair, warm, lost in zip(_heated(case, losses), bulk, losses, strict=True)
+    meshes = [
+        replace(mesh, pair=_knowing(mesh.pair, lost)) for mesh, lost in zip(case.meshes, losses, strict=True)
     ]
-    if not any(pairs):
+    again = replace(case, meshes=tuple(meshes))
+    to_be_settled = [known is not None and lost >= 0.0 for known, lost in zip(bulk, losses, strict=True)]
+    if not any(to_be_settled):
         return None
-    known = [
-        pair or _knowing(mesh.pair, lost) for pair, mesh, lost in zip(pairs, case.meshes, losses, strict=True)
-    ]
-    meshes = (replace(mesh, pair=pair) for mesh, pair in zip(case.meshes, known, strict=True))
-    return replace(case, meshes=tuple(meshes))
+    assemblies = [assemble(family(pair.family), pair.drive) for pair in case.pairs]
+    warm = _settled(again, assemblies, [lambda _, lost=lost: lost for lost in losses])
+    for (_, thermal), known, wanted in zip(warm, bulk, to_be_settled, strict=True):
+        if not wanted or known is None or thermal is None or thermal.temperatures is None:
+            continue
+        if abs(thermal.temperatures.bulk - known) > CLOSE_TO:
+            return again
+    return None
+
+
+def _settled(
+    case: Gearbox, assemblies: Sequence[Assembly], lost: Sequence[Callable[[LubricatedCase], float]]
+) -> list[Warm]:
+    """The pairs at the temperatures of their teeth, by functions that give their losses to friction."""
+    shared = _shares_oil(case)
+    losses = [_loss(pair, loss) if shared else 0.0 for pair, loss in zip(case.pairs, lost, strict=True)]
+    idle: list[dict[str, Loss]] = [{} for _ in losses]
+    found: list[Warm] = []
+    for _ in range(PASSES):
+        heated = _heated(case, losses, idle) if shared else case.pairs
+        found = [
+            at_tooth_temperature(pair, assembly, loss)
+            for pair, assembly, loss in zip(heated, assemblies, lost, strict=True)
+        ]
+        if not shared:
+            break
+        before = [lost + _power(own) for lost, own in zip(losses, idle, strict=True)]
+        losses = [heat.mesh_loss if heat else 0.0 for _, heat in found]
+        idle = [heat.losses if heat else {} for _, heat in found]
+        now = [lost + _power(own) for lost, own in zip(losses, idle, strict=True)]
+        if all(abs(new - old) <= CLOSE * abs(new) for new, old in zip(now, before, strict=True)):
+            break
+    return found
+
+
+def _power(losses: Mapping[str, Loss]) -> float:
+    return sum(loss.power for loss in losses.values())
 
 
 def _shares_oil(case: Gearbox) -> bool:
@@ -76,16 +97,21 @@ def _loss(pair: LubricatedCase, quasi_static: Callable[[LubricatedCase], float])
 
 def _knowing(pair: LubricatedCase, lost: float) -> LubricatedCase:
     """The pair with the loss of its motion."""
-    return pair and replace(pair, temperature=pair.temperature and replace(pair.temperature, mesh_loss=lost))
+    return replace(pair, temperature=pair.temperature and replace(pair.temperature, mesh_loss=lost))
 
 
-def _heated(case: Gearbox, losses: Sequence[float]) -> list[LubricatedCase]:
-    """The pairs with what the other meshes give to their oil."""
-    pairs = [mesh.pair for mesh in case.meshes]
-    if not _shares_oil(case):
-        return pairs
-    total = sum(losses)
-    return [
-        replace(pair, temperature=pair.temperature and replace(pair.temperature, other_heat=total - lost))
-        for pair, lost in zip(pairs, losses, strict=True)
-    ]
+def _heated(
+    case: Gearbox, losses: Sequence[float], idle: Sequence[Mapping[str, Loss]]
+) -> list[LubricatedCase]:
+    """The pairs with what the other meshes give to their oil and housing."""
+    found = []
+    for pair, lost, own in zip(case.pairs, losses, idle, strict=True):
+        known = pair.temperature
+        assert known is not None, "they share one oil"
+        bearings = [each["bearings"].power if "bearings" in each else 0.0 for each in idle]
+        of_others = sum(bearings) - (own["bearings"].power if "bearings" in own else 0.0)
+        in_housing = of_others if known.housing_ambient > 0.0 else 0.0
+        whole = sum(losses) - lost + sum(map(_power, idle)) - _power(own)
+        heat = {"other_heat": whole - in_housing, "other_housing_heat": in_housing}
+        found.append(replace(pair, temperature=replace(known, **heat)))
+    return found

@@ -140,6 +140,8 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     study, kind = study_of(data), data.get("kind")
     model = study.table(data)
     try:
+        if (completed := getattr(model, "completed", None)) is not None:
+            data = completed(data, path.parent)
         if isinstance(kind, str) and kind not in STUDIES:
             unknown = unknown_name("kind", kind, STUDIES, STUDIES.what)
             raise outside(unknown, kind, remedy=unknown.remedy) or unknown
@@ -183,7 +185,7 @@ def _broken_rules(study: Study, scenario: Any) -> Iterator[InputError]:
         for error in study.broken_rules(duty):
             if str(error) not in known:
                 known.add(str(error))
-                yield of_duty(error, number)
+                yield of_duty(error, number, scenario)
     if not known:
         yield from study.broken_rules(in_force(scenario))
 

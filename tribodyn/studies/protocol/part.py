@@ -148,3 +148,6 @@ class WholeDrive(NamedTuple):
     #: (case, scenario as a file has it, factor) -> the scenario at that factor of its speed, torques the same
     at_speed: Callable[[Any, Mapping[str, Any], float], dict[str, Any]]
     speed: Callable[[Any], float]  # of the input of a case, rad/s
+    #: (case, name of a mesh or "": the only one) -> the scenario of its pair of gears at its duty, as a file
+    #: has it; raises InputError for a mesh that is not there, with the key "mesh"
+    pair: Callable[[Any, str], dict[str, Any]]

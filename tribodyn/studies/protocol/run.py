@@ -97,7 +97,8 @@ def with_law(
     if table == "wear":
         return replace(_written(case, data), wear=WearData(own))  # pyright: ignore[reportCallIssue]
     laws: dict[str, Any] = {table: own}
-    return with_laws(cast(Any, _written(case, data)), **laws)
+    changed = cast(Any, _written(case, data))
+    return changed.under_laws(**laws) if hasattr(changed, "under_laws") else with_laws(changed, **laws)
 
 
 def with_link_law(case: CaseHead, name: str, law: LinkLaw | Callable[..., Any]) -> CaseHead:

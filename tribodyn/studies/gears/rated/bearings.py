@@ -1,7 +1,7 @@
 """Bearings of drawn shafts: their loads, rating lives and losses, and the tilts of the gears."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from tribodyn.geometry.drive import SIDES
@@ -20,7 +20,7 @@ from tribodyn.standards.rolling_bearings import (
     running_time,
 )
 from tribodyn.studies.gears.case import GearCase
-from tribodyn.studies.gears.supports import BearingUnderLoad
+from tribodyn.studies.gears.supports import BearingUnderLoad, GearSupport
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
 from tribodyn.tribology.oil import LubricantData
 
@@ -33,16 +33,33 @@ class RatedBearing(NamedTuple):
     remarks: tuple[str, ...]
 
 
-def rated_bearings(case: GearCase, oil: LubricantData | None = None) -> Iterator[RatedBearing]:
-    """Go through the bearings of a case's drawn shafts, under the mean load of the mesh.
+class TurningShaft(NamedTuple):
+    """A drawn shaft, if it is one, at its speed."""
+
+    name: str
+    held: GearSupport | None
+    speed: float  # rad/s
+
+
+def shafts_of_pair(case: GearCase) -> tuple[TurningShaft, ...]:
+    """The shafts of a pair."""
+    ratio = abs(float(case.drive.pinion.teeth / case.drive.gear.teeth))
+    return tuple(
+        TurningShaft(side, held, case.operating.pinion_speed * (1.0 if side == "pinion" else ratio))
+        for side, held in zip(SIDES, case.supports[:2], strict=True)
+    )
+
+
+def rated_bearings(
+    shafts: Sequence[TurningShaft], oil: LubricantData | None = None
+) -> Iterator[RatedBearing]:
+    """Go through the bearings of drawn shafts, under the mean loads of their meshes.
 
     Lives need a speed and C; losses the oil besides, and C_0 of balls. What is missing is left out and said.
     """
-    ratio = abs(float(case.drive.pinion.teeth / case.drive.gear.teeth))
-    for side, held in zip(SIDES, case.supports[:2], strict=True):
-        speed = case.operating.pinion_speed * (1.0 if side == "pinion" else ratio)
+    for name, held, speed in shafts:
         for number, bearing in enumerate(held.bearings if held is not None else (), start=1):
-            yield _rated(f"{side}-{number}", bearing, speed, oil)
+            yield _rated(f"{name}-{number}", bearing, speed, oil)
 
 
 def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantData | None) -> RatedBearing:
@@ -118,9 +135,9 @@ def _reference_life(bearing: BearingUnderLoad) -> float:
     return reference_life_of_rollers(bearing.loads, *sizes)
 
 
-def bearing_part(case: GearCase, oil: LubricantData | None = None) -> dict[str, Any]:
+def bearing_part(shafts: Sequence[TurningShaft], oil: LubricantData | None = None) -> dict[str, Any]:
     """What a summary has of drawn shafts: ``bearings``, by their names; nothing where none is drawn."""
-    found = {bearing.name: bearing.numbers for bearing in rated_bearings(case, oil)}
+    found = {bearing.name: bearing.numbers for bearing in rated_bearings(shafts, oil)}
     return {"bearings": found} if found else {}
 
 
@@ -134,9 +151,9 @@ def bearing_rows(found: Mapping[str, Mapping[str, float]]) -> tuple[tuple[str, .
     return ("", *(f"{one.symbol or one.label} ({one.unit})" for one in shown)), rows
 
 
-def bearing_remarks(case: GearCase, oil: LubricantData | None = None) -> list[str]:
+def bearing_remarks(shafts: Sequence[TurningShaft], oil: LubricantData | None = None) -> list[str]:
     """What is missing of the bearings' data, and what their numbers leave out."""
-    rated = list(rated_bearings(case, oil))
+    rated = list(rated_bearings(shafts, oil))
     remarks = [remark for bearing in rated for remark in bearing.remarks]
     if any("equivalent_load" in bearing.numbers for bearing in rated):
         remarks.append(

@@ -4,9 +4,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.scenario.tables.duty import given_twice
 from tribodyn.studies.motion.case import LoadData
 from tribodyn.studies.motion.described.drawn import Moving, ends_of
-from tribodyn.studies.motion.described.tables import LoadTable, TrainOperating
+from tribodyn.studies.motion.described.duty_tables import LoadTable, TrainOperating
 from tribodyn.train.statics import Torques, nominal_torques
 
 _SPEEDS, _LOADS = ("input_speed", "output_speed"), ("output_torque", "input_torque", "power")
@@ -41,14 +42,10 @@ def broken_duty_rules(scenario: Any) -> Iterator[InputError]:
             if getattr(operating, name) and (name != "input_torque" or operating.source == "speed"):
                 rule = "is of the output, and there is none"
                 yield InputError(f"operating.{name}", None, rule, 'add output = "wheel", or leave it out')
+    names = [name for name in _LOADS if name != "input_torque" or operating.motor_torque is None]
+    yield from given_twice(operating, "operating", _SPEEDS, names)
     speeds = [name for name in _SPEEDS if getattr(operating, name) is not None]
-    loads = [name for name in _LOADS if getattr(operating, name) is not None]
-    if operating.motor_torque is not None:
-        loads.remove("input_torque")
-    for what, (first, *others) in (("the speed", speeds or [""]), ("the load", loads or [""])):
-        for name in others:
-            rule = f"gives {what}, as {first} does"
-            yield InputError(f"operating.{name}", None, rule, "leave one of them out")
+    loads = [name for name in names if getattr(operating, name) is not None]
     if not speeds:
         remedy = 'add input_speed = "1500 rpm", or output_speed'
         yield InputError("operating.input_speed", None, "missing: the speed", remedy)

@@ -3,14 +3,21 @@
 from math import pi
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag
 
-from tribodyn.errors import quoted
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario import fields, quantity, units
-from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Number, Table, Text, csv_file, written
+from tribodyn.scenario.quantity import (
+    Count,
+    InUnit,
+    NotNegative,
+    Number,
+    Table,
+    Text,
+    csv_file,
+    written,
+)
 from tribodyn.scenario.tables.bearings import Bearing, Stiffness
-from tribodyn.scenario.tables.duty import Power, Speed
 from tribodyn.scenario.tables.laws import LawTable
 from tribodyn.scenario.tables.material import Described
 from tribodyn.scenario.tables.model_files import (
@@ -30,7 +37,7 @@ from tribodyn.scenario.tables.model_files import (
     PressureAngle,
     Rack,
 )
-from tribodyn.studies.gears.motion import MOST_HARMONICS, TorqueHarmonic
+from tribodyn.scenario.tables.shafts import DrawnShaft
 from tribodyn.train.links import LINK_LAWS
 from tribodyn.train.planetary import CARRIER, RING, SUN
 
@@ -46,19 +53,6 @@ SpringStiffness = Annotated[float, InUnit(units.not_negative(units.STIFFNESS))]
 Damping = Annotated[float, InUnit(units.not_negative(units.DAMPING))]
 PartName = Annotated[str, Field(strict=True, pattern=r"^\w[\w-]*$")]
 """Name of a gear, a shaft or a body: keys are made of it."""
-
-
-def _one_place(value: Any) -> Any:
-    """Refuse several inputs, or what is no name."""
-    if isinstance(value, (list, tuple)) and len(value) != 1:
-        raise quantity.broken(
-            "a train has one input", "name one gear, shaft or body; others may be a [[load]]"
-        )
-    if value is not None and not isinstance(value, str):
-        raise quantity.broken(
-            "not the name of a gear, a shaft or a body", f"write it like {quoted('pinion')}"
-        )
-    return value
 
 
 class TrainGear(Gear):
@@ -187,7 +181,10 @@ class Shaft(LinkTable):
     """Gears that turn together: one rigid body, or two bodies with a torsional spring between them."""
 
     name: PartName
-    gears: tuple[Text, ...] = Field(min_length=2, description="that turn together; two on a compliant shaft")
+    gears: tuple[Text, ...] = Field(
+        min_length=1, description="that turn together; two on a compliant shaft, one on one that is drawn"
+    )
+    drawn: DrawnShaft | None = Field(None, description="of one gear between its bearings: how it bends")
     stiffness: fields.TorsionalStiffness | None = Field(None, description="torsional; default: rigid")
     damping: fields.TorsionalDamping = written("0 N*m*s/rad", description="of a compliant shaft")
     damping_ratio: NotNegative = Field(0.0, description="of a compliant shaft, of its two gears against it")
@@ -260,69 +257,3 @@ class TrainBearings(Described, extra="allow"):
     def by_name(self) -> dict[str, Bearing]:
         """The bearings by the names under which they stand."""
         return dict(self.__pydantic_extra__ or {})
-
-
-class LoadTable(Table):
-    """What a gear, a shaft or a body drives beside the output."""
-
-    at: Text = Field(description="gear, shaft or body")
-    torque: fields.Torque = Field(description="against its motion; negative where it drives")
-    inertia: fields.Inertia = written("0 kg*m**2")
-    damping: fields.TorsionalDamping = written(
-        "0 N*m*s/rad", description="torque that grows with speed above nominal"
-    )
-    torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
-        None, description="over time, added"
-    )
-    torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), max_length=MOST_HARMONICS, description="added")
-
-
-class TrainOperating(Table):
-    """Where power enters and leaves, at which speed and load, and how the train is driven."""
-
-    input: Annotated[Text | None, BeforeValidator(_one_place)] = Field(
-        None, description='gear, shaft or body at which power enters; with [drive]: default "pinion"'
-    )
-    output: Text | None = Field(
-        None, description='at which it leaves; several: [[load]]; with [drive]: default "gear"'
-    )
-    sense: Literal["clockwise", "counter-clockwise"] = Field(
-        "clockwise", description="of the input's rotation, seen from +z"
-    )
-    input_speed: Speed | None = Field(None, description="of the input")
-    output_speed: Speed | None = Field(None, description="of the output, in place of the input's")
-    output_torque: fields.Torque | None = Field(
-        None, description="against the output's motion; negative where it drives"
-    )
-    input_torque: fields.Torque | None = Field(None, description="on the input, in place of the output's")
-    power: Power | None = Field(None, description="put in, in place of a torque")
-    oil_temperature: fields.Temperature | None = Field(
-        None, description="where the oil enters the meshes; for a lubricant given by its data sheet"
-    )
-    source: Literal["speed", "torque"] = Field(
-        "speed", description="speed: the input's rotation is prescribed; torque: a motor with inertia"
-    )
-    output_torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
-        None, description="over time, added to the output's torque"
-    )
-    output_torque_harmonics: tuple[TorqueHarmonic, ...] = Field(
-        (), max_length=MOST_HARMONICS, description="added to the output's torque"
-    )
-    load_inertia: fields.Inertia = written("0 kg*m**2", description="of what the output drives")
-    load_damping: fields.TorsionalDamping = written(
-        "0 N*m*s/rad", description="output torque that grows with speed above nominal"
-    )
-    drive_inertia: fields.Inertia = written("0 kg*m**2", description="of the motor")
-    shaft_stiffness: fields.TorsionalStiffness | None = Field(
-        None, description="between motor and input; default: rigid"
-    )
-    shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
-    speed_regulation: fields.TorsionalDamping = written(
-        "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
-    )
-
-    @property
-    def motor_torque(self) -> float | None:
-        """Torque of the motor, given beside the load; None: it balances the load without losses."""
-        beside = self.output_torque is not None or self.power is not None
-        return self.input_torque if beside else None

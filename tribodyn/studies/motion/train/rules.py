@@ -6,6 +6,7 @@ from typing import Any
 from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.scenario.tables.bearings import broken_bearing
 from tribodyn.scenario.tables.drive_data import gives_backlash
+from tribodyn.scenario.tables.duty import unnamed_duty
 from tribodyn.scenario.tables.sensors import broken_sensor_rules
 from tribodyn.studies.gears.damage_rules import broken_damage
 from tribodyn.studies.gears.motion import (
@@ -19,8 +20,12 @@ from tribodyn.studies.gears.scenario import broken_gear_rules
 from tribodyn.studies.motion.described.drawn import Moving, drawn, in_terms_of_train, moving
 from tribodyn.studies.motion.described.duty import broken_duty_rules, duty_of
 from tribodyn.studies.motion.described.names import broken_names, broken_sort
+from tribodyn.studies.motion.described.tables import PlanetaryStage
+from tribodyn.studies.motion.train.losses import broken_losses
 from tribodyn.studies.motion.train.own_teeth import gears_of_train
-from tribodyn.studies.motion.train.scenario import Scenario, pair_view, reference_teeth
+from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
+from tribodyn.studies.motion.train.scenario import Scenario
+from tribodyn.studies.motion.train.supports import broken_drawn_shafts
 from tribodyn.train.links.linear import LAW as LINEAR_LINK
 
 
@@ -33,9 +38,12 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         *broken_names(scenario),
         *_of_all_gears(scenario),
         *_bearings(scenario),
+        *broken_drawn_shafts(scenario),
+        *_in_sets(scenario),
         *_link_laws(scenario),
         *broken_source_rules(scenario.operating, "input_torque"),
         *broken_duty_rules(scenario),
+        *unnamed_duty(scenario),
     ]
     if not isinstance(scenario.mesh, tuple):
         broken += [
@@ -58,7 +66,8 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
     except InputError as error:
         yield error
         return
-    if broken := [*_each_mesh_once(train), *_hands(train), *_pairs(scenario, train)]:
+    of_losses = broken_losses(scenario.losses, train)
+    if broken := [*_each_mesh_once(train), *_hands(train), *of_losses, *_pairs(scenario, train)]:
         yield from broken
         return
     if scenario.damage and isinstance(scenario.mesh, tuple):
@@ -146,9 +155,28 @@ def _stiffness_of_stages(stages: Any, compliance: str) -> Iterator[InputError]:
 def _bearings(scenario: Scenario) -> Iterator[InputError]:
     for name, bearing in scenario.bearings.by_name.items():
         yield from broken_bearing(f"bearings.{name}", bearing)
-        if bearing.matrix is not None:
-            remedy = "give stiffness_x, stiffness_y and damping_ratio"
-            yield InputError(f"bearings.{name}.matrix", None, "is taken of gear pairs alone", remedy)
+        if bearing.matrix is not None and name in ("default", *_of_sets(scenario)) and _of_sets(scenario):
+            rule = "couples directions in which bodies of planetary stages do not move"
+            remedy = (
+                "give these stiffness_x, stiffness_y and damping_ratio, and others matrices by their names"
+            )
+            yield InputError(f"bearings.{name}.matrix", None, rule, remedy)
+
+
+def _of_sets(scenario: Scenario) -> set[str]:
+    """Names of what is in planetary stages, and of the shafts that join it."""
+    stages = [stage for stage in scenario.stage if isinstance(stage, PlanetaryStage)]
+    names = {name for stage in stages for name in (*stage.members.values(), stage.planet)}
+    return names | {shaft.name for shaft in scenario.shaft if names & set(shaft.gears)}
+
+
+def _in_sets(scenario: Scenario) -> Iterator[InputError]:
+    """Refuse to draw shafts of gears of planetary stages."""
+    names = _of_sets(scenario)
+    for number, shaft in enumerate(scenario.shaft):
+        if shaft.drawn is not None and shaft.name in names:
+            rule = "is of a planetary stage, whose bodies move in the plane"
+            yield InputError(f"shaft.{number}.drawn", None, rule, "give it a stiffness in [bearings]")
 
 
 def _link_laws(scenario: Scenario) -> Iterator[InputError]:

@@ -1,16 +1,18 @@
 """The scenario of a train, and the case that is made of it."""
 
-from typing import Annotated, Any, Literal, NamedTuple
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import Discriminator, Field, Tag
 
-from tribodyn.dynamics.data import BearingData, OperatingData
+from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.drive import SIDES, BodyMass
 from tribodyn.scenario.fields import ScenarioHead, head_of
-from tribodyn.scenario.quantity import Count, model_file, written
-from tribodyn.scenario.tables.bearings import bearing_of
+from tribodyn.scenario.quantity import Count, csv_tables, model_file, written
+from tribodyn.scenario.tables.bearings import Bearing, bearing_of
 from tribodyn.scenario.tables.damage import Damages
 from tribodyn.scenario.tables.drive_data import masses_of, materials_of, teeth_of
+from tribodyn.scenario.tables.duty import MOST_DUTIES
 from tribodyn.scenario.tables.laws import law_values
 from tribodyn.scenario.tables.material import MaterialReference
 from tribodyn.scenario.tables.model_files import (
@@ -35,6 +37,7 @@ from tribodyn.studies.gears.motion import (
 )
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
+from tribodyn.studies.gears.supports import GearSupport
 from tribodyn.studies.motion.case import (
     HOUSING,
     BodyData,
@@ -46,22 +49,24 @@ from tribodyn.studies.motion.case import (
 )
 from tribodyn.studies.motion.described.drawn import Drawn, Moving, drawn, moving
 from tribodyn.studies.motion.described.duty import TrainDuty, duty_of, motor_torque
-from tribodyn.studies.motion.described.structure import bearings_by_body, mesh_table
+from tribodyn.studies.motion.described.duty_tables import LoadTable, TrainOperating, TrainSpectrumDuty
+from tribodyn.studies.motion.described.structure import bearings_by_body
 from tribodyn.studies.motion.described.tables import (
     MOST_PARTS,
     AnyStage,
     BareBody,
     BareMesh,
     Link,
-    LoadTable,
     PartName,
     Shaft,
     TrainBearings,
     TrainGear,
-    TrainOperating,
 )
 from tribodyn.studies.motion.planetary.linked import links_of_set, set_data
+from tribodyn.studies.motion.train.losses import TrainLossesTable, losses_of_meshes
 from tribodyn.studies.motion.train.own_teeth import own_teeth
+from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
+from tribodyn.studies.motion.train.supports import supports_of_bodies, supports_of_mesh
 from tribodyn.train.links import LINK_LAWS
 
 
@@ -104,9 +109,16 @@ class GearTrainScenario(ScenarioHead):
     lubricant: Oil
     bearings: Annotated[TrainBearings, model_file("bearings")] = written("rigid-1e9")
     operating: TrainOperating
+    duty: Annotated[
+        tuple[TrainSpectrumDuty, ...],
+        csv_tables(
+            "CSV file with a row for each duty: share [1], output_torque [N*m], …", "share", "output_torque"
+        ),
+    ] = Field((), max_length=MOST_DUTIES, description="load spectrum: duties with shares of time")
     load: tuple[LoadTable, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
     mesh: Meshes = Field(description="of all stages; a list: the meshes of a bare model")
     temperature: TemperatureKeys = None
+    losses: TrainLossesTable | None = Field(None, description="load-independent losses; default: none")
     film: FilmKeys = None
     friction: Friction
     solver: TrainSolver = written({})
@@ -119,42 +131,6 @@ class GearTrainScenario(ScenarioHead):
 Scenario = GearTrainScenario
 
 
-class PairView(NamedTuple):
-    """A mesh as a scenario of one pair of gears, for what those share; its pinion drives."""
-
-    title: str
-    name: str
-    kind: str
-    drive: DriveTable
-    mesh: Mesh
-    operating: TrainOperating
-    lubricant: Any
-    film: Any
-    friction: Friction
-    temperature: Any
-
-
-def pair_view(scenario: Any, train: Moving, mesh: int) -> PairView:
-    """Look at a mesh, by its number in the train's order, as at a pair of gears."""
-    part = train.parts.meshes[train.motion.meshes[mesh]]
-    table, helical = mesh_table(scenario, part), [bool(drive.helix_angle) for drive in train.drives]
-    if any(helical) and not helical[mesh] and table.compliance != "fem":
-        # slices are of the helical meshes
-        table = table.model_copy(update={"slices": None, "slice_coupling": True})
-    return PairView(
-        scenario.title,
-        scenario.name or "scenario",
-        scenario.kind,
-        train.drives[mesh],
-        table,
-        scenario.operating,
-        scenario.lubricant,
-        scenario.film,
-        scenario.friction,
-        scenario.temperature,
-    )
-
-
 def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
     """Return the case of a scenario that has passed schema and rules."""
     train = moving(scenario)
@@ -163,12 +139,14 @@ def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
     head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
     gears = _gears(train, figure)
     teeth = reference_teeth(train)
-    meshes = _meshes(scenario, train, figure, duty, head)
+    held = supports_of_bodies(scenario, train, figure, duty.torques.driven)
+    meshes = _meshes(scenario, train, figure, duty, head, held)
     return Gearbox(
         **head,
         gears=gears,
         bodies=_bodies(scenario, train, figure, duty),
-        links=_links(scenario, train, figure),
+        links=_links(scenario, train, figure, held),
+        supports=held,
         meshes=meshes,
         source=_source(scenario, train, duty),
         loads=duty.loads,
@@ -182,11 +160,6 @@ def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
         housing=housing_of(scenario.housing),
         sets=tuple(set_data(own, train) for own in train.parts.sets),
     )
-
-
-def reference_teeth(train: Moving) -> int:
-    """Teeth of the gear that drives the first mesh: its cycles in a revolution against the mesh's frame."""
-    return abs(train.parts.gears[train.motion.gears[0][0]].teeth)
 
 
 def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:
@@ -249,14 +222,16 @@ def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tup
     return tuple(found)
 
 
-def _links(scenario: Any, train: Moving, figure: Drawn) -> tuple[LinkData, ...]:
+def _links(
+    scenario: Any, train: Moving, figure: Drawn, held: Mapping[int, GearSupport]
+) -> tuple[LinkData, ...]:
     new, found = train.numbers, []
     bearings = bearings_by_body(scenario, train.parts)
     without = {body for own in train.parts.sets for body in (*own.planets, *own.floating)}
     for number, body in enumerate(train.motion.bodies):
         bearing = bearings[body]
-        if bearing is not None and body not in without:
-            data: BearingData = bearing_of(bearing)
+        if (bearing is not None or number in held) and body not in without:
+            data = held[number].data if number in held else bearing_of(cast(Bearing, bearing))
             found.append(
                 LinkData(
                     f"bearing-{train.parts.bodies[body].name}",
@@ -281,15 +256,23 @@ def _links(scenario: Any, train: Moving, figure: Drawn) -> tuple[LinkData, ...]:
 
 
 def _meshes(
-    scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty, head: dict[str, Any]
+    scenario: Any,
+    train: Moving,
+    figure: Drawn,
+    duty: TrainDuty,
+    head: dict[str, Any],
+    held: Mapping[int, GearSupport],
 ) -> tuple[TrainMesh, ...]:
     motion, found = train.motion, []
+    losses = losses_of_meshes(scenario.losses, train, duty.speed)
     first: LubricatedCase | None = None
     for mesh, place in enumerate(motion.meshes):
-        view = pair_view(scenario, train, mesh)
+        supports = supports_of_mesh(held, train, figure, mesh)
+        view = pair_view(scenario, train, mesh)._replace(supports=supports)
         driver, carrier = motion.driver[mesh], motion.carrier[mesh]
         teeth = own_teeth(scenario, train, mesh, view)
         speed = duty.speed * float(motion.ratio[driver] - motion.carried(driver, carrier))
+        further: dict[str, Any] = {**oil_fields(view), "losses": losses[mesh]}
         pair = LubricatedCase(
             **head,
             **teeth_of(view.drive),
@@ -297,12 +280,13 @@ def _meshes(
             operating=OperatingData("speed", speed, duty.torques.driven[mesh]),
             mesh=with_own_teeth(moving_mesh_of(view), teeth),
             teeth=teeth,
+            supports=supports,
             quality=quality_of(
                 [grade_of(view.drive, gear) for gear in (view.drive.pinion, view.drive.gear)],
                 tolerances_of(view.drive),
                 view.drive.quality_edition,
             ),
-            **oil_fields(view),
+            **further,
         )
         # one film and one friction law hold in the whole train: where "auto" chooses, for its first mesh
         pair = with_chosen_laws(pair) if first is None else with_chosen(pair, first)

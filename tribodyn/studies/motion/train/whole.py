@@ -1,9 +1,13 @@
 """The meshes of a train as pairs of gears at their duty: what an assessment rates one by one."""
 
+import tomllib
 from collections.abc import Mapping
 from typing import Any
 
+from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.families import family
+from tribodyn.scenario.tables.model_files import DriveTable, Gear
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.described.alike import alike_of
 from tribodyn.studies.motion.planetary.results import meshes_of_member
@@ -46,4 +50,53 @@ def at_speed(case: Gearbox, scenario: Mapping[str, Any], factor: float) -> dict[
     return {**scenario, "operating": operating}
 
 
-WHOLE = WholeDrive(meshes, at_speed, lambda case: case.source.speed)
+#: Tables of a train's scenario that all pairs have alike.
+_COMMON = ("mesh", "lubricant", "film", "friction", "temperature")
+#: Keys of all gears.
+_OF_ALL = ("material", "mean_roughness", "quality", "quality_edition")
+
+
+def pair_of(case: Gearbox, name: str) -> dict[str, Any]:
+    """The pair of gears of a mesh at its duty, its driver the pinion, as a scenario has it.
+
+    Without a name that of the only mesh. Raises InputError for a mesh that is not there, or has no teeth.
+    """
+    names = [mesh.name for mesh in case.meshes]
+    if not name and len(names) > 1:
+        rule = f"missing: the gearbox has {len(names)} meshes"
+        raise InputError("mesh", None, rule, f"name one of them: {', '.join(names)}")
+    if name and name not in names:
+        raise unknown_name("mesh", name, names, "mesh")
+    mesh = case.meshes[names.index(name) if name else 0]
+    table, pair = tomllib.loads(case.toml), mesh.pair
+    if mesh.key.startswith("mesh."):
+        rule = "is of a bare model, without teeth"
+        raise InputError("mesh", quoted(mesh.name), rule, "name a mesh of a [[stage]]")
+    operating = table["operating"]
+    duty = {
+        "pinion_speed": f"{pair.operating.pinion_speed!r} rad/s",
+        "gear_torque": f"{pair.operating.gear_torque!r} N*m",
+    }
+    duty |= {key: operating[key] for key in ("oil_temperature",) if key in operating}
+    found = {key: table[key] for key in _COMMON if key in table} | {"operating": duty}
+    return found | {"drive": table["drive"] if "drive" in table else _drive(case, mesh, table)}
+
+
+def _drive(case: Gearbox, mesh: TrainMesh, table: Mapping[str, Any]) -> dict[str, Any]:
+    """What a drive file would say of a mesh of a stage."""
+    stage = table["stage"][int(mesh.key.partition(".")[2])]
+    drive = {key: table[key] for key in _OF_ALL if key in table}
+    drive |= {key: value for key, value in stage.items() if key in DriveTable.model_fields}
+    drive |= {"title": f"mesh {mesh.name} of {case.title}", "source": "its scenario"}
+    drive.setdefault("family", "involute")
+    for side, number in zip(SIDES, mesh.gears, strict=True):
+        key = case.gears[number].key.removeprefix("gear.")
+        drive[side] = {name: value for name, value in table["gear"][key].items() if name in Gear.model_fields}
+    if "planet" in stage and "centre_distance" not in stage:  # that of the sun's meshes holds for the ring's
+        path = family(mesh.pair.family).working_path(mesh.pair.drive)
+        distance = abs(float(path.pinion_pitch_radius + path.gear_pitch_radius))
+        drive["centre_distance"] = f"{1e3 * distance!r} mm"
+    return drive
+
+
+WHOLE = WholeDrive(meshes, at_speed, lambda case: case.source.speed, pair_of)

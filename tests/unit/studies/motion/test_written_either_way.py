@@ -1,0 +1,253 @@
+"""One gearbox written as a pair and as a train: the same numbers, whatever the feature."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.support.drawn_shafts import BETWEEN, OVERHUNG
+from tribodyn.dynamics.parameters import frictionless
+from tribodyn.errors import InputError
+from tribodyn.record.reader import Record
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.check import check
+from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.protocol.load import load_data
+from tribodyn.studies.protocol.run import run
+from tribodyn.train.structure import rotational_error
+
+SPRINGS = {"stiffness_x": "1e9 N/m", "stiffness_y": "1e9 N/m", "damping_ratio": 0.05}
+OIL = {"lubricant": "iso-vg-220-mineral"}
+MESH = {"compliance": "constant", "stiffness": "3e8 N/m", "damping_ratio": 0.05}
+SHORT = {"solver": {"cycles": 2}, "output": {"samples_per_cycle": 20}}
+MATRIX = np.diag([6e8, 7e8, 2e8, 2e6, 3e6, 0.0])
+MATRIX[0, 4] = MATRIX[4, 0] = 8e6
+ON_MATRIX = {"matrix": MATRIX.tolist(), "matrix_units": "N, m, rad", "damping_ratio": 0.04}
+DRAG = {"type": "tapered-roller", "mean_diameter": "60 mm"}
+SLICES = {"compliance": "energy", "slices": 5, "damping_ratio": 0.05}
+
+#: What rounding alone makes, and what the clock says.
+OWN = "energy_residual", "wall_time"
+#: What the pair says, and what the train says in its place.
+FEATURES: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "plain": ({}, {}),
+    "matrices": ({"bearings": {"pinion": ON_MATRIX, "gear": SPRINGS}},) * 2,
+    "slices": ({"drive": "helical-23-47", "mesh": SLICES},) * 2,
+    "drawn shafts": (
+        {
+            "drive": "helical-23-47",
+            "mesh": SLICES,
+            "bearings": {},
+            "shaft": {"pinion": OVERHUNG, "gear": BETWEEN},
+        },
+        {
+            "drive": "helical-23-47",
+            "mesh": SLICES,
+            "bearings": {},
+            "shaft": [
+                {"name": "one", "gears": ["pinion"], "drawn": OVERHUNG},
+                {"name": "two", "gears": ["gear"], "drawn": BETWEEN},
+            ],
+        },
+    ),
+    "losses": (
+        {
+            "losses": {
+                "churning": "iso-14179-1",
+                "windage": "anderson-loewenthal",
+                "bearings": "palmgren",
+                "gear_immersion": "20 mm",
+                "pinion_bearings": DRAG,
+                "gear_bearings": DRAG,
+            }
+        },
+        {
+            "losses": {
+                "churning": "iso-14179-1",
+                "windage": "anderson-loewenthal",
+                "bearings": "palmgren",
+                "immersion": {"gear": "20 mm"},
+                "shaft_bearings": {"pinion": DRAG, "gear": DRAG},
+            }
+        },
+    ),
+    "load spectrum": (
+        {"duty": [{"share": 1.0, "gear_torque": "80 N*m"}, {"share": 3.0, "pinion_speed": "700 rpm"}]},
+        {"duty": [{"share": 1.0, "output_torque": "80 N*m"}, {"share": 3.0, "input_speed": "700 rpm"}]},
+    ),
+    "tolerance class": (
+        {"drive": {**{"family": "involute"}, "quality": 6}},
+        {"drive": {**{"family": "involute"}, "quality": 6}},
+    ),
+}
+INVOLUTE: dict[str, Any] = {
+    "title": "Involutes",
+    "source": "example",
+    "family": "involute",
+    "module": "3 mm",
+    "pressure_angle": "20 deg",
+    "mean_roughness": "0.4 um",
+    "material": "18CrNiMo7-6",
+    "pinion": {"teeth": 25, "face_width": "30 mm", "bore_radius": "15 mm"},
+    "gear": {"teeth": 51, "face_width": "30 mm", "bore_radius": "30 mm"},
+}
+
+
+def scenario_of(kind: str, keys: dict[str, Any]) -> Gearbox:
+    names = ("pinion_speed", "gear_torque") if kind == "gear-pair" else ("input_speed", "output_torque")
+    operating = {names[0]: "1500 rpm", names[1]: "150 N*m", "oil_temperature": "70 degC"}
+    keys = dict(keys)
+    if "duty" in keys:
+        operating["duty"] = 2
+    drive = keys.pop("drive", {})
+    drive = drive if isinstance(drive, str) else INVOLUTE | drive
+    base = {"title": kind, "kind": kind, "mesh": MESH, "friction": {"law": "xu"}, "bearings": "rigid-1e9"}
+    return load_data(
+        base | OIL | SHORT | {"drive": drive, "operating": operating} | keys, kind
+    ).case.gearbox()
+
+
+def numbers_of(part: Any, path: str = "") -> dict[str, Any]:
+    """All numbers of a model by where they stand."""
+    if isinstance(part, tuple):
+        names = getattr(part, "_fields", range(len(part)))
+        found: dict[str, Any] = {}
+        for name, each in zip(names, part, strict=True):
+            found |= numbers_of(each, f"{path}.{name}")
+        return found
+    return {path: part} if isinstance(part, (int, float, np.ndarray, np.generic)) else {}
+
+
+@pytest.mark.parametrize("feature", FEATURES)
+def test_it_is_one_model(feature: str):
+    """To the last bit but of the ratio: every number of bodies, links, mesh, schedule and operation."""
+    one, other = (
+        numbers_of(prepare(scenario_of(kind, keys)).model)
+        for kind, keys in zip(("gear-pair", "gear-train"), FEATURES[feature], strict=True)
+    )
+    assert one.keys() == other.keys()
+    assert len(one) > 80
+    for place, value in one.items():
+        np.testing.assert_allclose(other[place], value, rtol=1e-11, atol=1e-13, err_msg=place)
+
+
+@pytest.mark.parametrize("feature", ["losses", "load spectrum", "slices", "tolerance class"])
+def test_it_is_one_run(feature: str, tmp_path: Path):
+    """Quantities of the summary, of the train or of its only mesh; datasets without the mesh's dimension."""
+    records = []
+    for kind, keys in zip(("gear-pair", "gear-train"), FEATURES[feature], strict=True):
+        result = run(scenario_of(kind, keys), tmp_path / f"{kind}.h5")
+        assert result.status == "complete"
+        records.append(result)
+    with Record(records[0].path) as pair, Record(records[1].path) as train:
+        of_mesh = train.summary["meshes"]["mesh"] | train.summary
+        numbers = {name: value for name, value in pair.summary.items() if isinstance(value, (int, float))}
+        known = {name: value for name, value in numbers.items() if name in of_mesh and name not in OWN}
+        assert len(known) > 30
+        for name, value in known.items():
+            assert of_mesh[name] == pytest.approx(value, rel=1e-5, abs=1e-12), name
+        for name in (
+            "normal_load",
+            "central_film_thickness",
+            "bearing_force_x",
+            "transmission_error_rotational",
+        ):
+            found = train[name][:, 0] if "mesh" in train.dims_of(name) else train[name]
+            np.testing.assert_allclose(found, pair[name], rtol=1e-6, err_msg=name)
+        if feature == "losses":
+            assert {"power_churning", "power_windage", "power_bearings"} <= set(known)
+            assert train.summary["efficiency_with_losses"] < train.summary["efficiency"]
+        if feature == "slices":
+            np.testing.assert_allclose(train["line_load"][:, 0], pair["line_load"], rtol=1e-6, atol=1e-3)
+        if feature == "tolerance class":
+            assert known["dynamic_factor_iso"] > 1.0
+
+
+def lives(checked: Any) -> list[dict[str, float]]:
+    return list(checked.data["bearings"].values())
+
+
+def test_bearings_of_drawn_shafts_have_the_lives_of_a_pair():
+    from tribodyn.studies.gears.usual import with_duty
+
+    pair, train = (
+        scenario_of(kind, keys)
+        for kind, keys in zip(("gear-pair", "gear-train"), FEATURES["drawn shafts"], strict=True)
+    )
+    one, other = lives(with_duty(check(pair), pair.pairs[0])), lives(check(train))
+    assert len(one) == len(other) == 4
+    for of_pair, of_train in zip(one, other, strict=True):
+        assert of_pair.keys() == of_train.keys()
+        assert of_train == pytest.approx(of_pair, rel=1e-9)
+    assert "rating_life" in one[0]
+
+
+def on_springs(shaft: dict[str, Any]) -> dict[str, Any]:
+    """A shaft whose bearings are alike in all directions, as rows of rolling elements are not."""
+    springs = {"stiffness_x": "4e8 N/m", "stiffness_y": "4e8 N/m", "stiffness_axial": "2e8 N/m"}
+    return shaft | {"bearing": [springs | {"position": each["position"]} for each in shaft["bearing"]]}
+
+
+STAGE = {
+    "module": "3 mm",
+    "pressure_angle": "20 deg",
+    "helix_angle": "15 deg",
+}
+
+
+@pytest.mark.parametrize("azimuth", ["90 deg", "0 deg", "-140 deg"])
+@pytest.mark.parametrize("sense", ["clockwise", "counter-clockwise"])
+def test_a_train_bends_alike_from_wherever_it_is_seen(azimuth: str, sense: str):
+    """At another azimuth; in the other sense with teeth of the other hand, which is the view in a mirror."""
+    hand = {"clockwise": ("left", "right"), "counter-clockwise": ("right", "left")}[sense]
+    errors = []
+    for place, way, hands in ((azimuth, sense, hand), ("90 deg", "clockwise", ("left", "right"))):
+        gears = {
+            name: {**INVOLUTE[side], "hand": own}
+            for name, side, own in zip(("a", "b"), ("pinion", "gear"), hands, strict=True)
+        }
+        data = {
+            "title": "A stage",
+            "kind": "gear-train",
+            "material": "18CrNiMo7-6",
+            "mean_roughness": "0.4 um",
+            "gear": gears,
+            "stage": [{"gears": ["a", "b"], "azimuth": place, **STAGE}],
+            "shaft": [
+                {"name": "one", "gears": ["a"], "drawn": on_springs(OVERHUNG)},
+                {"name": "two", "gears": ["b"], "drawn": on_springs(BETWEEN)},
+            ],
+            "bearings": {},
+            "operating": {
+                "input": "a",
+                "output": "b",
+                "sense": way,
+                "input_speed": "1500 rpm",
+                "output_torque": "150 N*m",
+                "oil_temperature": "70 degC",
+            },
+            "mesh": SLICES,
+            "friction": {"law": "none"},
+        }
+        model = frictionless(prepare(load_data(data | OIL, "stage").case).model)
+        errors.append(float(rotational_error(static_equilibrium(model, 0.3), 0, model)))
+    assert errors[0] == pytest.approx(errors[1], rel=1e-5)
+
+
+def test_shafts_of_several_gears_are_not_drawn():
+    keys = {"bearings": {}, "shaft": [{"name": "one", "gears": ["pinion", "gear"], "drawn": BETWEEN}]}
+    with pytest.raises(InputError, match=r"shaft\.0\.drawn.*one gear between its bearings"):
+        scenario_of("gear-train", keys)
+    with pytest.raises(InputError, match=r"shaft\.0\.gears.*one gear alone"):
+        scenario_of("gear-train", {"shaft": [{"name": "one", "gears": ["pinion"]}]})
+
+
+def test_a_law_from_python_takes_the_place_of_a_trains(tmp_path: Path):
+    def half(contact: Any, film: Any, surfaces: Any, parameters: Any) -> Any:
+        return 0.05 + 0.0 * contact.sliding
+
+    box = scenario_of("gear-train", {})
+    summary = run(box, tmp_path / "own.h5", friction=half).summary
+    assert summary["meshes"]["mesh"]["friction_coefficient_mean"] == pytest.approx(0.05, rel=1e-9)

@@ -1,0 +1,71 @@
+"""A mesh of a gearbox in place of a drive: its pair of gears, at the duty that the gearbox gives it."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
+
+from tribodyn.errors import InputError, quoted
+from tribodyn.scenario.sources import SCENARIOS, shipped
+from tribodyn.scenario.tables.duty import LOADS, SPEEDS
+from tribodyn.studies.protocol.load import load
+
+
+def with_pair(data: Mapping[str, Any], schema: type[BaseModel], folder: Path) -> dict[str, Any]:
+    """A scenario's data with its `gearbox` replaced by the tables that the pair of gears of its mesh has.
+
+    What the data say themselves holds. `folder` is the file's. Raises InputError where there is no such
+    gearbox or mesh.
+    """
+    asked = data["gearbox"]
+    if not isinstance(asked, Mapping) or not isinstance(asked.get("scenario"), str):
+        return dict(data)  # for the schema to refuse
+    name, mesh = asked["scenario"], asked.get("mesh", "")
+    if "drive" in data and "family" in data["drive"]:
+        rule = "contradicts drive, which is a pair of gears too"
+        raise InputError("gearbox", None, rule, "leave the one or the other out")
+    beside, known = folder / name, (shipped(SCENARIOS) / f"{name}.toml").is_file()
+    loaded = load(name if known or not beside.is_file() else beside)
+    whole = loaded.study.whole()
+    if whole is None:
+        rule = f"is no gearbox of several meshes, but {loaded.study.about}"
+        raise InputError("gearbox.scenario", quoted(name), rule, "name its drive: drive = …")
+    try:
+        tables = whole.pair(loaded.case, mesh)
+    except InputError as error:
+        raise InputError(f"gearbox.{error.key}", error.value, error.rule, error.remedy) from None
+    return _put({key: value for key, value in data.items() if key != "gearbox"}, tables, schema)
+
+
+def _put(data: dict[str, Any], tables: Mapping[str, Any], schema: type[BaseModel]) -> dict[str, Any]:
+    """The data over the tables, of which those keys are taken that the schema has."""
+    found = dict(data)
+    for name, table in tables.items():
+        if name not in schema.model_fields:
+            continue
+        own = data.get(name)
+        if not isinstance(table, Mapping) or not (own is None or isinstance(own, Mapping)):
+            found.setdefault(name, table)
+            continue
+        given = dict(own or {})
+        taken = {key: value for key, value in table.items() if _has(schema, name, key)}
+        for group in (SPEEDS, LOADS):
+            if name == "operating" and set(group) & set(given):
+                taken = {key: value for key, value in taken.items() if key not in group}
+        if "law" in given:  # and its own keys
+            taken = {}
+        found[name] = taken | given
+    return found
+
+
+def _has(schema: type[BaseModel], name: str, key: str) -> bool:
+    """Whether the schema's table of a name knows a key; of a drive or an oil, and of laws, all."""
+    annotation = schema.model_fields[name].annotation
+    kinds = [annotation, *getattr(annotation, "__args__", ())]
+    tables = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
+    if not tables or name in ("drive", "lubricant"):
+        return True
+    known = {field for table in tables for field in table.model_fields}
+    laws = name in ("film", "friction") and key not in ("sliding", "reversal_width")  # of motions alone
+    return laws or key in known

@@ -1,0 +1,122 @@
+"""Drawn shafts and matrices of a train's bodies under the mean loads of their meshes.
+
+A mesh is seen as a pair of gears is drawn: x along its pitch tangent, y from the driver's axis to the driven
+one's, the driver turning clockwise. Where it turns counter-clockwise, seen from +z, that is the view from -z.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.scenario.tables.bearings import bearing_of
+from tribodyn.scenario.tables.shafts import broken_shaft
+from tribodyn.studies.gears.supports import (
+    Five,
+    GearSupport,
+    GearSupports,
+    drawn_support,
+    matrix_support,
+    mean_loads,
+    misalignment_of,
+)
+from tribodyn.studies.motion.described.drawn import Drawn, Moving
+from tribodyn.studies.motion.described.structure import bearings_by_body
+from tribodyn.studies.motion.described.tables import Shaft
+from tribodyn.train.positions import frame_of
+
+_NOTHING = (0.0,) * 5
+
+
+def supports_of_bodies(
+    scenario: Any, train: Moving, figure: Drawn, torques: tuple[float, ...]
+) -> dict[int, GearSupport]:
+    """What holds bodies whose shafts are drawn or whose bearings are matrices, by their numbers.
+
+    In x, y, z of the train; `torques` are those on the driven gears of all meshes, N m. Raises InputError
+    where a shaft is not held under the load of its gears.
+    """
+    drawn = {
+        train.numbers[train.parts.body(shaft.name)]: (f"shaft.{number}.drawn", shaft.drawn)
+        for number, shaft in enumerate(scenario.shaft)
+        if shaft.drawn is not None
+    }
+    matrices = {
+        number: (f"bearings.{train.parts.bodies[body].name}.matrix", bearing_of(bearing))
+        for number, body in enumerate(train.motion.bodies)
+        if (bearing := bearings_by_body(scenario, train.parts)[body]) is not None
+        and bearing.matrix is not None
+    }
+    if not drawn and not matrices:
+        return {}
+    loads = _loads(train, figure, torques)
+    held = {body: matrix_support(*given, loads[body]) for body, given in matrices.items()}
+    return held | {body: drawn_support(*given, loads[body]) for body, given in drawn.items()}
+
+
+def supports_of_mesh(
+    held: Mapping[int, GearSupport], train: Moving, figure: Drawn, mesh: int
+) -> GearSupports:
+    """The same of the bodies of a mesh, as its pair of gears sees them; their bearings are the train's."""
+    if not held:
+        return GearSupports()
+    turn = _view(train, figure, mesh)
+    ends = [held.get(body) for body in (train.motion.driver[mesh], train.motion.driven[mesh])]
+    moved = [_turned(turn, _NOTHING if one is None else one.displacement) for one in ends]
+    rest = [_turned(turn, _NOTHING if one is None else one.rest) for one in ends]
+    angle = float(figure.assemblies[mesh].path.pressure_angle(0.0))
+    seen = [
+        one and one._replace(displacement=moved[end], rest=rest[end], bearings=())
+        for end, one in enumerate(ends)
+    ]
+    return GearSupports(seen[0], seen[1], misalignment_of(moved, angle), angle)
+
+
+def broken_drawn_shafts(scenario: Any) -> Iterator[InputError]:
+    """Go through what is wrong with shafts as drawn, and with shafts of one gear that are not."""
+    shaft: Shaft
+    for number, shaft in enumerate(scenario.shaft):
+        key = f"shaft.{number}"
+        if shaft.drawn is None:
+            if len(shaft.gears) == 1:
+                rule, remedy = "names one gear alone", "name the gears that turn together, or draw the shaft"
+                yield InputError(f"{key}.gears", None, rule, remedy)
+            continue
+        if len(shaft.gears) > 1:
+            rule = f"has {len(shaft.gears)} gears, and a shaft is drawn of one gear between its bearings"
+            yield InputError(f"{key}.drawn", None, rule, "give the bearings' stiffness in [bearings]")
+        elif shaft.stiffness is not None:
+            rule = "draws a shaft that bends, and stiffness is that of a shaft between two gears"
+            yield InputError(f"{key}.drawn", None, rule, "leave the one or the other out")
+        elif twice := [name for name in (shaft.name, *shaft.gears) if name in scenario.bearings.by_name]:
+            rule = f"gives the stiffness of the shaft {shaft.name} again, which {key}.drawn draws"
+            yield InputError(f"bearings.{twice[0]}", None, rule, "leave out the one or the other")
+        else:
+            yield from broken_shaft(f"{key}.drawn", shaft.drawn)
+
+
+def _loads(train: Moving, figure: Drawn, torques: tuple[float, ...]) -> Float[Array, "body 5"]:
+    """Mean loads of all meshes on the bodies, at the middles of the gears' faces."""
+    motion = train.motion
+    found = np.zeros((len(motion.bodies), 5))
+    for mesh, torque in enumerate(torques):
+        turn = _view(train, figure, mesh)
+        both = mean_loads(figure.assemblies[mesh], torque)
+        for body, load in zip((motion.driver[mesh], motion.driven[mesh]), both, strict=True):
+            found[body] += _turned(turn.T, load)
+    return found
+
+
+def _view(train: Moving, figure: Drawn, mesh: int) -> Float[Array, "3 3"]:
+    """Directions of a mesh's pair of gears in those of the train, its rows: a rotation."""
+    sense = train.motion.sense[train.motion.driver[mesh]]
+    along, across = frame_of(figure.places.azimuths[mesh], sense)
+    return np.array([[*along, 0.0], [*across, 0.0], [0.0, 0.0, -float(sense)]])
+
+
+def _turned(turn: Float[Array, "3 3"], values: Any) -> Five:
+    """Three components of a vector, and the first two of one whose third is 0, in other directions."""
+    one, two = turn @ np.asarray(values[:3]), turn @ np.array([*values[3:], 0.0])
+    return (*map(float, one), *map(float, two[:2]))
