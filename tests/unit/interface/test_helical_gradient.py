@@ -84,7 +84,7 @@ def by_the_table_of_a_run(case):
     return np.array([np.ptp(state.deflection), stiffness, through / (through + lost), lost])
 
 
-@pytest.mark.parametrize("key", KEYS)
+@pytest.mark.parametrize("key", all_in_soak(KEYS, ("drive.helix_angle", "operating.gear_torque")))
 def test_values_and_slopes_are_those_of_a_fine_table(key):
     """Over steps by which kinks pass many nodes, so that the error of the table averages out."""
     overrides = FEW | {"mesh.slices": 7}
