@@ -10,7 +10,6 @@ from tribodyn.dynamics.modes import Modes, modes
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.gears.prepare import PreparedGears
 from tribodyn.studies.gears.rated.bearings import (
-    TurningShaft,
     bearing_part,
     bearing_remarks,
     bearing_rows,
@@ -29,6 +28,7 @@ from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.motion.sensed import listener_of
+from tribodyn.studies.motion.train.whole import shafts as shafts_of
 from tribodyn.studies.protocol.recording import CheckResult, TextTable
 from tribodyn.train.flow import flow
 
@@ -69,11 +69,7 @@ def check(given: Gearbox | Case) -> CheckResult:
         "mesh_frequencies": dict(zip(names, mesh_frequencies(prepared), strict=True)),
         "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
     }
-    speed = float(prepared.model.operation.nominal_speed)
-    shafts = [
-        TurningShaft(case.bodies[body].name, held, float(case.bodies[body].ratio) * speed)
-        for body, held in case.supports.items()
-    ]
+    shafts = shafts_of(case)
     oil = case.meshes[0].pair.lubricant
     if held := bearing_part(shafts, oil):
         data |= held

@@ -158,7 +158,7 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
         mistakes = [mistake for mistake in explain(error, model) if mistake.key not in known]
         raise _located([*unresolved, *mistakes], origins) from None
     # of a key whose value only its family knows to be a file
-    if errors := unresolved or list(_broken_rules(study, scenario)):
+    if errors := unresolved or list(broken_rules(study, scenario)):
         raise _located(errors, origins)
     toml = tomli_w.dumps(data)
     case: CaseHead = study.case(in_force(scenario), toml, hashlib.sha256(toml.encode()).hexdigest())
@@ -175,7 +175,7 @@ def put_chosen(
             data[table] = {**data.get(table, {}), name: taken}
 
 
-def _broken_rules(study: Study, scenario: Any) -> Iterator[InputError]:
+def broken_rules(study: Study, scenario: Any) -> Iterator[InputError]:
     """Go through the rules that a scenario breaks, with each duty of its load spectrum."""
     if broken := list(broken_spectrum_rules(scenario)):
         yield from broken

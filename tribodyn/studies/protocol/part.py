@@ -151,3 +151,6 @@ class WholeDrive(NamedTuple):
     #: (case, name of a mesh or "": the only one) -> the scenario of its pair of gears at its duty, as a file
     #: has it; raises InputError for a mesh that is not there, with the key "mesh"
     pair: Callable[[Any, str], dict[str, Any]]
+    #: case -> shares of the time, their sum 1, and cases of the duties of its load spectrum; empty: none
+    duties: Callable[[Any], Sequence[tuple[float, Any]]]
+    shafts: Callable[[Any], Sequence[Any]]  # case -> its drawn shafts, see `gears.rated.bearings`

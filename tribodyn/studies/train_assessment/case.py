@@ -12,6 +12,7 @@ from tribodyn.scenario.quantity import Positive, Text
 from tribodyn.studies.gears.rated.settings import AtLeastOne, RatingTable
 from tribodyn.studies.protocol import cost
 from tribodyn.studies.protocol.load import Loaded
+from tribodyn.studies.protocol.part import WholeDrive
 from tribodyn.studies.protocol.study import CaseHead
 
 SPEED = Variable(("input_speed",), "rad/s", "speed of the input, increasing; that of the duty is one of them")
@@ -80,6 +81,13 @@ class TrainAssessmentCase(CaseHead):
     subject: Loaded  # the train's scenario
     settings: TrainRatingTable
     limits: Mapping[str, Any]  # name of a limit -> its value, SI units
+
+    @property
+    def whole(self) -> WholeDrive:
+        """What the train's study says of its meshes."""
+        whole = self.subject.study.whole()
+        assert whole is not None, "refused by the rules"
+        return whole
 
 
 def estimate(case: TrainAssessmentCase) -> cost.Estimate:

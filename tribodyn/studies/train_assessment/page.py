@@ -26,7 +26,14 @@ from tribodyn.studies.gears.rated.limits import LIMITS, SAFETIES, least, worst
 from tribodyn.studies.pages import loaded_again, overview
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.train_assessment.case import TrainAssessmentCase
-from tribodyn.studies.train_assessment.report import groups_of, heading, mesh_rows, stage_rows, verdict
+from tribodyn.studies.train_assessment.report import (
+    groups_of,
+    heading,
+    mesh_rows,
+    spectrum_tables_of,
+    stage_rows,
+    verdict,
+)
 from tribodyn.studies.train_assessment.run import DUTY, tasks_of
 
 _RPM = 30.0 / math.pi
@@ -56,6 +63,8 @@ def page(record: Record) -> str:
         f'<div class="pictures"><p>{picture}</p></div>',
         _meshes(summary, "simulated"),
         _meshes(summary, "iso"),
+        _spectrum(summary),
+        first_page.bearings_table(summary),
         first_page.part_section(study, "Motion at the duty", [done[DUTY]] if done else []),
         "<section><h2>Gears and oil</h2>"
         + "".join(table(*sheet) for sheet in study.check(case.subject.case, allow_large=True).every)
@@ -63,6 +72,12 @@ def page(record: Record) -> str:
         first_page.origin(record),
     ]
     return first_page.written(record, body)
+
+
+def _spectrum(summary: Mapping[str, Any]) -> str:
+    """Miner's sums of all meshes duty by duty; "" without a load spectrum."""
+    shown = "".join(numbers_table(*each, " points") for each in spectrum_tables_of(summary))
+    return f"<details><summary>Load spectrum, duty by duty</summary>{shown}</details>" if shown else ""
 
 
 def _asked(case: TrainAssessmentCase, summary: Mapping[str, Any]) -> str:

@@ -7,10 +7,12 @@ from tribodyn.post.verdict import numbers, with_unit
 from tribodyn.quantities.catalogue import QUANTITIES, quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.gears.rated.bearings import bearing_rows
 from tribodyn.studies.gears.rated.capacity import shorter_life
 from tribodyn.studies.gears.rated.limits import on_limits
 from tribodyn.studies.gears.rated.said import sentences as sentences
 from tribodyn.studies.gears.rated.said import unit_of
+from tribodyn.studies.gears.rated.spectrum import spectrum_tables
 from tribodyn.studies.protocol.recording import TextTable
 
 REPORTED: Reported = {
@@ -109,7 +111,7 @@ def stage_rows(summary: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
 
 
 def tables(record: Record) -> list[TextTable]:
-    """Every mesh simulated and by the standards, and every planetary stage."""
+    """Every mesh simulated and by the standards, every planetary stage, Miner's sums, bearings."""
     found = []
     for title, (columns, rows) in (
         ("Each planetary stage", stage_rows(record.summary)),
@@ -118,6 +120,18 @@ def tables(record: Record) -> list[TextTable]:
     ):
         if rows:
             found.append(TextTable(title, tuple(columns), rows))
+    found += spectrum_tables_of(record.summary)
+    if bearings := record.summary.get("bearings"):
+        found.append(TextTable("Bearings", *bearing_rows(bearings)))
+    return found
+
+
+def spectrum_tables_of(summary: Mapping[str, Any]) -> list[TextTable]:
+    """Miner's sums of both gears of every mesh, duty by duty; those of alike planets once."""
+    found = []
+    for group, names in groups_of(summary.get(MESHES, {})).items():
+        spectrum = summary[MESHES][names[0]].get("iso", {}).get("spectrum", {})
+        found += [table._replace(title=f"{table.title}, {group}") for table in spectrum_tables(spectrum)]
     return found
 
 

@@ -14,26 +14,18 @@ from tribodyn.post.report import EXCEEDED
 from tribodyn.post.verdict import outside
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import as_life, capacity_of, life_bins, shorter_life
-from tribodyn.studies.gears.rated.limits import SAFETIES, judged, least, not_judged, with_unlimited, worst
-from tribodyn.studies.gears.rated.margins import strength_of
+from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks
+from tribodyn.studies.gears.rated.limits import SAFETIES, judged, not_judged, with_unlimited
 from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered, ring_said
-from tribodyn.studies.gears.rated.standard import (
-    factors_by_name,
-    iso_part,
-    margins_by_standard,
-    rated_duty,
-    standard_of,
-)
 from tribodyn.studies.gears.rated.strength import metal_remarks
 from tribodyn.studies.protocol import tasks
-from tribodyn.studies.protocol.part import MeshAtDuty, Task, TaskResult, WholeDrive
+from tribodyn.studies.protocol.part import Task, TaskResult
 from tribodyn.studies.protocol.scratch import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
 from tribodyn.studies.train_assessment.case import LAYOUT, SAMPLES, TrainAssessmentCase
+from tribodyn.studies.train_assessment.meshes import STAGES, rated_mesh, spectra_of, worst_margins
 
-DUTY, STAGES = "duty", "stages"
+DUTY = "duty"
 #: Share of the time without contact that counts.
 _LOST = 1e-6
 #: Of the run at the duty, of the train.
@@ -42,12 +34,6 @@ _OF_TRAIN = (
     *("dynamic_factor", "mesh_load_factor", "planet_load_factor_max", "normal_load_max"),
     *("contact_loss_fraction", "hertz_pressure_max", "film_min", "film_parameter_min"),
     *("flash_temperature_max", "contact_temperature_max", "bulk_temperature", "worst_mesh"),
-)
-#: Of the run at the duty, of each mesh.
-_OF_MESH = (
-    *("dynamic_factor", "power_in_mean", "power_friction_mean", "efficiency", "friction_coefficient_mean"),
-    *("hertz_pressure_max", "film_min", "film_parameter_min", "contact_temperature_max", "bulk_temperature"),
-    *("contact_loss_fraction", "S_B", "S_lambda"),
 )
 
 
@@ -91,7 +77,7 @@ def tasks_of(case: TrainAssessmentCase) -> list[tuple[Study, Task]]:
     found = [Task(DUTY, "motion at the duty", scenario)]
     for factor in factors_of(case):
         about = f"motion at {factor:.12g} of the speed"
-        other = _whole(case).at_speed(subject.case, scenario, factor)
+        other = case.whole.at_speed(subject.case, scenario, factor)
         found.append(Task(name_at(factor), about, other, needed=False))
     for law in settings.friction_laws:
         about, other = f"motion with friction by {law}", {**scenario, "friction": {"law": law}}
@@ -107,12 +93,6 @@ def factors_of(case: TrainAssessmentCase) -> list[float]:
     return [float(f"{factor:.6g}") for factor in found if abs(factor - 1.0) > 1e-6]
 
 
-def _whole(case: TrainAssessmentCase) -> WholeDrive:
-    whole = case.subject.study.whole()
-    assert whole is not None, "refused by the rules"
-    return whole
-
-
 def assessed(
     case: TrainAssessmentCase, folder: Path, progress: Progress | None = None, force: bool = False
 ) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -125,18 +105,22 @@ def assessed(
     done = tasks.results(every, folder, progress, force=force)
     own = done[DUTY].summary
     along = _over_speed(case, done)
-    meshes = {mesh.name: _of_mesh(case, mesh, own) for mesh in _whole(case).meshes(case.subject.case)}
+    subject, whole = case.subject.case, case.whole
+    spectra = spectra_of(case)
+    meshes = {mesh.name: rated_mesh(case, mesh, own, spectra) for mesh in whole.meshes(subject)}
+    oil = whole.meshes(subject)[0].pair.lubricant
     summary: dict[str, Any] = {
-        "input_speed": _whole(case).speed(case.subject.case),
+        "input_speed": case.whole.speed(case.subject.case),
         **{name: own[name] for name in _OF_TRAIN if own.get(name) is not None},
         **_extremes(along),
         **_losses(case, done),
-        **_worst_margins(meshes),
+        **worst_margins(meshes),
+        **bearing_part(whole.shafts(subject), oil),
         STAGES: own.get(STAGES, {}),
         MESHES: meshes,
         "limits": with_unlimited(
             judged(case.limits, _values(own, meshes, case.settings.application_factor)),
-            _worst_margins(meshes),
+            worst_margins(meshes),
         ),
         "not_judged": _not_judged(case),
         "in_doubt": numbered(_in_doubt(own)),
@@ -150,7 +134,7 @@ def assessed(
 
 def _not_judged(case: TrainAssessmentCase) -> str:
     """Of all meshes, which have one oil."""
-    first = _whole(case).meshes(case.subject.case)[0]
+    first = case.whole.meshes(case.subject.case)[0]
     return not_judged(case.limits, first.pair.lubricant.fzg)
 
 
@@ -166,7 +150,7 @@ def _in_doubt(own: Mapping[str, Any]) -> list[str]:
 
 def _over_speed(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[str, np.ndarray]:
     """The recorded quantities over the speed of the runs that were done."""
-    speed = _whole(case).speed(case.subject.case)
+    speed = case.whole.speed(case.subject.case)
     runs = {factor: done[name_at(factor)].summary for factor in factors_of(case)} | {1.0: done[DUTY].summary}
     factors = sorted(factor for factor, summary in runs.items() if summary)
     found = {"input_speed": speed * np.array(factors)}
@@ -207,64 +191,11 @@ def _losses(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[s
     }
 
 
-def _of_mesh(case: TrainAssessmentCase, mesh: MeshAtDuty, own: Mapping[str, Any]) -> dict[str, Any]:
-    """A mesh by the standards, where it has involutes of a tolerance class, beside its motion."""
-    settings, of_run = case.settings, own[MESHES][mesh.name]
-    share = settings.mesh_load_factor
-    if share is None or not mesh.stage:
-        share = float(own.get(STAGES, {}).get(mesh.stage, {}).get("mesh_load_factor", 1.0))
-    found: dict[str, Any] = {
-        "driver": of_run["driver"],
-        "driven": of_run["driven"],
-        **({"alike": mesh.alike} if mesh.alike else {}),
-        "simulated": {name: of_run[name] for name in _OF_MESH if of_run.get(name) is not None},
-        "load_factors": {
-            "K_A": settings.application_factor,
-            "K_gamma": share,
-            "K_Hbeta": settings.face_of(mesh.name),
-        },
-    }
-    pair, assembly = mesh.pair, assembled(mesh.pair)
-    if pair.quality is None or not assembly.family.involute or not pair.operating.gear_torque > 0.0:
-        return found
-    oil = float(pair.lubricant.temperature)
-    duty = rated_duty(settings, oil, face=1.0, mesh=share)
-    duty = duty._replace(mesh=share, face=settings.face_of(mesh.name))
-    standard = standard_of(pair, assembly, duty)
-    strength = strength_of(pair.lubricant, oil, settings.structure_factor, pair.materials)
-    found["load_factors"] |= factors_by_name(standard.factors)
-    bins = life_bins(pair, assembly, standard.factors)
-    capacity = capacity_of(pair, assembly, standard.factors, bins, settings, mesh.meshing)
-    by_standard = iso_part(pair, standard) | margins_by_standard(standard, strength, oil)
-    if capacity is not None:
-        by_standard |= as_life(capacity.life, capacity.shortest.unlimited) | capacity.by_name()
-    beyond = list(capacity.remarks) if capacity else []
-    return found | {"iso": by_standard} | ({"outside": numbered(beyond)} if beyond else {})
-
-
-def _margin(mesh: Mapping[str, Any], name: str) -> float:
-    """A safety of a mesh: the worse of the standard's and the simulation's; NaN: neither is known."""
-    return worst(*(least(mesh.get(part, {}).get(name)) for part in ("iso", "simulated")))
-
-
-def _worst_margins(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """Smallest safeties of all meshes, and which mesh has them."""
-    found: dict[str, Any] = {}
-    for name in (*SAFETIES.values(), "life"):
-        known = {mesh: _margin(each, name) for mesh, each in meshes.items()}
-        known = {mesh: value for mesh, value in known.items() if math.isfinite(value)}
-        if known:
-            place = min(known, key=lambda mesh: known[mesh])
-            found[name] = known[place]
-            found.setdefault("worst_of", {})[name] = place
-    return found | shorter_life(*(mesh.get("iso", {}) for mesh in meshes.values()))
-
-
 def _values(
     own: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]], application: float
 ) -> dict[str, float]:
     """What the limits are compared with, pressures with K_A."""
-    margins = _worst_margins(meshes)
+    margins = worst_margins(meshes)
     names = SAFETIES | {"life": "life"}
     found = {limit: margins.get(name, math.nan) for limit, name in names.items()}
     of_run = {"hertz_pressure": "hertz_pressure_max"}
@@ -298,12 +229,14 @@ def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]])
             "temperature of a ring."
         )
     if rated:
-        pairs = [mesh.pair for mesh in _whole(case).meshes(case.subject.case)]
+        pairs = [mesh.pair for mesh in case.whole.meshes(case.subject.case)]
         materials = {remark for pair in pairs for remark in metal_remarks(pair)}
         yield from sorted(materials)
-        yield life_said(settings, 0)
+        yield life_said(settings, len(case.whole.duties(case.subject.case)))
         rings = {text: name for name in reversed(rated) for text in ring_said(meshes[name]["iso"])}
         yield from (f"Mesh {name}: {text}" for text, name in reversed(rings.items()))
+    subject, whole = case.subject.case, case.whole
+    yield from bearing_remarks(whole.shafts(subject), whole.meshes(subject)[0].pair.lubricant)
     if any("S_B" not in mesh.get("simulated", {}) for mesh in meshes.values()):
         yield "Without an FZG load stage of the oil there is no safety against scuffing."
 

@@ -13,6 +13,7 @@ from tribodyn.scenario.quantity import Positive, Table, scenario_file, written
 from tribodyn.studies import study_of
 from tribodyn.studies.gears.rated.capacity import required
 from tribodyn.studies.gears.rated.limits import OilLimits
+from tribodyn.studies.protocol.load import broken_rules as rules_broken_by
 from tribodyn.studies.protocol.load import load_data, schema_inside
 from tribodyn.studies.train_assessment.case import TrainAssessmentCase, TrainRatingTable, of_mesh
 from tribodyn.tribology.friction import FRICTION_LAWS
@@ -107,7 +108,7 @@ def _of_subject(inner: Any) -> Iterator[InputError]:
         remedy = 'name a scenario of a train; of a pair of gears write kind = "assessment"'
         yield InputError("scenario.kind", quoted(kind), rule, remedy)
         return
-    for error in study.broken_rules(inner):
+    for error in rules_broken_by(study, inner):
         yield InputError(f"scenario.{error.key}", error.value, error.rule, error.remedy, error.file)
     train: Any = inner
     if train.lubricant.viscosity_40 is None:

@@ -28,6 +28,10 @@ ON_MATRIX = {"matrix": MATRIX.tolist(), "matrix_units": "N, m, rad", "damping_ra
 DRAG = {"type": "tapered-roller", "mean_diameter": "60 mm"}
 SLICES = {"compliance": "energy", "slices": 5, "damping_ratio": 0.05}
 
+SENSORS = [{"name": "a", "kind": "acceleration", "at": "gear", "rate": "5 kHz"}]
+SPALL = {"depth": "20 um", "length": "1 mm", "height": 0.5, "width": "10 mm"}
+PINION = {"teeth": 25, "face_width": "30 mm", "bore_radius": "15 mm"}
+NETWORK = {"pinion_oil": "60 W/K", "gear_oil": "90 W/K", "oil_flow": "4 l/min"}
 #: What rounding alone makes, and what the clock says.
 OWN = "energy_residual", "wall_time"
 #: What the pair says, and what the train says in its place.
@@ -77,6 +81,10 @@ FEATURES: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         {"duty": [{"share": 1.0, "gear_torque": "80 N*m"}, {"share": 3.0, "pinion_speed": "700 rpm"}]},
         {"duty": [{"share": 1.0, "output_torque": "80 N*m"}, {"share": 3.0, "input_speed": "700 rpm"}]},
     ),
+    "sensors": ({"sensor": SENSORS, "solver": {"cycles": 8}},) * 2,
+    "damage": ({"damage": [{"gear": "gear", "tooth": 3, "kind": "spall", **SPALL}]},) * 2,
+    "tooth by tooth": ({"drive": {"pinion": {**PINION, "eccentricity": "15 um"}}},) * 2,
+    "temperature": ({"temperature": {"model": "network", **NETWORK}},) * 2,
     "tolerance class": (
         {"drive": {**{"family": "involute"}, "quality": 6}},
         {"drive": {**{"family": "involute"}, "quality": 6}},
@@ -90,7 +98,7 @@ INVOLUTE: dict[str, Any] = {
     "pressure_angle": "20 deg",
     "mean_roughness": "0.4 um",
     "material": "18CrNiMo7-6",
-    "pinion": {"teeth": 25, "face_width": "30 mm", "bore_radius": "15 mm"},
+    "pinion": PINION,
     "gear": {"teeth": 51, "face_width": "30 mm", "bore_radius": "30 mm"},
 }
 
@@ -133,7 +141,9 @@ def test_it_is_one_model(feature: str):
         np.testing.assert_allclose(other[place], value, rtol=1e-11, atol=1e-13, err_msg=place)
 
 
-@pytest.mark.parametrize("feature", ["losses", "load spectrum", "slices", "tolerance class"])
+@pytest.mark.parametrize(
+    "feature", ["losses", "load spectrum", "slices", "tolerance class", "sensors", "temperature"]
+)
 def test_it_is_one_run(feature: str, tmp_path: Path):
     """Quantities of the summary, of the train or of its only mesh; datasets without the mesh's dimension."""
     records = []

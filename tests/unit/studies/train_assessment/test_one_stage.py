@@ -1,17 +1,31 @@
 """One stage has one life: typed as a train and as a pair of gears; a life without end is a lower bound."""
 
 import math
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from tests.support.drawn_shafts import BETWEEN
 from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.record.reader import Record
+from tribodyn.studies import STUDIES
 from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import Capacity, as_life, capacity_of, life_bins, shorter_life
+from tribodyn.studies.gears.rated.capacity import (
+    Capacity,
+    as_life,
+    capacity_of,
+    life_bins,
+    required,
+    shorter_life,
+)
 from tribodyn.studies.gears.rated.limits import LIMITS, judged, with_unlimited, written_limit
+from tribodyn.studies.gears.rated.spectrum import spectrum_part
 from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
 from tribodyn.studies.motion.train import whole
 from tribodyn.studies.protocol.load import load_data, load_scenario
+from tribodyn.studies.protocol.run import run
 
 OIL = {"lubricant": "iso-vg-320-mineral"}
 RATED = {
@@ -78,6 +92,49 @@ def test_a_stage_has_one_life_as_a_train_and_as_a_pair(pair: Any):
         assert first.pitting.safety == pytest.approx(second.pitting.safety, rel=1e-6)
         assert first.bending.safety == pytest.approx(second.bending.safety, rel=1e-6)
     assert own.life == pytest.approx(other.life, rel=1e-4)
+
+
+DUTIES = ({"share": 3.0, "power": "60 kW"}, {"share": 1.0, "power": "90 kW"})
+
+
+def test_a_load_spectrum_of_a_train_is_that_of_the_pair(pair: Any, tmp_path: Path):
+    """Life and Miner's sum of every duty of the stage's assessment, and of the pair rated with its duties."""
+    own = {"name": "out", "gears": ["wheel"], "drawn": BETWEEN}
+    scenario = {**TRAIN, "duty": DUTIES, "shaft": [own], "mesh": {"damping_ratio": 0.05, "slices": 3}}
+    operating = {**TRAIN["operating"], "duty": 2}
+    del operating["power"]
+    bearings = {"pinion": {"stiffness_x": "1e9 N/m", "stiffness_y": "1e9 N/m", "damping_ratio": 0.05}}
+    scenario |= {"operating": operating, "bearings": bearings, "solver": {"cycles": 2}}
+    data = {
+        "title": "Stage",
+        "kind": "train-assessment",
+        "scenario": scenario,
+        "assessment": {**RATED, "speeds": 0},
+    }
+    result = run(load_data(data, "stage").case, tmp_path / "stage.h5")
+    found = result.summary["meshes"]["pinion-wheel"]["iso"]
+    speed, ratio = 1480.0 * math.pi / 30.0, 83 / 19
+    spectrum = [(share, speed, power / speed * ratio) for share, power in ((0.75, 60e3), (0.25, 90e3))]
+    case = replace(pair.case, operating=replace(pair.case.operating, gear_torque=spectrum[1][2]))
+    assembly = assembled(case)
+    factors = standard_of(case, assembly, rated_duty(case.settings, 343.15, face=1.2)).factors
+    bins = life_bins(case, assembly, factors, spectrum)
+    expected = capacity_of(case, assembly, factors, bins, case.settings)
+    assert expected is not None
+    assert found["life"] == pytest.approx(expected.life, rel=1e-4)
+    known = spectrum_part(expected, required(case.settings))["spectrum"]
+    for name, sides in known.items():
+        if name != "duty_number":
+            for side, values in sides.items():
+                assert found["spectrum"][name][side] == pytest.approx(values, rel=1e-4)
+    # and the bearings of the drawn shaft under the second duty
+    assert set(result.summary["bearings"]) == {"out-1", "out-2"}
+    with Record(result.path) as record:
+        titles = [table.title for table in STUDIES["train-assessment"].besides("tables", record)]
+        text = STUDIES["train-assessment"].own_page()(record)
+    assert "Bearings" in titles
+    assert sum("Miner's sum" in title for title in titles) == 2
+    assert "Load spectrum, duty by duty" in text
 
 
 def test_what_one_per_cent_of_stress_costs_is_the_slope_of_the_life_factor(pair: Any):

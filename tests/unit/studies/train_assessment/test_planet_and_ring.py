@@ -9,7 +9,6 @@ from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
 from tribodyn.studies.gears.rated.said import ring_said
 from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
-from tribodyn.studies.train_assessment.run import _whole
 
 SET = """
 title = "NREL 5 MW stage 1"
@@ -103,7 +102,7 @@ def rated(**changes):
     """Planet and ring by name, the ring as `pinion`."""
     case = scenario(tomllib.loads(SET))
     settings = case.settings.model_copy(update=changes)
-    mesh = next(one for one in _whole(case).meshes(case.subject.case) if one.name == "s-ring-1")
+    mesh = next(one for one in case.whole.meshes(case.subject.case) if one.name == "s-ring-1")
     pair, assembly = mesh.pair, assembled(mesh.pair)
     duty = rated_duty(
         settings,

@@ -8,9 +8,11 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
+from tribodyn.studies.gears.rated.bearings import TurningShaft
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.described.alike import alike_of
 from tribodyn.studies.motion.planetary.results import meshes_of_member
+from tribodyn.studies.protocol.load import load_data
 from tribodyn.studies.protocol.part import MeshAtDuty, Meshing, WholeDrive
 from tribodyn.train.planetary import RING, SUN
 
@@ -99,4 +101,27 @@ def _drive(case: Gearbox, mesh: TrainMesh, table: Mapping[str, Any]) -> dict[str
     return drive
 
 
-WHOLE = WholeDrive(meshes, at_speed, lambda case: case.source.speed, pair_of)
+def duties(case: Gearbox) -> list[tuple[float, Gearbox]]:
+    """Every duty of the load spectrum with its share of the time."""
+    table = tomllib.loads(case.toml)
+    shares = [float(duty["share"]) for duty in table.get("duty", ())]
+    return [
+        (
+            share / sum(shares),
+            load_data({**table, "operating": {**table["operating"], "duty": number}}, case.name).case,
+        )
+        for number, share in enumerate(shares, start=1)
+    ]
+
+
+def shafts(case: Gearbox) -> list[TurningShaft]:
+    """The drawn shafts at their speeds."""
+    reference = case.source.speed / float(case.bodies[case.source.body].ratio)
+    return [
+        TurningShaft(case.bodies[body].name, held, float(case.bodies[body].ratio) * reference)
+        for body, held in case.supports.items()
+        if held.bearings
+    ]
+
+
+WHOLE = WholeDrive(meshes, at_speed, lambda case: case.source.speed, pair_of, duties, shafts)
