@@ -19,8 +19,8 @@ STUDIES: Registry[Study] = Registry(
         "irefc": "tribodyn.studies.rolling:STUDY",
         "backlash-oscillator": "tribodyn.studies.backlash_oscillator:STUDY",
         "design": "tribodyn.studies.design:STUDY",
-        "assessment": "tribodyn.studies.assessment:STUDY",
-        "train-assessment": "tribodyn.studies.train_assessment:STUDY",
+        "assessment": "tribodyn.studies.assessment:PAIR",
+        "train-assessment": "tribodyn.studies.assessment:TRAIN",
     },
     "tribodyn.studies",
     Study,
@@ -31,4 +31,6 @@ DEFAULT = next(iter(STUDIES))
 def study_of(data: Mapping[str, Any]) -> Study:
     """Return the study of a scenario's data; the default one where it names none, or none that there is."""
     kind = data.get("kind", DEFAULT)
-    return STUDIES[kind if isinstance(kind, str) and kind in STUDIES else DEFAULT]
+    study = STUDIES[kind if isinstance(kind, str) and kind in STUDIES else DEFAULT]
+    key, other = study.instead
+    return STUDIES[other] if key and key in data else study

@@ -93,6 +93,7 @@ class Study:
     about : what it is, in a line
     package, apart : where its parts are; name of the package in it with those that it does not share with
         another kind
+    instead : a key, and the kind that a file with this key is of
     quantities : what its records are about; those of studies with the same are compared and drawn together
     compared : headings of its summary that a comparison shows; none: it is not compared in a table
     has_gears, resumes : whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run
@@ -106,6 +107,7 @@ class Study:
     package: str
     quantities: str
     apart: str = ""
+    instead: tuple[str, str] = ("", "")
     compared: tuple[str, ...] = ()
     has_gears: bool = False
     resumes: bool = False

@@ -18,8 +18,8 @@ from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
-from tribodyn.studies.assessment.margins import local_of, point_angles
-from tribodyn.studies.assessment.parts import request_of
+from tribodyn.studies.assessment.pair.margins import local_of, point_angles
+from tribodyn.studies.assessment.pair.parts import request_of
 from tribodyn.studies.gears.rated.standard import path_of
 from tribodyn.studies.protocol.load import load_scenario
 

@@ -10,7 +10,7 @@ import pytest
 from tests.support.short_studies import short_case
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import roll_through
-from tribodyn.studies.assessment.beside import (
+from tribodyn.studies.assessment.pair.beside import (
     GivenFactors,
     _in_motion,
     given_factors,
@@ -18,8 +18,8 @@ from tribodyn.studies.assessment.beside import (
     root_bins,
     strength_beside,
 )
-from tribodyn.studies.assessment.rated_flank import NominalLoad, nominal_load, rated_flanks
-from tribodyn.studies.assessment.reasons import bending_reasons, pitting_reasons, reasons, rests_on
+from tribodyn.studies.assessment.pair.rated_flank import NominalLoad, nominal_load, rated_flanks
+from tribodyn.studies.assessment.pair.reasons import bending_reasons, pitting_reasons, reasons, rests_on
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
 from tribodyn.studies.gears.rated.standard import rated_duty, standard_of

@@ -8,7 +8,7 @@ import pytest
 from tribodyn.compliance.iso6336 import blank_factor
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
-from tribodyn.studies.assessment.parts import faces_of, other_torques, request_of
+from tribodyn.studies.assessment.pair.parts import faces_of, other_torques, request_of
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins
 from tribodyn.studies.gears.rated.standard import Standard, iso_part, rated_duty, standard_of

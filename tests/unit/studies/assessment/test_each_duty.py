@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from tests.support.short_studies import SHORT, written_template
-from tribodyn.studies.assessment.run import assessed
+from tribodyn.studies.assessment.pair.run import assessed
 from tribodyn.studies.protocol.load import load_scenario
 
 DUTIES = [

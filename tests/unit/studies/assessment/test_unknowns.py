@@ -11,7 +11,7 @@ from tests.support.short_studies import short_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.scenario.tables.bearings import Bearing, bearing_of
-from tribodyn.studies.assessment.unknowns import UnknownsTable, distances, drawn, stiffened
+from tribodyn.studies.assessment.pair.unknowns import UnknownsTable, distances, drawn, stiffened
 
 KIND, SAMPLES = "assessment", 16
 KNOWN: dict[str, Any] = {"deviations": False, "bearings": 1.0, "damping_ratio": [0.05, 0.05]}

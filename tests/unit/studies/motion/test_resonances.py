@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies import STUDIES
-from tribodyn.studies.assessment.unknowns import UnknownsTable, drawn
+from tribodyn.studies.assessment.pair.unknowns import UnknownsTable, drawn
 from tribodyn.studies.motion.pair.resonances import HARMONICS, error_harmonics, resonance_speeds
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.evaluated import evaluated

@@ -16,7 +16,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards import micropitting, scuffing
 from tribodyn.standards.micropitting import Films
-from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
+from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
 from tribodyn.studies.gears.rated.capacity import Capacity, safeties, shorter_life
 from tribodyn.studies.gears.rated.limits import judged, with_unlimited, worst
 from tribodyn.studies.gears.rated.margins import Strength, bulk_of, flanks_of, oil_of

@@ -10,7 +10,7 @@ from tribodyn.geometry.body import GEOMETRY
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.scenario.quantity import NotNegative, Positive, Text, written
-from tribodyn.studies.assessment.unknowns import UnknownsTable
+from tribodyn.studies.assessment.pair.unknowns import UnknownsTable
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.case import GearCase, LubricatedCase, OiledCase
 from tribodyn.studies.gears.prepare import with_chosen_laws

@@ -12,6 +12,16 @@ from tribodyn.post.page.page import table
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.assessment.train.case import TrainAssessmentCase
+from tribodyn.studies.assessment.train.report import (
+    groups_of,
+    heading,
+    mesh_rows,
+    spectrum_tables_of,
+    stage_rows,
+    verdict,
+)
+from tribodyn.studies.assessment.train.run import DUTY, tasks_of
 from tribodyn.studies.gears.rated import first_page
 from tribodyn.studies.gears.rated.capacity import shorter_life
 from tribodyn.studies.gears.rated.first_page import (
@@ -25,16 +35,6 @@ from tribodyn.studies.gears.rated.first_page import (
 from tribodyn.studies.gears.rated.limits import LIMITS, SAFETIES, least, worst
 from tribodyn.studies.pages import loaded_again, overview
 from tribodyn.studies.protocol import tasks
-from tribodyn.studies.train_assessment.case import TrainAssessmentCase
-from tribodyn.studies.train_assessment.report import (
-    groups_of,
-    heading,
-    mesh_rows,
-    spectrum_tables_of,
-    stage_rows,
-    verdict,
-)
-from tribodyn.studies.train_assessment.run import DUTY, tasks_of
 
 _RPM = 30.0 / math.pi
 #: How a scenario gives the load of a train at its ends.

@@ -15,18 +15,18 @@ from tribodyn.geometry.body import geometry_arrays
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
-from tribodyn.studies.assessment import parts
-from tribodyn.studies.assessment.case import LAYOUT, AssessmentCase
-from tribodyn.studies.assessment.margins import (
+from tribodyn.studies.assessment.pair import parts
+from tribodyn.studies.assessment.pair.case import LAYOUT, AssessmentCase
+from tribodyn.studies.assessment.pair.margins import (
     LocalValues,
     largest_stresses,
     local_of,
     margins_and_limits,
     simulated_part,
 )
-from tribodyn.studies.assessment.reasons import compared
-from tribodyn.studies.assessment.said import assumed, extrapolated
-from tribodyn.studies.assessment.scatter import Conclusion, put_in, samples_of
+from tribodyn.studies.assessment.pair.reasons import compared
+from tribodyn.studies.assessment.pair.said import assumed, extrapolated
+from tribodyn.studies.assessment.pair.scatter import Conclusion, put_in, samples_of
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.drive_file import sheet_of
 from tribodyn.studies.gears.prepare import assembled

@@ -18,8 +18,8 @@ from tribodyn.scenario.tables.losses import LossesTable, TemperatureTable
 from tribodyn.scenario.tables.lubricant import lubricant_of
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.quality import tolerances_of
-from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.assessment.unknowns import broken_unknowns
+from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
+from tribodyn.studies.assessment.pair.unknowns import broken_unknowns
 from tribodyn.studies.gears.rated.american import broken_agma
 from tribodyn.studies.gears.rated.capacity import required
 from tribodyn.studies.gears.rated.limits import OilLimits, Pressure

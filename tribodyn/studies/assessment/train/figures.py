@@ -11,8 +11,8 @@ from tribodyn.post.figures.drawing import Drawing, single
 from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.assessment.train.report import groups_of
 from tribodyn.studies.gears.rated.limits import SAFETIES, least
-from tribodyn.studies.train_assessment.report import groups_of
 
 _RPM = 30.0 / math.pi
 

@@ -6,10 +6,10 @@ from typing import Any
 
 from tribodyn.post.report import EXCEEDED
 from tribodyn.record.reader import Record
-from tribodyn.studies.assessment import parts
-from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.parts import Part
-from tribodyn.studies.assessment.unknowns import described
+from tribodyn.studies.assessment.pair import parts
+from tribodyn.studies.assessment.pair.case import AssessmentCase
+from tribodyn.studies.assessment.pair.parts import Part
+from tribodyn.studies.assessment.pair.unknowns import described
 from tribodyn.studies.gears.rated.bearings import bearing_remarks, shafts_of_pair
 from tribodyn.studies.gears.rated.said import factors_said, life_said
 from tribodyn.studies.gears.rated.strength import metal_remarks

@@ -16,12 +16,12 @@ from tribodyn.quantities.catalogue import SPREAD, quantities, scatter
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
-from tribodyn.studies.assessment import parts
-from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.figures import pictures
-from tribodyn.studies.assessment.holds import holds
-from tribodyn.studies.assessment.report import verdict
-from tribodyn.studies.assessment.run import check
+from tribodyn.studies.assessment.pair import parts
+from tribodyn.studies.assessment.pair.case import AssessmentCase
+from tribodyn.studies.assessment.pair.figures import pictures
+from tribodyn.studies.assessment.pair.holds import holds
+from tribodyn.studies.assessment.pair.report import verdict
+from tribodyn.studies.assessment.pair.run import check
 from tribodyn.studies.gears.rated import first_page
 from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
 from tribodyn.studies.gears.rated.said import unit_of

@@ -11,9 +11,9 @@ from tests.support.planet_sets import ASSESSED_SET
 from tests.support.verbs import invoke, sets
 from tribodyn.errors import InputError
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.assessment.train.run import name_at, tasks_of
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.tasks import case_of
-from tribodyn.studies.train_assessment.run import name_at, tasks_of
 
 SCENARIO = f"""{ASSESSED_SET}[limits]
 dynamic_factor = 1.01

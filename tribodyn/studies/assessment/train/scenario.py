@@ -11,14 +11,15 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Positive, Table, scenario_file, written
 from tribodyn.studies import study_of
+from tribodyn.studies.assessment.train.case import TrainAssessmentCase, TrainRatingTable, of_mesh
 from tribodyn.studies.gears.rated.capacity import required
 from tribodyn.studies.gears.rated.limits import OilLimits
 from tribodyn.studies.protocol.load import broken_rules as rules_broken_by
 from tribodyn.studies.protocol.load import load_data, schema_inside
-from tribodyn.studies.train_assessment.case import TrainAssessmentCase, TrainRatingTable, of_mesh
 from tribodyn.tribology.friction import FRICTION_LAWS
 
-KIND = "train-assessment"
+#: The kind, and what a file may write for it.
+KIND, SHORT = "train-assessment", "assessment"
 
 
 class TrainLimits(OilLimits):
@@ -45,11 +46,16 @@ Scenario = TrainAssessmentScenario
 
 def table_for(data: Mapping[str, Any]) -> type[Table]:
     """Return the schema for data whose train, where it is opened, is of a known kind."""
-    return _around(schema_inside(data.get("scenario"), KIND))
+    return _around(schema_inside(data.get("scenario"), KIND), data.get("kind") == SHORT)
 
 
 @lru_cache(maxsize=16)
-def _around(base: type[Table] | None) -> type[Table]:
+def _around(base: type[Table] | None, short: bool) -> type[Table]:
+    if short:
+        kind: Any = (Literal["assessment"], Field())
+        named = create_model("TrainAssessmentScenario", __base__=_around(base, False), kind=kind)
+        named.__doc__ = TrainAssessmentScenario.__doc__
+        return named
     if base is None:
         return TrainAssessmentScenario
     about = TrainAssessmentScenario.model_fields["scenario"].description
@@ -76,7 +82,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> TrainAssessmentCase:
             )
             raise InputError(key, factor, rule, f"the meshes: {', '.join(names)}")
     return TrainAssessmentCase(
-        **head_of(scenario, toml, sha256),
+        **{**head_of(scenario, toml, sha256), "kind": KIND},
         subject=subject,
         settings=scenario.assessment,
         limits=scenario.limits.model_dump() | required(scenario.assessment),

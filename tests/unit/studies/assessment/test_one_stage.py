@@ -1,6 +1,7 @@
 """One stage has one life: typed as a train and as a pair of gears; a life without end is a lower bound."""
 
 import math
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -8,6 +9,7 @@ from typing import Any
 import pytest
 
 from tests.support.drawn_shafts import BETWEEN
+from tribodyn.errors import InputError
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
@@ -161,3 +163,16 @@ def test_a_lightly_loaded_pair_lasts_without_end():
     found = capacity(light, light.settings)
     assert found.shortest.unlimited
     assert found.shortest.left == 1.0
+
+
+def test_an_assessment_takes_any_gearbox(tmp_path: Path):
+    """A train under the short name of the kind is assessed as one, and so it is from its record."""
+    data = {"title": "x", "kind": "assessment", "scenario": TRAIN, "assessment": {**RATED, "speeds": 0}}
+    loaded = load_data(data, "x")
+    assert (loaded.study.kind, loaded.case.kind) == ("train-assessment", "train-assessment")
+    again = load_data(tomllib.loads(loaded.case.toml), "again")
+    assert again.case.limits == loaded.case.limits
+    long = load_data(data | {"kind": "train-assessment"}, "x")
+    assert long.case.subject.case.toml == loaded.case.subject.case.toml
+    with pytest.raises(InputError, match=r"assessment\.speedz"):
+        load_data(data | {"assessment": {"speedz": 0}}, "x")

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from tribodyn.record.reader import MESHES
+from tribodyn.studies.assessment.train.case import TrainAssessmentCase
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import as_life, capacity_of, life_bins, required, shorter_life
 from tribodyn.studies.gears.rated.limits import SAFETIES, least, worst
@@ -19,7 +20,6 @@ from tribodyn.studies.gears.rated.standard import (
     standard_of,
 )
 from tribodyn.studies.protocol.part import MeshAtDuty
-from tribodyn.studies.train_assessment.case import TrainAssessmentCase
 
 STAGES = "stages"
 #: Of the run at the duty, of each mesh.

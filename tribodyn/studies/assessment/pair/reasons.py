@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.studies.assessment.beside import (
+from tribodyn.studies.assessment.pair.beside import (
     GivenFactors,
     LoadedTeeth,
     SimulatedStrength,
@@ -15,7 +15,7 @@ from tribodyn.studies.assessment.beside import (
     loaded_teeth,
     strength_beside,
 )
-from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.gears.rated.capacity import Capacity, safeties
 from tribodyn.studies.gears.rated.standard import LoadFactors
 

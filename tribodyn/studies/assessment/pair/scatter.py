@@ -9,10 +9,10 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.quantities.catalogue import SPREAD, scatter
-from tribodyn.studies.assessment.beside import SimulatedStrength
-from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.margins import LocalValues
-from tribodyn.studies.assessment.unknowns import Draw
+from tribodyn.studies.assessment.pair.beside import SimulatedStrength
+from tribodyn.studies.assessment.pair.case import AssessmentCase
+from tribodyn.studies.assessment.pair.margins import LocalValues
+from tribodyn.studies.assessment.pair.unknowns import Draw
 from tribodyn.studies.gears.rated.capacity import Capacity, safeties, shorter_life
 from tribodyn.studies.gears.rated.limits import least, over_samples, worst
 from tribodyn.studies.gears.rated.standard import Standard

@@ -1,0 +1,1 @@
+"""Assessments of a drive: what the other studies find, and load capacity by the standards beside it."""
