@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 from tools.marked_block import DOCS, ROOT, put, table
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.sources import names, shipped
+from tribodyn.input.sources import names, shipped
 from tribodyn.studies import STUDIES
 from tribodyn.train.links import LINK_LAWS
 from tribodyn.tribology.film import FILM_LAWS

@@ -13,10 +13,10 @@ As a library::
 
 from typing import TYPE_CHECKING, Any
 
-# folders with names of the interface: imported and unbound, so that no later import binds these names
-from tribodyn import scenario, standards, sweep
+# a folder with a name of the interface: imported and unbound, so that no later import binds this name
+from tribodyn import standards
 
-del scenario, standards, sweep
+del standards
 
 __version__ = "0.2.0"
 

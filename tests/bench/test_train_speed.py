@@ -18,11 +18,11 @@ from tests.support.timing import least
 from tests.support.train_scenarios import case_of_table, prepared_train, train_case
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import Model
+from tribodyn.input.sources import find_scenario
 from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.kernels.native import kernel
-from tribodyn.scenario.sources import find_scenario
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.lanes.batch import lane_model, pack
 from tribodyn.solve.orbit.periodic import steady_states

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.cli import options
-from tribodyn.scenario.sources import find_scenario
+from tribodyn.input.sources import find_scenario
 from tribodyn.studies import STUDIES
 
 MAIN = "from tribodyn.cli import main; main()"

@@ -12,14 +12,14 @@ import xarray
 import tribodyn as td
 from tests.support.killed_sweeps import differences
 from tests.support.verbs import complaint, invoke
+from tribodyn.grid.data_set import TEST, TRAIN, data_set_of
+from tribodyn.grid.engines import LocalEngine, evaluate
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.run import run, settings_of
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import read_sensed
 from tribodyn.record.sweep_schema import DONE
 from tribodyn.studies.sweeping.batch import Chunk
-from tribodyn.sweep.data_set import TEST, TRAIN, data_set_of
-from tribodyn.sweep.engines import LocalEngine, evaluate
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import run, settings_of
 
 PAIR = {
     "title": "Sound and damaged gears",

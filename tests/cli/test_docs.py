@@ -25,7 +25,7 @@ from tests.support.passed_before import unless_passed
 from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import sets
 from tribodyn.cli.app import app
-from tribodyn.scenario.sources import find_scenario, names, shipped
+from tribodyn.input.sources import find_scenario, names, shipped
 from tribodyn.studies.protocol.load import load_scenario
 
 ROOT = Path(__file__).parents[2]

@@ -10,7 +10,7 @@ import pytest
 
 import tribodyn as td
 from tests.support.verbs import complaint, ended, invoke
-from tribodyn.scenario.sources import shipped
+from tribodyn.input.sources import shipped
 
 SIDES = [f"{side}{end}" for side in ("pinion", "gear") for end in (".dxf", "-rack.dxf", ".csv")]
 DRAWINGS = ("pair.svg", "pair.png", "pair.dxf", *SIDES)

@@ -9,8 +9,8 @@ import pytest
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import in_a_process, sets
+from tribodyn.input.sources import names, shipped
 from tribodyn.record.reader import Record
-from tribodyn.scenario.sources import names, shipped
 from tribodyn.studies.protocol.load import load_scenario
 
 

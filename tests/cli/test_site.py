@@ -17,7 +17,7 @@ from tools.command_line_page import PAGE, page
 from tools.shipped_table import PAGES, counts
 from tribodyn.cli.app import app
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.sources import names, shipped
+from tribodyn.input.sources import names, shipped
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 

@@ -11,13 +11,13 @@ import pytest
 
 from tests.support.short_studies import SHORT, short_case, written_template
 from tests.support.verbs import complaint, invoke, sets
+from tribodyn.grid.engines import LocalEngine
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.run import run, settings_of
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.run import run as run_case
-from tribodyn.sweep.engines import LocalEngine
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import run, settings_of
 
 #: Kind -> the varied key, and two of its values.
 VARIED = {

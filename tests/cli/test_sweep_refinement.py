@@ -8,11 +8,11 @@ import pytest
 from scipy.signal import find_peaks
 
 from tests.support.verbs import complaint, invoke, sets
+from tribodyn.grid.refinement import BEND, PARTS, interval_bends
+from tribodyn.input import units
+from tribodyn.input.units import Kind, to_si
+from tribodyn.input.vary import in_si
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.scenario import units
-from tribodyn.scenario.units import Kind, to_si
-from tribodyn.scenario.vary import in_si
-from tribodyn.sweep.refinement import BEND, PARTS, interval_bends
 
 SPEED = "operating.pinion_speed"
 RPM = np.pi / 30

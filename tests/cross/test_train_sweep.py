@@ -7,6 +7,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.errors import InputError
+from tribodyn.grid.grid import Grid
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.motion.batch.gearboxes import KEPT, OF_MESH
@@ -15,7 +16,6 @@ from tribodyn.studies.motion.report import swept_of
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.studies.sweeping.batch import Chunk
-from tribodyn.sweep.grid import Grid
 
 KEYS = {"friction.law": "coulomb", "friction.coefficient": 0.06, "output.samples_per_cycle": 60}
 

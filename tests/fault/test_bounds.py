@@ -7,10 +7,10 @@ import pytest
 
 from tests.support.work import at_most
 from tribodyn.errors import InputError
-from tribodyn.scenario.bounds import DEEPEST, TooMuch, parsed
-from tribodyn.scenario.sources import MOST_CSV, MOST_POINTS, MOST_TOML, read_curve, read_toml
-from tribodyn.scenario.unit_grammar import is_unit
-from tribodyn.scenario.units import ANGULAR_SPEED, LENGTH, TIME, NotAQuantity, factor_to_si, to_si
+from tribodyn.input.bounds import DEEPEST, TooMuch, parsed
+from tribodyn.input.sources import MOST_CSV, MOST_POINTS, MOST_TOML, read_curve, read_toml
+from tribodyn.input.unit_grammar import is_unit
+from tribodyn.input.units import ANGULAR_SPEED, LENGTH, TIME, NotAQuantity, factor_to_si, to_si
 from tribodyn.studies.protocol.load import load_scenario
 
 Refused = Callable[..., tuple[int, list[str]]]

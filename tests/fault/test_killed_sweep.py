@@ -13,12 +13,12 @@ import pytest
 
 from tests.support.killed_sweeps import differences
 from tests.support.verbs import complaint, invoke
+from tribodyn.grid.engines import DaskEngine, LocalEngine
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.run import run, settings_of
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, WAITING
 from tribodyn.studies.motion import batch
-from tribodyn.sweep.engines import DaskEngine, LocalEngine
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import run, settings_of
 
 # one case a chunk, so that there is something between nothing and everything
 ONE_A_CHUNK = (

@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 from tests.support.verbs import complaint
+from tribodyn.grid.engines import LocalEngine
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.plan import estimate_of
+from tribodyn.grid.run import run, settings_of
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.sweep.engines import LocalEngine
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.plan import estimate_of
-from tribodyn.sweep.run import run, settings_of
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SAMPLES = "output.samples_per_cycle"
@@ -39,7 +39,7 @@ def test_the_record_of_a_sweep_is_what_was_said(
     grid = Grid("crc-23-47", [SPEEDS], {"output.samples_per_cycle": samples})
     settings = settings_of(grid, transient=8)
     said = estimate_of(grid, settings, 0)
-    monkeypatch.setattr(import_module("tribodyn.sweep.plan"), "MOST_CASES", 2)
+    monkeypatch.setattr(import_module("tribodyn.grid.plan"), "MOST_CASES", 2)
     result = run(grid, settings, LocalEngine(), tmp_path / "s.h5", allow_large=True)
     with SweepRecord(result.path) as record:
         assert record.summary["cases"] == 3

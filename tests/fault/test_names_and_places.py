@@ -10,12 +10,12 @@ from typing import Any
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.sources import file_name
+from tribodyn.grid.grid import _put
+from tribodyn.input.sources import file_name
 from tribodyn.studies.gears.prepare import contact_quantities
 from tribodyn.studies.gears.rated.margins import bulk_of
 from tribodyn.studies.motion.batch.signals import SignalBatch, SignalSettings
 from tribodyn.studies.sweeping.signals import SignalRequest
-from tribodyn.sweep.grid import _put
 
 TAKEN = ("message", "status", "trust", "case", "line", "start_time", "time_100_Hz", "reference_angle_200_Hz")
 

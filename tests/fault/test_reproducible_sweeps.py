@@ -7,12 +7,12 @@ import pytest
 
 from tests.support.killed_sweeps import MOVING_ERROR, differences
 from tests.support.soak_parameters import all_in_soak
+from tribodyn.grid.engines import DaskEngine, Engine, LocalEngine
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.refinement import refinement_of
+from tribodyn.grid.run import run, settings_of
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.motion import batch
-from tribodyn.sweep.engines import DaskEngine, Engine, LocalEngine
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.refinement import refinement_of
-from tribodyn.sweep.run import run, settings_of
 
 KEY, _, ERROR = MOVING_ERROR.partition("=")
 SET = {KEY: ERROR, "output.samples_per_cycle": 32}

@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tribodyn.errors import InputError
+from tribodyn.grid.grid import Grid
+from tribodyn.input.units import ANGULAR_SPEED, to_si
+from tribodyn.input.vary import axes_of
 from tribodyn.quantities.quantity import shown
-from tribodyn.scenario.units import ANGULAR_SPEED, to_si
-from tribodyn.scenario.vary import axes_of
 from tribodyn.studies.motion.pair.scenario import Scenario
-from tribodyn.sweep.grid import Grid
 
 SPEED = "operating.pinion_speed"
 

@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 from tests.support.foreign_marching import Compared, Reported, compared, gear_march, oscillator_march
+from tribodyn.grid.engines import LocalEngine
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.run import run, settings_of
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DIRECTIONS, DONE
 from tribodyn.solve.orbit.gear_map import moving_states
@@ -15,9 +18,6 @@ from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_resp
 from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.sweep.engines import LocalEngine
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import run, settings_of
 
 SEED, OSCILLATORS, GEARS = 12, 12, 8
 #: Change over a period, over the size, that the foreign integrator may see in a motion with a period. Where

@@ -11,9 +11,9 @@ import tomli_w
 from pydantic import ValidationError
 
 from tribodyn.errors import InputErrors
-from tribodyn.scenario.messages import explain
-from tribodyn.scenario.resolve import resolve, resolve_table, unresolved_keys
-from tribodyn.scenario.sources import find_scenario
+from tribodyn.input.messages import explain
+from tribodyn.input.resolve import resolve, resolve_table, unresolved_keys
+from tribodyn.input.sources import find_scenario
 from tribodyn.studies.motion import TRAIN as STUDY
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare

@@ -9,8 +9,8 @@ from pydantic import TypeAdapter, ValidationError
 from tools.by_schema.changes import at, changed, keys_of, opened, taken
 from tools.by_schema.keys import Pattern, SchemaKey, every_key, patterns
 from tools.by_schema.values import Surroundings, drawn_value
+from tribodyn.input.schema import EACH
 from tribodyn.numerics.parameter import Parameter
-from tribodyn.scenario.schema import EACH
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import json_schema
 

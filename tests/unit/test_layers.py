@@ -38,7 +38,7 @@ MAY_IMPORT["quantities"] = {"numerics"}
 MAY_IMPORT["record"] = {"numerics", "signals", "quantities"}
 MAY_IMPORT["post"] = {"numerics", "signals", "quantities", "record"}
 MAY_IMPORT["drawing"] = {"numerics", "geometry", "post"}
-MAY_IMPORT["scenario"] = {
+MAY_IMPORT["input"] = {
     "numerics",
     "geometry",
     "tribology",
@@ -56,10 +56,10 @@ MAY_IMPORT["derivatives"] = {
     "mesh",
     "solve",
     "quantities",
-    "scenario",
+    "input",
 }
 MAY_IMPORT["studies"] = set(MAY_IMPORT) - {"studies"}
-MAY_IMPORT["sweep"] = set(MAY_IMPORT) - {"sweep"}
+MAY_IMPORT["grid"] = set(MAY_IMPORT) - {"grid"}
 MAY_IMPORT["identification"] = set(MAY_IMPORT) - {"identification"}
 MAY_IMPORT["validation"] = set(MAY_IMPORT) - {"validation"}
 MAY_IMPORT["interface"] = set(MAY_IMPORT) - {"interface"}

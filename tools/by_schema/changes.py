@@ -22,11 +22,11 @@ from tools.by_schema.values import (
 )
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.quantity import FamilyShape
-from tribodyn.scenario.resolve import resolve_table, toml_value
-from tribodyn.scenario.schema import EACH, matches, parts_of
-from tribodyn.scenario.sources import find_scenario, shipped
-from tribodyn.scenario.tables.laws import LawTable
+from tribodyn.input.quantity import FamilyShape
+from tribodyn.input.resolve import resolve_table, toml_value
+from tribodyn.input.schema import EACH, matches, parts_of
+from tribodyn.input.sources import find_scenario, shipped
+from tribodyn.input.tables.laws import LawTable
 from tribodyn.studies.protocol.load import load_data, table_of
 
 #: So often a scenario that is refused is changed again.

@@ -17,9 +17,9 @@ from tools.by_schema.changes import Change, at, put, taken
 from tools.by_schema.keys import SchemaKey
 from tools.by_schema.values import Surroundings, drawn_value, names_in
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.input.schema import inner_tables
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.record.reader import Record
-from tribodyn.scenario.schema import inner_tables
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.studies.protocol.run import run
 

@@ -7,10 +7,10 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from tribodyn.geometry.families import FAMILIES
+from tribodyn.input.quantity import FamilyShape
+from tribodyn.input.schema import EACH, inner_tables, parts_of
+from tribodyn.input.tables.laws import LawTable
 from tribodyn.numerics.parameter import Parameter
-from tribodyn.scenario.quantity import FamilyShape
-from tribodyn.scenario.schema import EACH, inner_tables, parts_of
-from tribodyn.scenario.tables.laws import LawTable
 
 Pattern = tuple[str, ...]
 

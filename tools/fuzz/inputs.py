@@ -13,9 +13,9 @@ from tools.by_schema.keys import SchemaKey
 from tools.by_schema.values import Surroundings, drawn_value
 from tools.fuzz import corpus
 from tools.fuzz.records import FIXTURES, RUNS
-from tribodyn.scenario.quantity import Reference
-from tribodyn.scenario.schema import EACH, parts_of
-from tribodyn.scenario.sources import shipped
+from tribodyn.input.quantity import Reference
+from tribodyn.input.schema import EACH, parts_of
+from tribodyn.input.sources import shipped
 from tribodyn.studies import study_of
 
 #: Targets and how often each is drawn.

@@ -16,6 +16,8 @@ from tribodyn.cli.app import app
 from tribodyn.cli.options import overrides
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.errors import InputError, InputErrors, SimulationError
+from tribodyn.grid.data_set import data_set_of
+from tribodyn.grid.grid import Grid
 from tribodyn.kernels.native.arguments import Compiled, Target
 from tribodyn.kernels.native.store import compiled_in, content_of
 from tribodyn.numerics.cache import arrays_kept_or_made, kept_or_made, trusted_folder
@@ -24,8 +26,6 @@ from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
 from tribodyn.studies.pages import summary_json, summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.sweep.data_set import data_set_of
-from tribodyn.sweep.grid import Grid
 from tribodyn.tribology.ehl.table import ContactTable
 
 TAKEN, REFUSED = "taken", "refused"

@@ -15,6 +15,9 @@ import numpy as np
 
 from tools.marked_block import table as table_of
 from tribodyn.dynamics.parameters import Model
+from tribodyn.grid.engines import LocalEngine
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.run import run, settings_of
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
@@ -22,9 +25,6 @@ from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.motion.batch import MOST_CYCLES
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.sweep.engines import LocalEngine
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import run, settings_of
 from tribodyn.train.structure import rotational_error
 
 Array = Any

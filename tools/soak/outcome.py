@@ -20,15 +20,15 @@ from tools.soak.keyed import changes, unread
 from tools.soak.other_records import FAULTS, any_faults, sweep_against_run, sweep_faults
 from tools.soak.refusals import untrue
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.grid.engines import LocalEngine
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.run import run as run_sweep
+from tribodyn.grid.run import settings_of
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.pages import summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.sweep.engines import LocalEngine
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import run as run_sweep
-from tribodyn.sweep.run import settings_of
 
 _log = logging.getLogger(__name__)
 

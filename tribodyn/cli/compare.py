@@ -84,8 +84,8 @@ def compare(
 def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loaded"]:
     """Load what is to be run, and refuse before anything runs what cannot be compared afterwards."""
     from tribodyn.errors import InputError
+    from tribodyn.input.sources import is_file
     from tribodyn.record.reader import Record
-    from tribodyn.scenario.sources import is_file
     from tribodyn.studies.pages import study_of_record
     from tribodyn.studies.protocol.load import load
 

@@ -82,7 +82,7 @@ def _first(names: dict[str, str]) -> str:
 def _about(what: What) -> dict[str, str]:
     """Return name and description of everything of one sort."""
     from tribodyn.geometry.families import FAMILIES
-    from tribodyn.scenario.sources import shipped
+    from tribodyn.input.sources import shipped
     from tribodyn.solve.methods import SOLVERS
     from tribodyn.studies import STUDIES
     from tribodyn.train.links import LINK_LAWS
@@ -130,6 +130,6 @@ def _drawn(of_kinds: dict[str, Any]) -> dict[str, str]:
 
 
 def _titles(folder: Any) -> dict[str, str]:
-    from tribodyn.scenario.sources import names, read_toml
+    from tribodyn.input.sources import names, read_toml
 
     return {name: str(read_toml(folder / f"{name}.toml").get("title", "")) for name in names(folder)}

@@ -14,14 +14,14 @@ RECORDS = ("*.h5", "*.hdf5")
 
 def scenarios(incomplete: str) -> list[str]:
     """Scenario files here, names of shipped scenarios."""
-    from tribodyn.scenario.sources import names, shipped
+    from tribodyn.input.sources import names, shipped
 
     return _beginning([*_files(incomplete, "*.toml"), *names(shipped("scenarios"))], incomplete)
 
 
 def drives(incomplete: str) -> list[str]:
     """Files here, names of shipped drives and scenarios."""
-    from tribodyn.scenario.sources import names, shipped
+    from tribodyn.input.sources import names, shipped
 
     return _beginning([*names(shipped("models") / "drives"), *scenarios(incomplete)], incomplete)
 
@@ -42,8 +42,8 @@ def keys(context: typer.Context, incomplete: str) -> list[str]:
     """Keys of the scenario that is on the line already, or of a gear pair; a table's after its dot."""
     import tomllib
 
-    from tribodyn.scenario.messages import keys_in
-    from tribodyn.scenario.sources import find_scenario
+    from tribodyn.input.messages import keys_in
+    from tribodyn.input.sources import find_scenario
     from tribodyn.studies.protocol.load import table_of
 
     data = {}

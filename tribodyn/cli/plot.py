@@ -78,9 +78,9 @@ def plot(
 
     from tribodyn.cli.pictures import draw, save_all
     from tribodyn.cli.printing import print_files, print_json
+    from tribodyn.input.sources import is_file
     from tribodyn.record.reader import Record
     from tribodyn.record.sweep_reader import SweepRecord, is_sweep
-    from tribodyn.scenario.sources import is_file
     from tribodyn.studies.pages import names as figure_names
     from tribodyn.studies.pages import sweep_figure, sweep_names
 
@@ -119,7 +119,7 @@ def plot(
 
 def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
     """Read NAME=VALUE, in the unit given or the record's."""
-    from tribodyn.scenario.units import ANGULAR_SPEED, Kind, NotAQuantity, to_si
+    from tribodyn.input.units import ANGULAR_SPEED, Kind, NotAQuantity, to_si
 
     units = {axis.name: axis.units for axis in record.parameters if axis.values.dtype.kind in "fi"}
     place: dict[str, float | str] = {}

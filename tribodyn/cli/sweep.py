@@ -149,18 +149,18 @@ def sweep(
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
     from tribodyn.cli.printing import print_files, print_json, print_rich
     from tribodyn.errors import InputError
+    from tribodyn.grid.data_set import LICENCE, data_set_of
+    from tribodyn.grid.engines import engine_of
+    from tribodyn.grid.grid import Grid, default_output
+    from tribodyn.grid.refinement import refinement_of
+    from tribodyn.grid.run import cases_at_most, run, settings_of
+    from tribodyn.input.sources import file_name
     from tribodyn.post.progress import progress_bar
     from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
     from tribodyn.record.previous import watched
     from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.record.sweep_schema import DIRECTIONS
-    from tribodyn.scenario.sources import file_name
     from tribodyn.studies.pages import sweep_table
-    from tribodyn.sweep.data_set import LICENCE, data_set_of
-    from tribodyn.sweep.engines import engine_of
-    from tribodyn.sweep.grid import Grid, default_output
-    from tribodyn.sweep.refinement import refinement_of
-    from tribodyn.sweep.run import cases_at_most, run, settings_of
 
     if steady and transient is not None:
         raise InputError("--steady", None, "contradicts --transient", "give one of them")

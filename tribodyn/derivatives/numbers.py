@@ -12,11 +12,11 @@ from pydantic import BaseModel
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written, from_written
+from tribodyn.input.own_keys import si_unit
+from tribodyn.input.units import Kind
+from tribodyn.input.vary import kind_at
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.parameter import Parameter
-from tribodyn.scenario.own_keys import si_unit
-from tribodyn.scenario.units import Kind
-from tribodyn.scenario.vary import kind_at
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.oil import UNITS, lubricant_at, lubricant_from
 

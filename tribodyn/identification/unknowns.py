@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.input.units import Kind, NotAQuantity, to_si
+from tribodyn.input.vary import in_si, kind_at
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.scenario.units import Kind, NotAQuantity, to_si
-from tribodyn.scenario.vary import in_si, kind_at
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.load import load_data
 

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from tribodyn.input.sources import find_scenario
 from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import Source, in_python, scenario
-from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies import STUDIES
 
 

@@ -111,7 +111,7 @@ class GearPair:
         """
         import xarray as xr
 
-        from tribodyn.scenario.units import TORQUE, NotAQuantity, to_si
+        from tribodyn.input.units import TORQUE, NotAQuantity, to_si
 
         text = in_toml(gear_torque)
         try:

@@ -12,12 +12,12 @@ from tribodyn.identification.fit import WHITE, Fit, evolution, fitted, sobol, wh
 from tribodyn.identification.measured import measured_of
 from tribodyn.identification.simulated import SignalComparison, turn_of
 from tribodyn.identification.unknowns import Unknown, case_at, shares_of, unknowns_of
+from tribodyn.input import units
+from tribodyn.input.units import NotAQuantity, to_si
 from tribodyn.interface import shown
 from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.post.progress import Report, progress_of
-from tribodyn.scenario import units
-from tribodyn.scenario.units import NotAQuantity, to_si
 from tribodyn.studies.protocol.cost import refuse_large, say_beforehand
 from tribodyn.studies.sweeping.signals import RUN_IN
 

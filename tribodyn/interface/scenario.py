@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError, OutputError
+from tribodyn.input.resolve import OVERRIDES, resolve_table
+from tribodyn.input.vary import VARY
 from tribodyn.interface.arguments import checked
-from tribodyn.scenario.resolve import OVERRIDES, resolve_table
-from tribodyn.scenario.vary import VARY
 from tribodyn.studies.protocol.load import load_scenario, loaded_from, table_of
 from tribodyn.studies.protocol.study import CaseHead
 

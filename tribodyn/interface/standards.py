@@ -18,9 +18,9 @@ import numpy as np
 
 from tribodyn.compliance import iso6336
 from tribodyn.errors import InputError, quoted
+from tribodyn.input import units
+from tribodyn.input.units import Kind, NotAQuantity, to_si
 from tribodyn.interface.scenario import in_toml
-from tribodyn.scenario import units
-from tribodyn.scenario.units import Kind, NotAQuantity, to_si
 from tribodyn.standards.agma import RELIABILITY
 from tribodyn.standards.micropitting import LUBRICATION_FACTORS
 from tribodyn.standards.pitting import UNMODIFIED_FACTOR

@@ -8,6 +8,11 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.grid.data_set import LICENCE, TEST_SHARE, data_set_of
+from tribodyn.grid.engines import engine_of
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.refinement import refinement_of
+from tribodyn.grid.run import cases_at_most, run, settings_of
 from tribodyn.interface import shown
 from tribodyn.interface.arguments import checked
 from tribodyn.interface.result import Run
@@ -20,11 +25,6 @@ from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
 from tribodyn.studies import study_of
 from tribodyn.studies.sweeping.signals import RUN_IN
-from tribodyn.sweep.data_set import LICENCE, TEST_SHARE, data_set_of
-from tribodyn.sweep.engines import engine_of
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.refinement import refinement_of
-from tribodyn.sweep.run import cases_at_most, run, settings_of
 
 if TYPE_CHECKING:
     import xarray

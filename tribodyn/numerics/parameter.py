@@ -11,7 +11,7 @@ class Parameter(NamedTuple):
     ----------
     name : key in the scenario, and name under which the family or law receives the value
     kind : "number" for a plain number; "path" for points x, y (m) of a path; else the name of a quantity that
-        is written with a unit, as `tribodyn.scenario.units.QUANTITIES` has it: "length", "pressure", "dynamic
+        is written with a unit, as `tribodyn.input.units.QUANTITIES` has it: "length", "pressure", "dynamic
         viscosity". "signed length" is a length of either sign.
     about : what it means, in a line
     default : float, optional

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
+from tribodyn.input.sources import read_curve
+from tribodyn.input.units import ANGULAR_SPEED, Kind, NotAQuantity, factor_to_si
 from tribodyn.record.reader import Record
-from tribodyn.scenario.sources import read_curve
-from tribodyn.scenario.units import ANGULAR_SPEED, Kind, NotAQuantity, factor_to_si
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

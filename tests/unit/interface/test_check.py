@@ -11,8 +11,8 @@ import tribodyn as td
 from tests.support.short_studies import SHORT, shortened, written_template
 from tribodyn.cli.app import app
 from tribodyn.cli.printing import plain
+from tribodyn.input.sources import find_scenario
 from tribodyn.quantities.quantity import SHOWN
-from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies import STUDIES
 
 #: Units in which numbers are shown to people and kept in another.

@@ -47,11 +47,11 @@ def test_a_run_has_the_verdict_that_is_printed(crc, capsys):
 
 def test_functions_keep_their_names_whatever_is_imported():
     check = """
-import tribodyn.sweep.grid, tribodyn.scenario.units, tribodyn as td
+import tribodyn.grid.grid, tribodyn.input.units, tribodyn as td
 from tribodyn import scenario, sweep
 assert callable(td.sweep) and td.sweep is sweep
 assert callable(td.scenario) and td.scenario is scenario
-import tribodyn.sweep.run
+import tribodyn.grid.run
 assert td.sweep is sweep
 """
     subprocess.run([sys.executable, "-c", check], check=True)

@@ -7,8 +7,8 @@ import pint
 import pytest
 
 import tribodyn as td
+from tribodyn.input.units import registry
 from tribodyn.interface.scenario import in_toml
-from tribodyn.scenario.units import registry
 
 UNIT = pint.UnitRegistry()
 TABLES = {

@@ -9,7 +9,7 @@ import tribodyn as td
 from tests.support.train_scenarios import REDUCER
 from tribodyn.derivatives.differentiable import fixed_of
 from tribodyn.derivatives.quantities import PairEvaluation, quantity_of
-from tribodyn.scenario.sources import find_scenario
+from tribodyn.input.sources import find_scenario
 
 #: Its meshes have the same teeth, and one compiled program.
 TWICE = REDUCER | {

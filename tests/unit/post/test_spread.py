@@ -6,12 +6,12 @@ import h5py
 import numpy as np
 import pytest
 
+from tribodyn.grid.engines import engine_of
+from tribodyn.grid.grid import Grid
+from tribodyn.grid.run import run, settings_of
 from tribodyn.post.sweep_report import spread, sweep_as_json, sweep_rows
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.sweep.engines import engine_of
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import run, settings_of
 
 
 @pytest.fixture(scope="module")

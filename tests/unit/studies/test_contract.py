@@ -20,12 +20,12 @@ from tests.support.soak_parameters import all_in_soak
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES
+from tribodyn.input.quantity import Table
 from tribodyn.post.figures.drawing import Drawing, SweepDrawing
 from tribodyn.post.style import save
 from tribodyn.post.verdict import LINES
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
-from tribodyn.scenario.quantity import Table
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.comparing import compare
 from tribodyn.studies.pages import figure, names, summary_table

@@ -9,8 +9,8 @@ import pytest
 
 from tests.support.short_studies import SHORT, written_template
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.schema import references
-from tribodyn.scenario.sources import DRIVES, shipped
+from tribodyn.input.schema import references
+from tribodyn.input.sources import DRIVES, shipped
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run

@@ -36,7 +36,7 @@ from tribodyn.numerics.parameter import Variable
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.schema import TIME, Layout
-from tribodyn.scenario.quantity import Table, Text
+from tribodyn.input.quantity import Table, Text
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CaseHead, CheckResult, RunResult, Study, TextTable
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.sources import shipped
+from tribodyn.input.sources import shipped
 from tribodyn.studies.protocol.load import filled, load
 
 

@@ -10,7 +10,7 @@ from tests.support.verbs import ROOT, ended, sets
 from tools.usual_ranges import usual_ranges
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.scenario.sources import names, shipped
+from tribodyn.input.sources import names, shipped
 from tribodyn.studies.gears.duty import nominal_duty
 from tribodyn.studies.gears.usual import USUAL, unusual_values
 from tribodyn.studies.protocol.load import load, load_scenario

@@ -8,8 +8,8 @@ import pytest
 from tests.support.random_duties import departures, drawn, excess
 from tests.support.short_studies import written_template
 from tribodyn.errors import InputError
+from tribodyn.grid.grid import Grid
 from tribodyn.studies.protocol.load import load_data, load_scenario
-from tribodyn.sweep.grid import Grid
 from tribodyn.tribology import choice
 from tribodyn.tribology.closure import law_input, with_laws
 from tribodyn.tribology.film import FILM_LAWS

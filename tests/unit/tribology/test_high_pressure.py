@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tribodyn.scenario.sources import read_toml, shipped
-from tribodyn.scenario.tables.lubricant import Lubricant, lubricant_of
+from tribodyn.input.sources import read_toml, shipped
+from tribodyn.input.tables.lubricant import Lubricant, lubricant_of
 from tribodyn.tribology.high_pressure import MEASURED, contact_viscosity
 from tribodyn.tribology.oil import OIL_TYPES, OilSheet, lubricant_from
 from tribodyn.tribology.pressure_law import asymptotic_coefficient

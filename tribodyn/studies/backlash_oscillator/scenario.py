@@ -5,8 +5,8 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag, create_model
 
-from tribodyn.scenario.fields import ScenarioHead, head_of
-from tribodyn.scenario.quantity import NotNegative, Positive, Table, broken, written
+from tribodyn.input.fields import ScenarioHead, head_of
+from tribodyn.input.quantity import NotNegative, Positive, Table, broken, written
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 
 #: Maximum number of frequencies of one sweep.

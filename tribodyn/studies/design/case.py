@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import Field
 
-from tribodyn.scenario.quantity import Table
+from tribodyn.input.quantity import Table
 from tribodyn.studies.protocol.study import CaseHead
 
 _NUMBER_AND_UNIT = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(\S.*?)?\s*$", re.ASCII)

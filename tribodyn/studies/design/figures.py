@@ -194,7 +194,7 @@ def _bounds(entry: Mapping[str, Any]) -> tuple[float, float]:
 
 def _number(value: Any, entry: Mapping[str, Any]) -> float:
     """Value of a free key in the units of its dataset; of a choice its place."""
-    from tribodyn.scenario.units import base_units
+    from tribodyn.input.units import base_units
 
     if "choices" in entry:
         return float(list(map(str, entry["choices"])).index(str(value)))

@@ -7,9 +7,9 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.scenario.resolve import toml_value
-from tribodyn.scenario.units import Kind, NotAQuantity, base_units, factor_to_si, to_si
-from tribodyn.scenario.vary import is_drawn, is_whole, kind_at
+from tribodyn.input.resolve import toml_value
+from tribodyn.input.units import Kind, NotAQuantity, base_units, factor_to_si, to_si
+from tribodyn.input.vary import is_drawn, is_whole, kind_at
 from tribodyn.studies.design import case
 from tribodyn.studies.design.candidates.candidates import PITCH_ERRORS, PROFILE_ERROR
 from tribodyn.studies.design.candidates.sources import (

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.scenario.resolve import resolve_table, toml_value
-from tribodyn.scenario.sources import find_scenario, read_toml
+from tribodyn.input.resolve import resolve_table, toml_value
+from tribodyn.input.sources import find_scenario, read_toml
 from tribodyn.studies.design.case import unit_of
 from tribodyn.studies.protocol.load import Loaded, loaded_from, table_of
 from tribodyn.studies.protocol.study import CaseHead

@@ -8,12 +8,12 @@ from pydantic import Field
 
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.errors import InputError
-from tribodyn.scenario.quantity import Table, written
-from tribodyn.scenario.tables.bearings import Stiffness
-from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
-from tribodyn.scenario.tables.internal_gear import driving_internal
-from tribodyn.scenario.tables.laws import FrictionTable
-from tribodyn.scenario.tables.model_files import MisalignmentTable
+from tribodyn.input.quantity import Table, written
+from tribodyn.input.tables.bearings import Stiffness
+from tribodyn.input.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
+from tribodyn.input.tables.internal_gear import driving_internal
+from tribodyn.input.tables.laws import FrictionTable
+from tribodyn.input.tables.model_files import MisalignmentTable
 from tribodyn.studies.gears.case import LubricatedCase, with_chosen
 from tribodyn.studies.gears.over_time.recorded import LAYOUT
 from tribodyn.studies.gears.prepare import with_chosen_laws

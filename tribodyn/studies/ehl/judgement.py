@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.resolve import resolve_table
-from tribodyn.scenario.tables.duty import OiledOperatingTable
+from tribodyn.input.resolve import resolve_table
+from tribodyn.input.tables.duty import OiledOperatingTable
 from tribodyn.studies.ehl.along_path import PairWay, PreparedEhl, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import by_laws, solve

@@ -8,11 +8,11 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData
+from tribodyn.input.tables.drive_data import RoundedDistance, rounded_distance_of
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
 from tribodyn.post.verdict import IN_DOUBT
-from tribodyn.scenario.tables.drive_data import RoundedDistance, rounded_distance_of
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.prepare import PreparedGears
 from tribodyn.studies.protocol.recording import CheckResult, TextTable

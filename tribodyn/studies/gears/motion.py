@@ -8,9 +8,8 @@ from pydantic import Field
 
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.errors import InputError, unknown_name
-from tribodyn.mesh.table import MeshData
-from tribodyn.scenario import fields, units
-from tribodyn.scenario.quantity import (
+from tribodyn.input import fields, units
+from tribodyn.input.quantity import (
     Count,
     InUnit,
     Names,
@@ -21,11 +20,12 @@ from tribodyn.scenario.quantity import (
     csv_file,
     written,
 )
-from tribodyn.scenario.tables.bearings import Stiffness
-from tribodyn.scenario.tables.drive_data import backlash_of
-from tribodyn.scenario.tables.laws import FrictionTable
-from tribodyn.scenario.tables.model_files import MisalignmentTable
-from tribodyn.scenario.tables.own_teeth import ToothSampleNumber
+from tribodyn.input.tables.bearings import Stiffness
+from tribodyn.input.tables.drive_data import backlash_of
+from tribodyn.input.tables.laws import FrictionTable
+from tribodyn.input.tables.model_files import MisalignmentTable
+from tribodyn.input.tables.own_teeth import ToothSampleNumber
+from tribodyn.mesh.table import MeshData
 from tribodyn.solve.methods import AUTO, SOLVERS, SolverData
 from tribodyn.studies.gears.case import OutputData
 from tribodyn.studies.gears.scenario import (

@@ -7,8 +7,8 @@ from typing import Any
 from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.scenario.sources import SCENARIOS, shipped
-from tribodyn.scenario.tables.duty import LOADS, SPEEDS
+from tribodyn.input.sources import SCENARIOS, shipped
+from tribodyn.input.tables.duty import LOADS, SPEEDS
 from tribodyn.studies.protocol.load import load
 
 

@@ -11,12 +11,11 @@ from tribodyn.compliance.foundation import Support
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
-from tribodyn.mesh.table import MeshData
-from tribodyn.scenario.fields import Slices, head_of
-from tribodyn.scenario.quantity import Switch, Table, Text, model_file, written
-from tribodyn.scenario.tables.bearings import Bearings, broken_bearing_rules
-from tribodyn.scenario.tables.drive_data import masses_of, teeth_of
-from tribodyn.scenario.tables.drive_rules import (
+from tribodyn.input.fields import Slices, head_of
+from tribodyn.input.quantity import Switch, Table, Text, model_file, written
+from tribodyn.input.tables.bearings import Bearings, broken_bearing_rules
+from tribodyn.input.tables.drive_data import masses_of, teeth_of
+from tribodyn.input.tables.drive_rules import (
     Face,
     broken_drive_rules,
     broken_face_rules,
@@ -25,10 +24,10 @@ from tribodyn.scenario.tables.drive_rules import (
     modifications_of,
     slices_of,
 )
-from tribodyn.scenario.tables.duty import SpectrumScenario, duty_of, unnamed_duty
-from tribodyn.scenario.tables.internal_gear import broken_internal_runs, internal_refused
-from tribodyn.scenario.tables.laws import FilmTable, film_of, law_values
-from tribodyn.scenario.tables.losses import (
+from tribodyn.input.tables.duty import SpectrumScenario, duty_of, unnamed_duty
+from tribodyn.input.tables.internal_gear import broken_internal_runs, internal_refused
+from tribodyn.input.tables.laws import FilmTable, film_of, law_values
+from tribodyn.input.tables.losses import (
     LossesTable,
     TemperatureTable,
     broken_loss_rules,
@@ -36,10 +35,10 @@ from tribodyn.scenario.tables.losses import (
     losses_of,
     temperature_of,
 )
-from tribodyn.scenario.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
-from tribodyn.scenario.tables.model_files import DriveTable, MisalignmentTable
-from tribodyn.scenario.tables.own_teeth import broken_own_teeth, teeth_alike
-from tribodyn.scenario.tables.quality import (
+from tribodyn.input.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
+from tribodyn.input.tables.model_files import DriveTable, MisalignmentTable
+from tribodyn.input.tables.own_teeth import broken_own_teeth, teeth_alike
+from tribodyn.input.tables.quality import (
     DeviationSample,
     broken_sample_rules,
     error_with_sample,
@@ -47,7 +46,8 @@ from tribodyn.scenario.tables.quality import (
     tolerances_of,
     with_sample,
 )
-from tribodyn.scenario.tables.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
+from tribodyn.input.tables.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
+from tribodyn.mesh.table import MeshData
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.studies.gears.supports import displaced, has_supports, supports_of
 from tribodyn.tribology.law import AUTO, FilmData, FrictionData

@@ -14,13 +14,13 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.flanks.modification import Misalignment, Modifications
 from tribodyn.geometry.helix import pitch_slope
+from tribodyn.input.tables.bearings import Bearing, Bearings, bearing_of
+from tribodyn.input.tables.drive_data import assembled_on_path
+from tribodyn.input.tables.duty import duty_of
+from tribodyn.input.tables.model_files import DriveTable
+from tribodyn.input.tables.shafts import SPRINGS, BearingOfShaft, DrawnShaft, DrawnShafts, drawn_sides
+from tribodyn.input.tables.support_matrix import matrix_of
 from tribodyn.numerics.remembered import remembered
-from tribodyn.scenario.tables.bearings import Bearing, Bearings, bearing_of
-from tribodyn.scenario.tables.drive_data import assembled_on_path
-from tribodyn.scenario.tables.duty import duty_of
-from tribodyn.scenario.tables.model_files import DriveTable
-from tribodyn.scenario.tables.shafts import SPRINGS, BearingOfShaft, DrawnShaft, DrawnShafts, drawn_sides
-from tribodyn.scenario.tables.support_matrix import matrix_of
 from tribodyn.train.links.beam import ShaftMetal, ShaftSection
 from tribodyn.train.links.rolling_bearing import BallRow, BearingState, RollerRow
 from tribodyn.train.links.shaft import Matrix, NotHeld, Support, SupportedShaft, under_load

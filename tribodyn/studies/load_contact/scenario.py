@@ -7,10 +7,10 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.errors import InputError
-from tribodyn.scenario import units
-from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, written
-from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
-from tribodyn.scenario.tables.model_files import MisalignmentTable
+from tribodyn.input import units
+from tribodyn.input.quantity import Count, InUnit, NotNegative, Table, written
+from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
+from tribodyn.input.tables.model_files import MisalignmentTable
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (

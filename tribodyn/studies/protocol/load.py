@@ -15,13 +15,13 @@ from pydantic import Field, TypeAdapter, ValidationError
 
 from tribodyn.errors import InputError, InputErrors, quoted, unknown_name
 from tribodyn.geometry.families import FAMILIES, Family
-from tribodyn.scenario.messages import Origins, explain
-from tribodyn.scenario.own_keys import example_of
-from tribodyn.scenario.quantity import LIKE
-from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve, resolve_table, unresolved_keys
-from tribodyn.scenario.scope import outside
-from tribodyn.scenario.sources import file_name, find_scenario
-from tribodyn.scenario.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
+from tribodyn.input.messages import Origins, explain
+from tribodyn.input.own_keys import example_of
+from tribodyn.input.quantity import LIKE
+from tribodyn.input.resolve import OVERRIDES, Resolved, resolve, resolve_table, unresolved_keys
+from tribodyn.input.scope import outside
+from tribodyn.input.sources import file_name, find_scenario
+from tribodyn.input.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.protocol.study import CaseHead, Study
 

@@ -11,8 +11,8 @@ from typing import Any, cast
 import tomli_w
 
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.input.own_keys import in_toml
 from tribodyn.numerics.registry import FROM_PYTHON
-from tribodyn.scenario.own_keys import in_toml
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.study import CaseHead, Progress, RunResult
 from tribodyn.train.links.law import LinkLaw

@@ -26,10 +26,10 @@ from tribodyn.studies.protocol.recording import RunResult as RunResult
 from tribodyn.studies.protocol.recording import TextTable as TextTable
 
 if TYPE_CHECKING:
+    from tribodyn.input.quantity import Table
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.reader import Record
-    from tribodyn.scenario.quantity import Table
     from tribodyn.studies.protocol.part import Contribution, WholeDrive
     from tribodyn.studies.protocol.verb import Verb
     from tribodyn.studies.sweeping.batch import Batch

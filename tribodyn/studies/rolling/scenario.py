@@ -4,10 +4,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from tribodyn.scenario import units
-from tribodyn.scenario.fields import ScenarioHead, head_of
-from tribodyn.scenario.quantity import InUnit, NotNegative, Positive, Table, model_file, written
-from tribodyn.scenario.tables.material import Described
+from tribodyn.input import units
+from tribodyn.input.fields import ScenarioHead, head_of
+from tribodyn.input.quantity import InUnit, NotNegative, Positive, Table, model_file, written
+from tribodyn.input.tables.material import Described
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.engagement import RollingFriction
 from tribodyn.studies.rolling.geometry import RollingDrive

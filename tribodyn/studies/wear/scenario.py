@@ -8,15 +8,15 @@ from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.flanks.modification import uneven_teeth
+from tribodyn.input.quantity import Positive, Table, Text, written
+from tribodyn.input.tables.drive_rules import modifications_of
+from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
+from tribodyn.input.tables.internal_gear import driving_internal
+from tribodyn.input.tables.laws import FrictionTable, LawTable, law_values
+from tribodyn.input.tables.model_files import MisalignmentTable
+from tribodyn.input.tables.own_teeth import ToothSampleNumber, own_teeth_of
 from tribodyn.mesh.teeth.deviations import PitchErrors
 from tribodyn.mesh.teeth.fields import OwnTeeth
-from tribodyn.scenario.quantity import Positive, Table, Text, written
-from tribodyn.scenario.tables.drive_rules import modifications_of
-from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
-from tribodyn.scenario.tables.internal_gear import driving_internal
-from tribodyn.scenario.tables.laws import FrictionTable, LawTable, law_values
-from tribodyn.scenario.tables.model_files import MisalignmentTable
-from tribodyn.scenario.tables.own_teeth import ToothSampleNumber, own_teeth_of
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (

@@ -6,11 +6,11 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tribodyn.geometry.drive import Drive, MaterialData
-from tribodyn.scenario import units
-from tribodyn.scenario.fields import Name
-from tribodyn.scenario.quantity import InUnit, Table, Text, model_file, written
-from tribodyn.scenario.tables.drive_data import drive_of, materials_of
-from tribodyn.scenario.tables.model_files import DriveTable
+from tribodyn.input import units
+from tribodyn.input.fields import Name
+from tribodyn.input.quantity import InUnit, Table, Text, model_file, written
+from tribodyn.input.tables.drive_data import drive_of, materials_of
+from tribodyn.input.tables.model_files import DriveTable
 from tribodyn.studies.protocol.study import CaseHead
 
 

@@ -9,9 +9,9 @@ import pytest
 
 import tribodyn as td
 from tribodyn.errors import InputError
+from tribodyn.input.resolve import resolve
+from tribodyn.input.sources import find_scenario
 from tribodyn.record.reader import Record
-from tribodyn.scenario.resolve import resolve
-from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate
 from tribodyn.studies.design.candidates.sources import BASE as BASE_NAME

@@ -10,7 +10,7 @@ from tests.support.train_scenarios import REDUCER
 from tests.support.turning_outlines import assert_teeth_touch
 from tribodyn.errors import InputError
 from tribodyn.geometry.body import body_masses
-from tribodyn.scenario.sources import find_scenario, read_toml
+from tribodyn.input.sources import find_scenario, read_toml
 from tribodyn.studies.motion.assembled import (
     assemblies,
     body_inertias,

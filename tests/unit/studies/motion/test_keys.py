@@ -8,7 +8,7 @@ import tomli_w
 
 from tests.support.train_scenarios import REDUCER, train_case
 from tribodyn.errors import InputErrors
-from tribodyn.scenario.vary import axes_of
+from tribodyn.input.vary import axes_of
 from tribodyn.studies.motion import TRAIN as STUDY
 
 

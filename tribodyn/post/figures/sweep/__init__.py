@@ -1,1 +1,1 @@
-"""Figures of sweeps, one subject a file; `tribodyn.sweep.pictures` names them."""
+"""Figures of sweeps, one subject a file; `tribodyn.grid.pictures` names them."""

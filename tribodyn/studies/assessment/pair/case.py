@@ -7,9 +7,9 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.geometry.body import GEOMETRY
+from tribodyn.input.quantity import NotNegative, Positive, Text, written
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.scenario.quantity import NotNegative, Positive, Text, written
 from tribodyn.studies.assessment.pair.unknowns import UnknownsTable
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.case import GearCase, LubricatedCase, OiledCase

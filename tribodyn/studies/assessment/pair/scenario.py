@@ -8,16 +8,16 @@ from pydantic import Field
 
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.geometry.families import family
-from tribodyn.scenario import units
-from tribodyn.scenario.fields import Temperature
-from tribodyn.scenario.quantity import InUnit, Table, model_file, written
-from tribodyn.scenario.tables.bearings import Bearings
-from tribodyn.scenario.tables.drive_data import materials_of
-from tribodyn.scenario.tables.duty import OperatingTable, broken_driving_rules, duty_of, spectrum_of
-from tribodyn.scenario.tables.losses import LossesTable, TemperatureTable
-from tribodyn.scenario.tables.lubricant import lubricant_of
-from tribodyn.scenario.tables.model_files import MisalignmentTable
-from tribodyn.scenario.tables.quality import tolerances_of
+from tribodyn.input import units
+from tribodyn.input.fields import Temperature
+from tribodyn.input.quantity import InUnit, Table, model_file, written
+from tribodyn.input.tables.bearings import Bearings
+from tribodyn.input.tables.drive_data import materials_of
+from tribodyn.input.tables.duty import OperatingTable, broken_driving_rules, duty_of, spectrum_of
+from tribodyn.input.tables.losses import LossesTable, TemperatureTable
+from tribodyn.input.tables.lubricant import lubricant_of
+from tribodyn.input.tables.model_files import MisalignmentTable
+from tribodyn.input.tables.quality import tolerances_of
 from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
 from tribodyn.studies.assessment.pair.unknowns import broken_unknowns
 from tribodyn.studies.gears.rated.american import broken_agma

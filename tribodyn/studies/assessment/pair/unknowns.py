@@ -17,9 +17,9 @@ from pydantic import Field
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families.involute import tight_centre_distance
-from tribodyn.scenario import units
-from tribodyn.scenario.quantity import InUnit, NotNegative, Switch, Table
-from tribodyn.scenario.tables.bearings import Bearing, bearing_of
+from tribodyn.input import units
+from tribodyn.input.quantity import InUnit, NotNegative, Switch, Table
+from tribodyn.input.tables.bearings import Bearing, bearing_of
 from tribodyn.standards.allowances import centre_distance_allowance
 from tribodyn.studies.gears.case import GearCase
 

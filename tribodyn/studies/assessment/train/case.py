@@ -6,9 +6,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from tribodyn.input.quantity import Positive, Text
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.scenario.quantity import Positive, Text
 from tribodyn.studies.gears.rated.settings import AtLeastOne, RatingTable
 from tribodyn.studies.protocol import cost
 from tribodyn.studies.protocol.load import Loaded

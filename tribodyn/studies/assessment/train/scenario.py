@@ -8,8 +8,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, create_model
 
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.scenario.fields import ScenarioHead, head_of
-from tribodyn.scenario.quantity import Positive, Table, scenario_file, written
+from tribodyn.input.fields import ScenarioHead, head_of
+from tribodyn.input.quantity import Positive, Table, scenario_file, written
 from tribodyn.studies import study_of
 from tribodyn.studies.assessment.train.case import TrainAssessmentCase, TrainRatingTable, of_mesh
 from tribodyn.studies.gears.rated.capacity import required

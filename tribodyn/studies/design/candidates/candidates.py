@@ -9,8 +9,8 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.families import family
+from tribodyn.input.units import base_units
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.scenario.units import base_units
 from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.candidates.sources import BASE, in_unit, standing
 from tribodyn.studies.design.case import DRAWN, DesignCase, Free, Tolerance

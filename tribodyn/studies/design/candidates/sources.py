@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError, create_model
 
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
-from tribodyn.scenario.messages import explain
-from tribodyn.scenario.quantity import Table
-from tribodyn.scenario.schema import holds_by_name, table_at
-from tribodyn.scenario.units import base_units
+from tribodyn.input.messages import explain
+from tribodyn.input.quantity import Table
+from tribodyn.input.schema import holds_by_name, table_at
+from tribodyn.input.units import base_units
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
 from tribodyn.studies.protocol.study import Study

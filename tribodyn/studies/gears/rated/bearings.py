@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from tribodyn.geometry.drive import SIDES
+from tribodyn.input.tables.shafts import BearingOfShaft
 from tribodyn.quantities.bearings import BEARINGS
-from tribodyn.scenario.tables.shafts import BearingOfShaft
 from tribodyn.standards.rolling_bearings import (
     STATIC_FACTOR,
     basic_life,

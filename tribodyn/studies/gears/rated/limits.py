@@ -7,10 +7,10 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from pydantic import Field
 
+from tribodyn.input import units
+from tribodyn.input.quantity import InUnit, Positive, Table
 from tribodyn.quantities.catalogue import QUANTITIES, scatter
 from tribodyn.quantities.quantity import Quantity
-from tribodyn.scenario import units
-from tribodyn.scenario.quantity import InUnit, Positive, Table
 
 Pressure = Annotated[float, InUnit(units.positive(units.PRESSURE), "1.5 GPa")]
 

@@ -7,8 +7,8 @@ from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.scenario import units
-from tribodyn.scenario.quantity import InUnit, Positive, Switch, Table, written
+from tribodyn.input import units
+from tribodyn.input.quantity import InUnit, Positive, Switch, Table, written
 
 AtLeastOne = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=1, le=100)]
 Hours = Annotated[float, InUnit(units.positive(units.TIME), "20000 h")]

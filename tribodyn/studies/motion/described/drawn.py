@@ -10,8 +10,8 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Drive, Side, tip_circle_radius
 from tribodyn.geometry.families import Family, family
 from tribodyn.geometry.limits.checks import check, check_path
-from tribodyn.scenario.tables.drive_data import drive_of
-from tribodyn.scenario.tables.model_files import DriveTable
+from tribodyn.input.tables.drive_data import drive_of
+from tribodyn.input.tables.model_files import DriveTable
 from tribodyn.studies.motion.described.structure import (
     OF_DRIVE,
     Structure,

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.scenario.tables.duty import given_twice
+from tribodyn.input.tables.duty import given_twice
 from tribodyn.studies.motion.case import LoadData
 from tribodyn.studies.motion.described.drawn import Moving, ends_of
 from tribodyn.studies.motion.described.duty_tables import LoadTable, TrainOperating

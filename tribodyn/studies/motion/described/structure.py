@@ -12,10 +12,10 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from tribodyn.geometry.families import family
-from tribodyn.scenario.quantity import Printed
-from tribodyn.scenario.tables.bearings import Bearing
-from tribodyn.scenario.tables.drive_data import drive_of
-from tribodyn.scenario.tables.model_files import DriveTable, Gear
+from tribodyn.input.quantity import Printed
+from tribodyn.input.tables.bearings import Bearing
+from tribodyn.input.tables.drive_data import drive_of
+from tribodyn.input.tables.model_files import DriveTable, Gear
 from tribodyn.studies.gears.motion import Mesh
 from tribodyn.studies.motion.described.tables import (
     GROUND,

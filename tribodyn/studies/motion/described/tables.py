@@ -6,8 +6,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag
 
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario import fields, quantity, units
-from tribodyn.scenario.quantity import (
+from tribodyn.input import fields, quantity, units
+from tribodyn.input.quantity import (
     Count,
     InUnit,
     NotNegative,
@@ -17,10 +17,10 @@ from tribodyn.scenario.quantity import (
     csv_file,
     written,
 )
-from tribodyn.scenario.tables.bearings import Bearing, Stiffness
-from tribodyn.scenario.tables.laws import LawTable
-from tribodyn.scenario.tables.material import Described
-from tribodyn.scenario.tables.model_files import (
+from tribodyn.input.tables.bearings import Bearing, Stiffness
+from tribodyn.input.tables.laws import LawTable
+from tribodyn.input.tables.material import Described
+from tribodyn.input.tables.model_files import (
     Angle,
     AsperityDensity,
     AsperitySlope,
@@ -37,7 +37,7 @@ from tribodyn.scenario.tables.model_files import (
     PressureAngle,
     Rack,
 )
-from tribodyn.scenario.tables.shafts import DrawnShaft
+from tribodyn.input.tables.shafts import DrawnShaft
 from tribodyn.train.links import LINK_LAWS
 from tribodyn.train.planetary import CARRIER, RING, SUN
 

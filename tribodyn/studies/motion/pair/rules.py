@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.tables.drive_data import gives_backlash
-from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
-from tribodyn.scenario.tables.internal_gear import driving_internal
-from tribodyn.scenario.tables.sensors import broken_sensor_rules
+from tribodyn.input.tables.drive_data import gives_backlash
+from tribodyn.input.tables.duty import broken_duty_rules, duty_of
+from tribodyn.input.tables.internal_gear import driving_internal
+from tribodyn.input.tables.sensors import broken_sensor_rules
 from tribodyn.studies.gears.damage_rules import broken_damage
 from tribodyn.studies.gears.motion import (
     broken_flank_rules,

@@ -11,13 +11,13 @@ from pydantic import Field
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.drive import SIDES
-from tribodyn.scenario import fields
-from tribodyn.scenario.quantity import csv_file, model_file, written
-from tribodyn.scenario.tables.bearings import Bearings
-from tribodyn.scenario.tables.damage import Damages, GearPlace, damage_of
-from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
-from tribodyn.scenario.tables.own_teeth import own_teeth_of, with_own_teeth
-from tribodyn.scenario.tables.sensors import Housing, Sensors, housing_of, sensors_of
+from tribodyn.input import fields
+from tribodyn.input.quantity import csv_file, model_file, written
+from tribodyn.input.tables.bearings import Bearings
+from tribodyn.input.tables.damage import Damages, GearPlace, damage_of
+from tribodyn.input.tables.duty import DutyTable, OiledOperatingTable, duty_of
+from tribodyn.input.tables.own_teeth import own_teeth_of, with_own_teeth
+from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
 from tribodyn.studies.gears.motion import (
     MOST_HARMONICS,
     Friction,

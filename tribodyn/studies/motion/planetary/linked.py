@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.scenario.tables.bearings import bearing_of
+from tribodyn.input.tables.bearings import bearing_of
 from tribodyn.studies.motion.case import HOUSING, LinkData, SetData
 from tribodyn.studies.motion.described.drawn import Drawn, Moving
 from tribodyn.studies.motion.planetary.described import SetPart, pin_offset

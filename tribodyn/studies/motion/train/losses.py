@@ -10,8 +10,8 @@ from dataclasses import replace
 from pydantic import Field
 
 from tribodyn.errors import InputError, unknown_name
-from tribodyn.scenario.quantity import written
-from tribodyn.scenario.tables.losses import (
+from tribodyn.input.quantity import written
+from tribodyn.input.tables.losses import (
     BearingDrag,
     Depth,
     LossFormulas,

@@ -2,9 +2,9 @@
 
 from typing import Any
 
+from tribodyn.input.tables.damage import GearPlace, damage_of
+from tribodyn.input.tables.own_teeth import own_teeth_of
 from tribodyn.mesh.teeth.fields import CARRYING, OwnTeeth
-from tribodyn.scenario.tables.damage import GearPlace, damage_of
-from tribodyn.scenario.tables.own_teeth import own_teeth_of
 from tribodyn.studies.motion.described.drawn import Moving
 
 

@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple
 
-from tribodyn.scenario.tables.model_files import DriveTable
+from tribodyn.input.tables.model_files import DriveTable
 from tribodyn.studies.gears.motion import Friction, Mesh
 from tribodyn.studies.gears.supports import GearSupports
 from tribodyn.studies.motion.described.drawn import Moving

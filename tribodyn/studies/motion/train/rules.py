@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from tribodyn.errors import InputError, InputErrors, quoted
-from tribodyn.scenario.tables.bearings import broken_bearing
-from tribodyn.scenario.tables.drive_data import gives_backlash
-from tribodyn.scenario.tables.duty import unnamed_duty
-from tribodyn.scenario.tables.sensors import broken_sensor_rules
+from tribodyn.input.tables.bearings import broken_bearing
+from tribodyn.input.tables.drive_data import gives_backlash
+from tribodyn.input.tables.duty import unnamed_duty
+from tribodyn.input.tables.sensors import broken_sensor_rules
 from tribodyn.studies.gears.damage_rules import broken_damage
 from tribodyn.studies.gears.motion import (
     broken_flank_rules,

@@ -7,23 +7,23 @@ from pydantic import Discriminator, Field, Tag
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.drive import SIDES, BodyMass
-from tribodyn.scenario.fields import ScenarioHead, head_of
-from tribodyn.scenario.quantity import Count, csv_tables, model_file, written
-from tribodyn.scenario.tables.bearings import Bearing, bearing_of
-from tribodyn.scenario.tables.damage import Damages
-from tribodyn.scenario.tables.drive_data import masses_of, materials_of, teeth_of
-from tribodyn.scenario.tables.duty import MOST_DUTIES
-from tribodyn.scenario.tables.laws import law_values
-from tribodyn.scenario.tables.material import MaterialReference
-from tribodyn.scenario.tables.model_files import (
+from tribodyn.input.fields import ScenarioHead, head_of
+from tribodyn.input.quantity import Count, csv_tables, model_file, written
+from tribodyn.input.tables.bearings import Bearing, bearing_of
+from tribodyn.input.tables.damage import Damages
+from tribodyn.input.tables.drive_data import masses_of, materials_of, teeth_of
+from tribodyn.input.tables.duty import MOST_DUTIES
+from tribodyn.input.tables.laws import law_values
+from tribodyn.input.tables.material import MaterialReference
+from tribodyn.input.tables.model_files import (
     DriveTable,
     Grade,
     QualityEdition,
     Roughness,
 )
-from tribodyn.scenario.tables.own_teeth import with_own_teeth
-from tribodyn.scenario.tables.quality import grade_of, tolerances_of
-from tribodyn.scenario.tables.sensors import Housing, Sensors, housing_of, sensors_of
+from tribodyn.input.tables.own_teeth import with_own_teeth
+from tribodyn.input.tables.quality import grade_of, tolerances_of
+from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.studies.gears.case import LubricatedCase, with_chosen
 from tribodyn.studies.gears.motion import (

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.input.tables.bearings import bearing_of
+from tribodyn.input.tables.shafts import broken_shaft
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.scenario.tables.bearings import bearing_of
-from tribodyn.scenario.tables.shafts import broken_shaft
 from tribodyn.studies.gears.supports import (
     Five,
     GearSupport,

@@ -7,7 +7,7 @@ from typing import Any
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
-from tribodyn.scenario.tables.model_files import DriveTable, Gear
+from tribodyn.input.tables.model_files import DriveTable, Gear
 from tribodyn.studies.gears.rated.bearings import TurningShaft
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.described.alike import alike_of

@@ -1,0 +1,241 @@
+"""One clear line for every mistake: pydantic's findings, and where the value at fault stands."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from copy import copy
+from math import isclose
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from tribodyn.errors import InputError, InputErrors, near_name, printable, quoted
+from tribodyn.input import scope
+from tribodyn.input.quantity import Reference
+from tribodyn.input.schema import holds_by_name, inner_tables, table_at
+from tribodyn.input.unit_grammar import range_for_one
+from tribodyn.input.units import base_units
+
+Key = tuple[str | int, ...]
+#: By how much rounding changes a value that is shown with three digits.
+_ROUNDED = 5e-3
+
+
+class Origins:
+    """Which file each part of a scenario came from: the longest known prefix of its key decides."""
+
+    def __init__(self, file: str):  # the scenario's own
+        self._files: dict[Key, str] = {(): file}
+        self._data: Mapping[str, Any] = {}
+
+    def over(self, data: Mapping[str, Any]) -> "Origins":
+        """The same, with the data whose values messages show as they are written there."""
+        origins = copy(self)
+        origins._data = data
+        return origins
+
+    def put(self, key: Key, file: str) -> None:
+        """Remember that what stands at and below `key` came from `file`, whatever was known before."""
+        for known in [known for known in self._files if known[: len(key)] == key]:
+            del self._files[known]
+        self._files[key] = file
+
+    def of(self, key: Key) -> str:
+        """Return the file that `key` came from."""
+        return next(self._files[key[:n]] for n in range(len(key), -1, -1) if key[:n] in self._files)
+
+    def locate(self, error: InputError) -> InputError:
+        """Return the error with its file and its value in the unit that was typed, if it had no file."""
+        if isinstance(error, InputErrors):
+            return InputErrors([self.locate(mistake) for mistake in error.errors])
+        if error.file:
+            return error
+        key = tuple(int(part) if part.isdecimal() else part for part in error.key.split("."))
+        typed = value_at(self._data, key)
+        rule, value = _ranges_as_typed(error.rule, typed), _as_typed(error.value, typed)
+        remedy = error.remedy + self._which_table(key)
+        return InputError(error.key, _ranges_as_typed(value, typed), rule, remedy, self.of(key))
+
+    def _which_table(self, key: Key) -> str:
+        """Which table of a list, counted from one, a key stands in: keys count from zero."""
+        for depth, part in enumerate(key[:-1]):
+            if isinstance(part, int) and isinstance(value_at(self._data, key[:depth]), list):
+                list_name = ".".join(map(str, key[:depth]))
+                return f" ({list_name}.{part} is {_ordinal(part + 1)} [[{list_name}]])"
+        return ""
+
+    @contextmanager
+    def naming(self) -> Iterator[None]:
+        """Put the file into the errors that the physics raises inside the block."""
+        try:
+            yield
+        except InputError as error:
+            # a key without a point, such as "output", is an option of the command and not a key of a file
+            if error.file or "." not in error.key:
+                raise
+            raise self.locate(error) from None
+
+
+def _as_typed(shown: object, typed: object) -> object:
+    """What a message shows of a quantity; as it was typed, where it is the same in another unit."""
+    if not (isinstance(shown, str) and isinstance(typed, str)) or shown.split()[1:] == typed.split()[1:]:
+        return shown
+    ours, theirs = base_units(shown), base_units(typed)
+    if ours is None or theirs is None or ours[1] != theirs[1]:
+        return shown
+    return quoted(typed)[1:-1] if isclose(ours[0], theirs[0], rel_tol=_ROUNDED) else shown
+
+
+_NUMBER = r"[+-]?\d[\d.]*(?:e[+-]?\d+)?"
+_RADIANS = re.compile(rf"({_NUMBER}) (…|to) ({_NUMBER}) rad\b")
+
+
+def _ranges_as_typed(text: Any, typed: object) -> Any:
+    """A text whose ranges of an angle are in the unit of the table that was typed, where it has another."""
+    columns = typed.values() if isinstance(typed, Mapping) else ()
+    units = [str(column["unit"]) for column in columns if isinstance(column, Mapping) and "unit" in column]
+    found = [(unit, base) for unit in units if (base := base_units(f"1 {unit}")) and base[1] == "rad"]
+    if not found or not isinstance(text, str):
+        return text
+    (unit, (factor, _)), *_ = found
+
+    def converted(match: re.Match[str]) -> str:
+        first, last = (f"{float(match[place]) / factor:.6g}" for place in (1, 3))
+        return f"{first} {match[2]} {last} {unit}"
+
+    return _RADIANS.sub(converted, text)
+
+
+def _ordinal(number: int) -> str:
+    words = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
+    return f"the {words[number - 1]}" if number <= len(words) else f"number {number}"
+
+
+def value_at(data: Any, key: Iterable[str | int]) -> Any:
+    """Return what stands at `key`, or None."""
+    for part in key:
+        if isinstance(data, list) and isinstance(part, int):
+            data = data[part] if part < len(data) else None
+        else:
+            data = data.get(part) if isinstance(data, dict) else None
+    return data
+
+
+def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
+    """Return what pydantic found as our errors, in the order of the file.
+
+    Of a file that describes gears which its kind of study has not only that is said, once.
+    """
+    # a text that is no Unicode is out of bounds, and complained of with them
+    found = [dict(one) for one in error.errors(include_url=False) if one["type"] != "string_unicode"]
+    errors = [_explain_one(one, model) for one in found]
+    several = "stage" in model.model_fields
+    refused = (_outside(one, error, several) for one, error in zip(found, errors, strict=True))
+    first = next(filter(None, refused), None)
+    return errors if first is None else [first]
+
+
+def _outside(found: dict[str, Any], error: InputError, several: bool) -> InputError | None:
+    """What to say of a key that describes gears which the kind of study has not; None where it does not.
+
+    `several` says whether the scenario may have several stages.
+    """
+    name, given = str(found["loc"][-1]), found["input"]
+    if found["type"] == "extra_forbidden":
+        named = given if isinstance(given, str) and len(given.split()) < 3 else ""  # type = "planetary"
+        if not several and scope.names_gears(name, given):
+            return scope.refusal(error, scope.STAGES)
+        stage = (scope.PLANETS,) if found["loc"][0] == "stage" else ()
+        return scope.outside(error, name, named, but=(scope.STAGES, *stage) if several else ())
+    fewest = found.get("ctx", {}).get("ge")  # a number of teeth that only the sign of internal gears excludes
+    if name == "teeth" and fewest is not None and given <= -fewest:
+        return scope.refusal(error, scope.INTERNAL)
+    return None
+
+
+def _explain_one(found: dict[str, Any], model: type[BaseModel]) -> InputError:
+    # pydantic names the branch of a union that it took; ours stand in parentheses
+    key: Key = tuple(part for part in found["loc"] if not str(part).startswith("("))
+    dotted = printable(".".join(map(str, key)))
+    context = found.get("ctx", {})
+    given = quoted(found["input"])
+    match found["type"]:
+        case "rule":
+            absent = found["input"] is None
+            return InputError(dotted, None if absent else given, context["rule"], context["remedy"])
+        case "missing":
+            return InputError(dotted, None, "missing", _how_to_write(model, found["loc"]))
+        case "extra_forbidden":
+            return InputError(dotted, given, "unknown key", _near_key(model, found["loc"]))
+        case "literal_error":
+            expected = context["expected"].replace("'", '"')
+            near = near_name(str(found["input"]), expected.replace('"', "").replace(" or ", ", ").split(", "))
+            mean = f'did you mean "{near}"? ' if near else ""
+            return InputError(dotted, given, "not one of the choices", f"{mean}write {expected}")
+        case "float_type" | "int_type" if isinstance(found["input"], str) and range_for_one(found["input"]):
+            return InputError(dotted, given, *(range_for_one(found["input"]) or ()))
+        case "finite_number":
+            return InputError(dotted, given, "not a finite number", "write a plain number, such as 1.0")
+    rule, remedy = _PLAIN.get(found["type"], (found["msg"].lower(), ""))
+    return InputError(dotted, given, rule.format(**context), remedy.format(**context))
+
+
+_PLAIN = {
+    "float_type": ("not a plain number", "write a number without quotes and unit, such as 1.0"),
+    "int_type": ("not a whole number", "write a whole number without quotes and point, such as 20"),
+    "int_from_float": ("not a whole number", "write a whole number, such as 20"),
+    "bool_type": ("not true or false", "write true or false, without quotes"),
+    "string_type": ("not text", "write text in quotes"),
+    "string_pattern_mismatch": (
+        "a character that is not allowed here",
+        "use letters, digits, space, - _ and .",
+    ),
+    "model_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
+    "tuple_type": ("not a list", "write a list: [ … ]"),
+    "too_long": ("more than {max_length} values", "write fewer"),
+    "too_short": ("fewer than {min_length} values", "write at least {min_length}"),
+    "greater_than": ("must be greater than {gt:g}", "write a larger number"),
+    "greater_than_equal": ("must be at least {ge:g}", "write {ge:g} or more"),
+    "less_than": ("must be less than {lt:g}", "write a smaller number"),
+    "less_than_equal": ("must be at most {le:g}", "write {le:g} or less"),
+}
+
+
+def keys_in(model: type[BaseModel], key: Iterable[str]) -> list[str]:
+    """Return the keys of the table that `key` leads to, dotted and whole; those of tables end in a dot."""
+    above = tuple(key)
+    table = None if above and holds_by_name(model, above) else table_at(model, above)
+    fields = table.model_fields if table else {}
+    return [
+        ".".join((*above, name)) + ("." if any(inner_tables(field.annotation)) else "")
+        for name, field in fields.items()
+    ]
+
+
+def _near_key(model: type[BaseModel], key: Key) -> str:
+    table = table_at(model, key[:-1])
+    described = {
+        name: field.description or "" for name, field in (table.model_fields if table else {}).items()
+    }
+    # a symbol as on a drawing, with which a description begins: "A_sne, upper deviation …"
+    of_symbol = (name for name, text in described.items() if text.startswith(f"{key[-1]},"))
+    near = next(of_symbol, None) or near_name(str(key[-1]), described)
+    return f'did you mean "{near}"?' if near else f"known keys: {', '.join(described)}"
+
+
+def _how_to_write(model: type[BaseModel], key: Key) -> str:
+    """Return how to write the missing `key`, from its example in the schema."""
+    table = table_at(model, key[:-1])
+    field = table.model_fields.get(str(key[-1])) if table else None
+    if table is None or field is None:
+        return "write it"
+    named = any(isinstance(mark, Reference) for mark in field.metadata)
+    if any(inner_tables(field.annotation)) and not named:
+        named_parts = (str(part) for part in key if not str(part).startswith("("))
+        return f"add the table [{'.'.join(named_parts)}]"
+    shape = table.model_json_schema()["properties"][str(key[-1])]
+    if named:
+        return f"give the {shape['anyOf'][0]['description']}"
+    example = shape.get("examples", [None])[0]
+    wanted = {"integer": "a whole number", "number": "a number", "string": "text"}
+    return f"add {key[-1]} = " + (quoted(example) if example else wanted.get(shape.get("type", ""), "…"))

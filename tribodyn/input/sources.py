@@ -1,0 +1,257 @@
+"""Finding and reading what a scenario is made of: TOML files, the model files they name, CSV tables.
+
+A scenario may come from a stranger: files and tables have bounds, and so has what stands in them (`bounds`).
+"""
+
+import csv
+import os
+import re
+import tomllib
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, NoReturn
+
+from tribodyn.errors import (
+    InputError,
+    harmless,
+    names_with,
+    near_name,
+    printable_path,
+    quoted,
+)
+from tribodyn.input.bounds import TooMuch, parsed
+from tribodyn.input.unit_grammar import decimal_comma
+
+#: Bytes of a file; a scenario that holds the points of its tables is larger than they are as CSV.
+MOST_TOML, MOST_CSV = 16 * 2**20, 4 * 2**20
+#: Points of a CSV table.
+MOST_POINTS = 100_000
+#: Names that a message offers in place of an unknown one.
+_MOST_NEAR = 3
+#: What an HDF5 file begins with.
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+#: Folders of `Reference`s that name a whole scenario, and a drive.
+SCENARIOS, DRIVES = "scenarios", "drives"
+_HEADER = re.compile(r"\s*(?P<name>\w+)\s*\[(?P<unit>[^\]]*)\]\s*$")
+
+
+def shipped(folder: str) -> Path:
+    """Return the shipped folder "models" or "scenarios": in the wheel, or at the root of a checkout."""
+    inside = _PACKAGE / "data" / folder
+    return inside if inside.is_dir() else _PACKAGE.parent / folder
+
+
+def is_file(path: Path) -> bool:
+    """Whether a file is there; a name that no file can have is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def names(folder: Path) -> list[str]:
+    """Return the names that may be used for the TOML files of a folder, sorted."""
+    return sorted(path.stem for path in folder.glob("*.toml"))
+
+
+def find_scenario(name: str) -> Path:
+    """Return the file of a scenario that is given by path or by the name of a shipped one."""
+    path = Path(name)
+    if is_file(path):
+        _refuse_record(path)
+        return path
+    if path.suffix == ".toml":
+        _missing("scenario", name, path, "no such file")
+    return _named("scenario", name, "scenario", [shipped(SCENARIOS)])
+
+
+def _refuse_record(path: Path) -> None:
+    """Refuse a record where a scenario is due."""
+    with suppress(OSError), path.open("rb") as file:
+        if file.read(len(_HDF5)) == _HDF5:
+            shown = f"tribodyn show {path}, or plot or report"
+            raise InputError("scenario", quoted(str(path)), "a record, not a scenario", f"use {shown}")
+
+
+def file_name(path: Path, folder: Path) -> str:
+    """How a record in a folder names the scenario's file: relative to it, a shipped one by its name.
+
+    Bytes that are no text are escaped.
+    """
+    path, folder = path.resolve(), folder.resolve()
+    if path.parent == shipped(SCENARIOS).resolve():
+        return f"shipped: {path.stem}"
+    with suppress(ValueError):  # on another drive of Windows
+        return harmless(Path(os.path.relpath(path, folder)).as_posix())
+    return harmless(path.as_posix())
+
+
+def _missing(key: str, name: str, path: Path, rule: str) -> NoReturn:
+    """Refuse a path at which there is no file, and name one of its folder that is spelled much the same."""
+    near = near_name(path.stem, names(path.parent))
+    remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
+    raise InputError(key, quoted(name), rule, remedy)
+
+
+def find_drive_or_scenario(name: str) -> Path:
+    """Return the file of a drive or of a scenario that is given by path or by the name of a shipped one."""
+    if name.endswith(".toml") or is_file(Path(name)):
+        return find_scenario(name)
+    return _named("model", name, "drive or scenario", [shipped("models") / DRIVES, shipped(SCENARIOS)])
+
+
+def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
+    """Return the file of a model that `referring` names at a key: a path relative to it (.toml), or a name.
+
+    `kind` is the model's folder of `models/`: "drives", "materials", …; or `SCENARIOS`.
+    """
+    if name.endswith(".toml"):
+        path = referring.parent / name
+        return path if is_file(path) else _missing(key, name, path, f"no such file: {printable_path(path)}")
+    if kind == SCENARIOS:
+        return _named(key, name, "scenario", [referring.resolve().parent, shipped(SCENARIOS)])
+    above = referring.resolve().parent.parent
+    # beside a scenario's folder there is models/, beside a model's own folder the other kinds
+    folders = [above / "models" / kind, above / kind, shipped("models") / kind]
+    return _named(key, name, f"file in models/{kind}", folders)
+
+
+def _named(key: str, name: str, what: str, folders: Iterable[Path]) -> Path:
+    """Return the TOML file of that name in the first of the folders that has it."""
+    for folder in folders:
+        if is_file(folder / f"{name}.toml"):
+            return folder / f"{name}.toml"
+    looked = list(dict.fromkeys(folder.resolve() for folder in folders))
+    known = sorted({known for folder in looked for known in names(folder)})
+    near = names_with(name, known)[:_MOST_NEAR] or list(filter(None, [near_name(name, known)]))
+    remedy = f"did you mean {' or '.join(map(quoted, near))}? " if near else ""
+    there = ", ".join(known) or "nothing"
+    places = " and ".join(map(str, looked))
+    raise InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")
+
+
+def read_text(path: Path, most: int) -> str:
+    """Return the text of a file; one that is unreadable, or of more than `most` bytes, is bad input."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(most + 1)
+        if len(content) > most:
+            raise InputError("file", None, f"larger than {most >> 20} MiB", "shorten it", str(path))
+        return content.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+    except UnicodeDecodeError as error:
+        place = f"byte {error.start}"
+        raise InputError(place, None, "not UTF-8 text", "save it as UTF-8", str(path)) from None
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise InputError("file", rule=f"cannot be read: {reason}", file=str(path)) from None
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Return the data of a TOML file; a syntax error names its line."""
+    text = read_text(path, MOST_TOML)
+    try:
+        return parsed(text)
+    except TooMuch as error:
+        raise InputError("file", rule=str(error), remedy="a scenario needs none", file=str(path)) from None
+    except tomllib.TOMLDecodeError as error:
+        what, _, place = str(error).partition(" (at ")
+        line, lines = re.match(r"line (\d+)", place), text.splitlines()
+        number = int(line[1]) if line else len(lines)
+        given = lines[number - 1].strip() if 0 < number <= len(lines) else ""
+        rule = f"not TOML: {what[0].lower()}{what[1:]}" + (f" in {quoted(given)}" if given else "")
+        raise InputError(f"line {number}", None, rule, _toml_remedy(given), str(path)) from None
+
+
+def _toml_remedy(line: str) -> str:
+    """What to write instead of a line that is not TOML."""
+    if re.search(r'"[^"]*\\', line):
+        return r"write / for \ in a path, or single quotes round it: 'C:\data\load.csv'"
+    if re.search(r"=\s*[+-]?\d+,\d+\s*(#|$)", line):
+        return "write a decimal point: 0.5"
+    return 'write key = value, with quotes round text and quantities: module = "3 mm"'
+
+
+#: Separator of a row -> what it is called; the header decides.
+_SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas"}
+
+
+def read_curve(
+    path: Path, key: str, columns: Iterable[str] = (), example: Iterable[str] = ("time", "torque")
+) -> dict[str, Any]:
+    """Return the columns of a CSV file as the scenario would write them out.
+
+    The first line names the columns and their units, ``time [s],torque [N*m]``; lines that begin with # are
+    comments. Commas, semicolons or tabs separate, as in the first line; numbers have a decimal point.
+    `columns` are the names that are due, in order; none: all that there are, two at least, such as `example`.
+    """
+    due = list(columns) or list(example)
+    example = ",".join(f"{name} [unit]" for name in due)
+    lines = [
+        (number, line)
+        for number, line in enumerate(read_text(path, MOST_CSV).split("\n"), start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+
+    def bad(number: int, rule: str, remedy: str) -> InputError:
+        return InputError(key, rule=f"line {number}: {rule}", remedy=remedy, file=str(path))
+
+    def cells(number: int, line: str) -> list[str]:
+        try:
+            row = next(csv.reader([line], strict=True, delimiter=separator))
+        except csv.Error as error:
+            remedy = f"write plain numbers separated by {_SEPARATORS[separator]}, each row in one line"
+            raise bad(number, f"not a row of a table: {error}", remedy) from None
+        while len(row) > 1 and not row[-1].strip():
+            row.pop()
+        return row
+
+    if not lines:
+        raise bad(1, "the file is empty", f"begin it with {example}")
+    if len(lines) > MOST_POINTS + 1:
+        raise bad(lines[MOST_POINTS + 1][0], f"more than {MOST_POINTS} points", "leave some out")
+    separator = next(sign for sign in _SEPARATORS if sign in lines[0][1] or sign == ",")
+    titles = cells(*lines[0])
+    heads = [_HEADER.match(cell) for cell in titles]
+    names_there = [head["name"] for head in heads if head]
+    header = {head["name"]: (head["unit"], index) for index, head in enumerate(heads) if head}
+    if not columns:
+        unread = next((cell for cell, head in zip(titles, heads, strict=True) if not head), None)
+        if unread is not None or len(header) < max(2, len(heads)):
+            rule = (
+                "two columns at least, none twice" if unread is None else f"{quoted(unread)} names no column"
+            )
+            raise bad(lines[0][0], rule, f"begin the file with {example}, … ")
+        due = list(header)
+    for name in due:
+        if name not in header:
+            raise bad(lines[0][0], f'no column "{name} [unit]" in the header', f"write {example}")
+        if names_there.count(name) > 1:
+            raise bad(lines[0][0], f'"{name}" names more than one column', "leave the others out")
+    values: dict[str, list[float]] = {name: [] for name in due}
+    for number, line in lines[1:]:
+        row = cells(number, line)
+        if len(row) > len(titles):
+            rule = f"{len(row)} values under a header of {len(titles)}: {quoted(line.strip())}"
+            remedy = "write decimal points: 13.5" if separator == "," else "name each column, or leave it out"
+            raise bad(number, rule, remedy)
+        for name in due:
+            cell = row[header[name][1]] if header[name][1] < len(row) else ""
+            try:
+                values[name].append(float(cell))
+            except ValueError:
+                raise bad(number, *_no_number(cell, name, line, separator)) from None
+    return {name: {"unit": header[name][0], "values": values[name]} for name in due}
+
+
+def _no_number(cell: str, name: str, line: str, separator: str) -> tuple[str, str]:
+    """Rule and remedy for a cell that is no number."""
+    if (comma := decimal_comma(cell)) is not None:
+        return f"{quoted(cell.strip())}: {comma[0]} ({name})", comma[1]
+    other = next((sign for sign in _SEPARATORS if sign != separator and sign in line), None)
+    if other is not None:
+        rule = f"the row is separated by {_SEPARATORS[other]}, the header by {_SEPARATORS[separator]}"
+        return rule, "separate both by the same"
+    return f"{quoted(cell)} is not a number ({name})", "write numbers only"

@@ -1,0 +1,214 @@
+"""What a drive has to do: speed and load, each on either shaft, the load also as power; load spectra."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+from pydantic import Field
+
+from tribodyn.errors import InputError, quoted
+from tribodyn.input import units
+from tribodyn.input.fields import ScenarioHead, Temperature, Torque
+from tribodyn.input.quantity import InUnit, Positive, Table, Weighed, csv_tables
+
+Speed = Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))]
+Power = Annotated[float, InUnit(units.POWER)]
+
+SPEEDS = ("pinion_speed", "gear_speed")
+LOADS = ("gear_torque", "pinion_torque", "power")
+_SPEED_REMEDY = 'add pinion_speed = "1500 rpm", or gear_speed'
+_LOAD_REMEDY = 'add gear_torque = "500 N*m", pinion_torque or power'
+
+
+class Duty(NamedTuple):
+    """Speed of the pinion, rad/s, NaN where none is given, and torque on the gear, N m."""
+
+    pinion_speed: float
+    gear_torque: float
+
+
+class DutyTable(Table):
+    """Speed and load, each given once: on either shaft, the load also as power."""
+
+    pinion_speed: Speed | None = Field(None, description="of the pinion")
+    gear_speed: Speed | None = Field(None, description="of the gear, in place of the pinion's")
+    gear_torque: Torque | None = Field(
+        None, description="against the gear's motion; negative where the gear drives"
+    )
+    pinion_torque: Torque | None = Field(None, description="on the pinion, in place of the gear's")
+    power: Power | None = Field(None, description="transmitted, in place of a torque")
+
+
+def given_twice(table: Any, key: str, speeds: Sequence[str], loads: Sequence[str]) -> Iterator[InputError]:
+    """Go through what gives the speed or the load of the table at a key once more; by names of its fields."""
+    for what, names in (("the speed", speeds), ("the load", loads)):
+        first, *others = [name for name in names if getattr(table, name) is not None] or [""]
+        for name in others:
+            rule = f"gives {what}, as {first} does"
+            yield InputError(f"{key}.{name}", None, rule, "leave one of them out")
+
+
+def broken_duty_rules(
+    table: DutyTable, key: str = "operating", speed_needed: bool = True
+) -> list[InputError]:
+    """Return what is missing or given more than once in the speed and load of the table at a key.
+
+    A speed may be needed even where no power is given.
+    """
+    speeds, loads = (
+        [name for name in names if getattr(table, name) is not None] for names in (SPEEDS, LOADS)
+    )
+    errors = [*given_twice(table, key, SPEEDS, LOADS)]
+    if not loads:
+        errors.append(InputError(f"{key}.gear_torque", rule="missing: the load", remedy=_LOAD_REMEDY))
+    if not speeds and "power" in loads:
+        shown = quoted(f"{table.power:g} W")
+        errors.append(InputError(f"{key}.power", shown, "gives no torque without a speed", _SPEED_REMEDY))
+    elif not speeds and speed_needed:
+        errors.append(InputError(f"{key}.pinion_speed", rule="missing: the speed", remedy=_SPEED_REMEDY))
+    return errors
+
+
+def broken_driving_rules(
+    table: DutyTable,
+    teeth: tuple[float, float],
+    why: str = "the driving flanks carry the load",
+    remedy: str = "",
+    *,
+    speed_needed: bool = True,
+) -> list[InputError]:
+    """Return as `broken_duty_rules` does, and a load by which the pinion does not drive; `teeth` of both.
+
+    The study says why it needs a driving pinion, and what else helps than a positive torque, as the end of a
+    sentence.
+    """
+    broken = broken_duty_rules(table, speed_needed=speed_needed)
+    if broken or (torque := duty_of(table, *teeth).gear_torque) > 0.0:
+        return broken
+    rule, remedy = f"must be greater than zero: {why}", f'write a torque such as "500 N*m"{remedy}'
+    return [InputError("operating.gear_torque", f"{torque:g} N*m", rule, remedy)]
+
+
+def duty_of(table: DutyTable, pinion_teeth: float, gear_teeth: float) -> Duty:
+    """Return pinion speed and gear torque of a table that breaks no rule.
+
+    T_g = P/ω_g and T_g = T_p z_g/z_p without losses, which add to what the driving shaft puts in.
+    """
+    ratio = gear_teeth / pinion_teeth
+    speed = math.nan  # one object, so that equal cases are equal
+    if table.pinion_speed is not None:
+        speed = table.pinion_speed
+    elif table.gear_speed is not None:
+        speed = table.gear_speed * ratio
+    if table.gear_torque is not None:
+        return Duty(speed, table.gear_torque)
+    if table.pinion_torque is not None:
+        return Duty(speed, table.pinion_torque * ratio)
+    return Duty(speed, (table.power or 0.0) * ratio / speed)
+
+
+#: Duties of a spectrum.
+MOST_DUTIES = 1000
+
+
+class SpectrumDuty(DutyTable):
+    """One duty of a load spectrum; what it does not give is that of [operating]."""
+
+    share: Positive = Field(description="of the time; shares count by their sum")
+    oil_temperature: Temperature | None = Field(None, description="in place of that of [operating]")
+
+    #: what gives its speed, and its load
+    speeds: ClassVar[tuple[str, ...]] = SPEEDS
+    loads: ClassVar[tuple[str, ...]] = LOADS
+
+
+class OperatingTable(DutyTable):
+    """Speed and load, and which duty of a spectrum takes their place."""
+
+    duty: Annotated[int, Field(strict=True, ge=1, le=MOST_DUTIES), Weighed("duty", "share")] | None = Field(
+        None, description="number of the duty of a load spectrum that is run, from 1"
+    )
+
+
+class OiledOperatingTable(OperatingTable):
+    """Constant speed and load, and the oil's temperature."""
+
+    oil_temperature: Temperature | None = Field(
+        None, description="where the oil enters the mesh; for a lubricant given by its data sheet"
+    )
+
+
+class SpectrumScenario(ScenarioHead):
+    """A scenario that may have a load spectrum."""
+
+    duty: Annotated[
+        tuple[SpectrumDuty, ...],
+        csv_tables(
+            "CSV file with a row for each duty: share [1], gear_torque [N*m], …", "share", "gear_torque"
+        ),
+    ] = Field((), max_length=MOST_DUTIES, description="load spectrum: duties with shares of time")
+
+
+def spectrum_of(scenario: Any) -> list[tuple[float, Any]]:
+    """Return share of time, their sum 1, and scenario of every duty; empty where there is no spectrum."""
+    duties: Sequence[SpectrumDuty] = getattr(scenario, "duty", ())
+    total = sum(duty.share for duty in duties)
+    return [(duty.share / total, _with(scenario, number)) for number, duty in enumerate(duties, start=1)]
+
+
+def in_force(scenario: Any) -> Any:
+    """Return the scenario with the duty in force, the first where none is named; without a spectrum as is."""
+    duties = getattr(scenario, "duty", ())
+    if not duties:
+        return scenario
+    number = scenario.operating.duty
+    found = _with(scenario, number or 1)
+    kept = found.operating.model_copy(update={"duty": number})
+    return found.model_copy(update={"operating": kept})
+
+
+def broken_spectrum_rules(scenario: Any) -> Iterator[InputError]:
+    """Go through what is wrong with the duties alone: two speeds or loads in one, a number without a duty."""
+    duties: Sequence[SpectrumDuty] = getattr(scenario, "duty", ())
+    number = getattr(getattr(scenario, "operating", None), "duty", None)
+    if number is not None and number > len(duties):
+        has = f"the load spectrum has {len(duties)}" if duties else "there is no load spectrum"
+        yield InputError("operating.duty", number, has, "add [[duty]] tables, or name another")
+    for place, duty in enumerate(duties):
+        yield from given_twice(duty, f"duty.{place}", duty.speeds, duty.loads)
+
+
+def unnamed_duty(scenario: Any) -> Iterator[InputError]:
+    """Refuse a spectrum in a study that runs one duty at a time, where it is not said which."""
+    count = len(scenario.duty)
+    if count > 1 and scenario.operating.duty is None:
+        rule = f"missing: this kind of study runs one duty of the {count} at a time"
+        remedy = f"add duty = 1, or sweep operating.duty over 1:{count}:1"
+        yield InputError("operating.duty", None, rule, remedy)
+
+
+def of_duty(error: InputError, number: int, scenario: Any) -> InputError:
+    """Name a duty as where a mistake stands that the scenario with it has in [operating]."""
+    table, _, name = error.key.partition(".")
+    known = {*type(scenario.duty[number - 1]).model_fields}
+    key = f"duty.{number - 1}.{name}" if table == "operating" and name in known else error.key
+    return InputError(key, error.value, error.rule, error.remedy, error.file)
+
+
+def _with(scenario: Any, number: int) -> Any:
+    """The scenario with the keys of one of its duties in [operating]; its duties say all of theirs."""
+    duties = tuple(_completed(duty, scenario.operating) for duty in scenario.duty)
+    taken = *duties[0].speeds, *duties[0].loads, "oil_temperature"
+    keys = {name for name in taken if hasattr(scenario.operating, name)}
+    update = {name: getattr(duties[number - 1], name) for name in keys} | {"duty": number}
+    operating = scenario.operating.model_copy(update=update)
+    return scenario.model_copy(update={"operating": operating, "duty": duties})
+
+
+def _completed(duty: SpectrumDuty, operating: Any) -> SpectrumDuty:
+    """A duty with what it does not give from [operating]."""
+    missing: dict[str, Any] = {}
+    for names in (duty.speeds, duty.loads, ("oil_temperature",)):
+        if all(getattr(duty, name) is None for name in names):
+            missing |= {name: getattr(operating, name, None) for name in names}
+    return duty.model_copy(update=missing)

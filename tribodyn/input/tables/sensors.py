@@ -1,0 +1,193 @@
+"""Sensors of gears over time and the housing that they sit on: their tables, rules, and data in SI units."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tribodyn.errors import InputError, quoted
+from tribodyn.input import units
+from tribodyn.input.fields import Angle
+from tribodyn.input.quantity import (
+    Column,
+    CurveTable,
+    InUnit,
+    Number,
+    Positive,
+    Table,
+    Text,
+    csv_file,
+    written,
+)
+from tribodyn.input.units import Kind, NotAQuantity, to_si
+from tribodyn.sensing.data import KINDS, HousingData, HousingMode, HousingTransfer, SensorData
+
+MOST_SENSORS, MOST_MODES = 64, 200
+Frequency = Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY), "20 kHz")]
+PartName = Annotated[str, Field(strict=True, pattern=r"^\w[\w-]*$")]
+#: Unit of a kind of sensor -> how a level of it is written.
+_LEVELS = {
+    "m/s2": Kind("acceleration", "m/s**2", "0.5 m/s**2", "not negative"),
+    "N": units.not_negative(units.FORCE),
+    "rad": units.not_negative(units.SMALL_ANGLE),
+    "m": units.not_negative(units.DEVIATION),
+    "N*m": units.not_negative(units.TORQUE),
+}
+#: Names that a dataset beside the signals has.
+_TAKEN = ("time", "reference_angle")
+
+
+class Sensor(Table):
+    """A sensor: what it measures, at what rate, and how noisy it is."""
+
+    name: PartName
+    kind: Literal["acceleration", "force", "housing", "ring", "encoder", "transmission-error", "torque"]
+    at: Text | None = Field(
+        None, description="body, point of the housing, mesh, stage or shaft; default: the only one"
+    )
+    direction: Literal["x", "y", "z"] = Field("y", description="of an acceleration or a force")
+    angle: Angle = written("90 deg", description="where it is at a ring, counter-clockwise from x")
+    window: Literal["hann", "hamming"] = Field("hann", description="how it hears planets that pass")
+    rate: Frequency = Field(description="samples per second")
+    filter: Literal["kaiser", "none"] = Field("kaiser", description="against aliases")
+    noise: Text | None = Field(
+        None, description="RMS, in a unit of what it measures", examples=["0.5 m/s**2"]
+    )
+    snr: Annotated[float, Field(strict=True, ge=-300.0, le=300.0)] | None = Field(
+        None, description="dB, in place of noise: signal over noise, RMS"
+    )
+    seed: Annotated[int, Field(strict=True, ge=0)] = Field(0, description="of the noise")
+    full_scale: Text | None = Field(None, description="magnitude at which it clips", examples=["50 m/s**2"])
+    bits: Annotated[int, Field(strict=True, ge=2, le=32)] | None = Field(
+        None, description="of its converter, over full_scale; default: exact"
+    )
+
+
+class Mode(Table):
+    """A mode of the housing."""
+
+    frequency: Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY), "1.2 kHz")]
+    damping_ratio: Positive
+    mass: Annotated[float, InUnit(units.positive(units.MASS), "30 kg")] = Field(
+        description="modal, with the shape as given"
+    )
+    shape: dict[PartName, tuple[Number, ...]] = Field(
+        description="at bearings, by their bodies: x, y and, where given, z; of a planetary stage one number"
+    )
+    points: dict[PartName, Number] = Field(description="at points of sensors, in their directions")
+
+
+class TransferTable(CurveTable):
+    """A measured transfer function, real and imaginary part over frequency."""
+
+    frequency: Annotated[Column, units.ANGULAR_FREQUENCY]
+    real: Annotated[Column, units.ACCELERANCE]
+    imaginary: Annotated[Column, units.ACCELERANCE]
+
+    def response(self) -> tuple[tuple[float, ...], tuple[complex, ...]]:
+        """Frequencies in Hz, and the complex response in 1/kg."""
+        frequency, real, imaginary = self.in_si()
+        return tuple((frequency / (2.0 * math.pi)).tolist()), tuple((real + 1j * imaginary).tolist())
+
+
+class Transfer(Table):
+    """A measured path from a bearing to a point."""
+
+    point: PartName
+    at: Text = Field(description="bearing, by its body")
+    direction: Literal["x", "y", "z"] = Field(description="of the force on the bearing")
+    table: Annotated[TransferTable, csv_file("frequency", "real", "imaginary")] = Field(
+        description="acceleration of the point over the force"
+    )
+
+
+class Housing(Table):
+    """Paths from the bearings to points of the housing, which does not act back on the gears."""
+
+    mode: tuple[Mode, ...] = Field((), max_length=MOST_MODES)
+    transfer: tuple[Transfer, ...] = Field((), max_length=MOST_MODES)
+
+
+Sensors = Annotated[tuple[Sensor, ...], Field(max_length=MOST_SENSORS)]
+
+
+def level_in_si(sensor: Sensor, key: str) -> float | None:
+    """A level of a sensor in the SI unit of its kind; raises NotAQuantity."""
+    text = getattr(sensor, key)
+    return None if text is None else to_si(text, _LEVELS[KINDS[sensor.kind].units])
+
+
+def broken_sensor_rules(sensors: Sequence[Sensor], housing: Housing | None) -> Iterator[InputError]:
+    """Go through what contradicts itself in the tables of sensors and housing."""
+    names = [sensor.name for sensor in sensors]
+    for number, sensor in enumerate(sensors):
+        key = f"sensor.{number}"
+        if sensor.name in _TAKEN or sensor.name in names[:number]:
+            rule = "names a dataset beside the signals" if sensor.name in _TAKEN else "names two sensors"
+            yield InputError(f"{key}.name", quoted(sensor.name), rule, "give it a name of its own")
+        for level in ("noise", "full_scale"):
+            try:
+                if level_in_si(sensor, level) == 0.0 and level == "full_scale":
+                    rule, remedy = "leaves nothing between −full_scale and full_scale", "leave it out"
+                    yield InputError(f"{key}.{level}", quoted(sensor.full_scale or ""), rule, remedy)
+            except NotAQuantity as error:
+                yield InputError(f"{key}.{level}", quoted(getattr(sensor, level)), error.rule, error.remedy)
+        if sensor.noise is not None and sensor.snr is not None:
+            rule = "contradicts noise: one follows from the other"
+            yield InputError(f"{key}.snr", f"{sensor.snr:g}", rule, "give the one or the other")
+        if sensor.bits is not None and sensor.full_scale is None:
+            rule = "missing: bits divide the range between −full_scale and full_scale"
+            example = _LEVELS[KINDS[sensor.kind].units].example
+            yield InputError(f"{key}.full_scale", None, rule, f'add full_scale = "{example}"')
+        if sensor.kind == "housing" and (housing is None or not (housing.mode or housing.transfer)):
+            rule = "missing: a sensor is on the housing"
+            yield InputError("housing", None, rule, "add [[housing.mode]] or [[housing.transfer]]")
+    for number, mode in enumerate(housing.mode if housing else ()):
+        for name, shape in mode.shape.items():
+            if not 1 <= len(shape) <= 3:
+                rule = f"has {len(shape)} numbers; a bearing moves in x, y and z"
+                yield InputError(f"housing.mode.{number}.shape.{name}", None, rule, "give x and y")
+
+
+def sensors_of(sensors: Sequence[Sensor]) -> tuple[SensorData, ...]:
+    """The sensors of a scenario that breaks no rule."""
+    return tuple(
+        SensorData(
+            name=sensor.name,
+            kind=sensor.kind,
+            at=sensor.at,
+            direction=sensor.direction,
+            rate=float(f"{sensor.rate / (2.0 * math.pi):.12g}"),
+            filter=sensor.filter,
+            angle=sensor.angle,
+            window=sensor.window,
+            noise=level_in_si(sensor, "noise") or 0.0,
+            snr=sensor.snr,
+            seed=sensor.seed,
+            bits=sensor.bits,
+            full_scale=level_in_si(sensor, "full_scale"),
+        )
+        for sensor in sensors
+    )
+
+
+def housing_of(housing: Housing | None) -> HousingData:
+    """The housing of a scenario that breaks no rule."""
+    if housing is None:
+        return HousingData()
+    modes = tuple(
+        HousingMode(
+            mode.frequency / (2.0 * math.pi),
+            mode.damping_ratio,
+            mode.mass,
+            dict(mode.shape),
+            dict(mode.points),
+        )
+        for mode in housing.mode
+    )
+    paths = tuple(
+        HousingTransfer(path.point, path.at, path.direction, *path.table.response())
+        for path in housing.transfer
+    )
+    return HousingData(modes, paths)
