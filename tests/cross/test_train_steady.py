@@ -183,7 +183,10 @@ def test_another_solver_comes_back_after_a_common_period(rubbing):
 
 
 def test_multipliers_are_those_of_differences_of_the_map(rubbing):
-    """Central differences of SciPy's marches over the period."""
+    """Central differences of SciPy's marches over the period.
+
+    Over so much that it matters little where a march of DOP853 passes over a reversal of friction.
+    """
     trains, steadies = rubbing
     model, steady = trains[1].model, steadies[1]
     moving = list(moving_states(model).states)
@@ -193,9 +196,9 @@ def test_multipliers_are_those_of_differences_of_the_map(rubbing):
         ends = []
         for sign in (1.0, -1.0):
             state = steady.state.copy()
-            state[place] += sign * 1e-4 * scale[column]
+            state[place] += sign * 3e-4 * scale[column]
             ends.append(by_another_solver(model, state, model.schedule.period)[moving])
-        jacobian[:, column] = (ends[0] - ends[1]) / scale / 2e-4
+        jacobian[:, column] = (ends[0] - ends[1]) / scale / 6e-4
     settings: dict[str, Any] = {"solver": "auto", "rtol": 1e-6, "fine_rtol": 1e-10, "max_steps": 10**6}
     period_map = GearMap([model], steady.state[None], moving_states(model), workers=1, **settings)
     exact = period_map.tangent(steady.state[None][:, moving], np.zeros(1, dtype=int), 1).jacobian[0]

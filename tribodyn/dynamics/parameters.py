@@ -3,7 +3,7 @@
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.links.chain import LINEAR
+from tribodyn.train.links.chain import BY_TABLE
 from tribodyn.train.schedule import Schedule
 from tribodyn.train.structure import Bodies, GearMesh, Links, TrainLayout
 from tribodyn.tribology.friction.none import LAW as NO_FRICTION
@@ -36,7 +36,7 @@ class Options(NamedTuple):
     drive: int = DRIVE_SPEED
     hertz: int = HERTZ_IN_TABLE
     sweeps: int = 1  # over coupled pairs; 1: they are not coupled
-    links: Any = LINEAR  # functions of the laws of the links, see `train.links.chain`
+    links: Any = BY_TABLE  # functions of the laws of the links, see `train.links.chain`
     averaged: int = 0  # 1: radius and entrainment vanish at the pitch point and are averaged over the contact
 
 

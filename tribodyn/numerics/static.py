@@ -7,3 +7,7 @@ class StaticInt(int):
 
 class Indices(tuple[int, ...]):
     """Whole numbers by place, e.g. the bodies at the ends of links."""
+
+
+class RuntimeIndices(tuple[int, ...]):
+    """The same as kernels read them at run time; hashable, static for JAX."""

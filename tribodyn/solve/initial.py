@@ -16,7 +16,7 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.step_control import largest_displacement, unbounded
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.train.flow import Flow, flow
-from tribodyn.train.links.chain import twist_under
+from tribodyn.train.links.chain import are_linear, twist_under
 from tribodyn.train.structure import (
     GearMesh,
     displacements,
@@ -126,7 +126,7 @@ def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> F
     values = _closed(model, np.array(side) * clear, torques)[unknown]
     scale = _scales(model, deflection)[unknown]
     tolerance = 1e-6 * float(np.linalg.norm(residual(values))) + 1e-30
-    loose = bool(model.links.own)
+    loose = not are_linear(model.links.own)
     found = _root(residual, values, scale, tolerance, loose)
     if found is None:  # damping of a moving error holds the flanks all but apart, or deep in each other
         for share in np.linspace(0.0, 1.0, DAMPING_STEPS).tolist():

@@ -21,8 +21,8 @@ import numpy as np
 
 from tribodyn.numerics.elementary import law
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.static import Indices, StaticInt
-from tribodyn.train.links.chain import NoLinkParameters
+from tribodyn.numerics.static import Indices, RuntimeIndices, StaticInt
+from tribodyn.train.links.chain import NO_PLAY
 from tribodyn.tribology.contact import Surfaces
 
 #: Works, counted from the first: those of the whole train, and from `OF_MESHES` on two of every mesh.
@@ -69,7 +69,7 @@ class Links(NamedTuple):
 
     stiffness: Float[Array, "link direction"]  # N/m, N/m, N m/rad
     damping: Float[Array, "link direction"]  # N s/m, N s/m, N m s/rad
-    own: Any = NoLinkParameters()  # parameters of the laws
+    own: Any = NO_PLAY  # parameters of the laws
     #: this and the next: symmetric, over x, y, z, tilts about x and y; N/m, N, N m; empty if nothing tilts
     stiffness_in_space: Float[Array, "link 5 5"] = np.zeros((0, IN_SPACE, IN_SPACE))
     damping_in_space: Float[Array, "link 5 5"] = np.zeros((0, IN_SPACE, IN_SPACE))
@@ -114,28 +114,30 @@ class GearMesh(NamedTuple):
 
 
 class TrainLayout(NamedTuple):
-    """What the train consists of: static, hashable; numbers of bodies and states are compiled in."""
+    """What the train consists of: hashable, static for JAX; of a single mesh compiled into native kernels."""
 
-    spatial: StaticInt  # bodies that move in space, of those that move in the plane
-    planar: StaticInt  # bodies that move in the plane, or in space
-    bodies: StaticInt
-    meshes: StaticInt
-    links: StaticInt
-    half: StaticInt  # coordinates; state half + i is the rate of state i
-    lag: StaticInt  # place of the reference's lag, among the rates that of its slip
-    tilts: StaticInt  # place of the first z; of every body that moves in space z and tilts about x and y
-    mechanical: StaticInt  # states that the mechanics depend on; the rest are works
-    states: StaticInt
-    driver: Indices  # this and the next: bodies at the ends of every mesh
-    driven: Indices
-    carrier: Indices  # of every mesh the body that carries it; `GROUND`: the housing
-    first: Indices  # this and the next: bodies at the ends of every link; `GROUND`
-    second: Indices
-    pins: Indices  # of every link 1 where its ends have levers or an offset, else 0
-    holds: Indices  # of every link 1 where it holds the rotation of its first end against the ground, else 0
-    frames: StaticInt  # 1 where bodies are in a frame that turns, else 0
-    input: StaticInt  # body that the drive acts on
-    output: StaticInt  # body that bears the load that varies in time
+    spatial: int  # bodies that move in space, of those that move in the plane
+    planar: int  # bodies that move in the plane, or in space
+    bodies: int
+    meshes: int
+    links: int
+    half: int  # coordinates; state half + i is the rate of state i
+    lag: int  # place of the reference's lag, among the rates that of its slip
+    tilts: int  # place of the first z; of every body that moves in space z and tilts about x and y
+    mechanical: int  # states that the mechanics depend on; the rest are works
+    states: int
+    driver: tuple[int, ...]  # this and the next: bodies at the ends of every mesh
+    driven: tuple[int, ...]
+    carrier: tuple[int, ...]  # of every mesh the body that carries it; `GROUND`: the housing
+    first: tuple[int, ...]  # this and the next: bodies at the ends of every link; `GROUND`
+    second: tuple[int, ...]
+    pins: tuple[int, ...]  # of every link 1 where its ends have levers or an offset, else 0
+    holds: tuple[
+        int, ...
+    ]  # of every link 1 where it holds the rotation of its first end against the ground, else 0
+    frames: int  # 1 where bodies are in a frame that turns, else 0
+    input: int  # body that the drive acts on
+    output: int  # body that bears the load that varies in time
 
 
 def layout_of(
@@ -159,30 +161,31 @@ def layout_of(
     """
     half = 2 * planar + bodies + 3 * spatial
     states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
+    number, places = (StaticInt, Indices) if len(meshes) == 1 else (int, RuntimeIndices)
     driver, driven, first, second = (
-        Indices([pair[end] for pair in pairs]) for pairs in (meshes, links) for end in (0, 1)
+        places([pair[end] for pair in pairs]) for pairs in (meshes, links) for end in (0, 1)
     )
     return TrainLayout(
-        spatial=StaticInt(spatial),
-        planar=StaticInt(planar),
-        bodies=StaticInt(bodies),
-        meshes=StaticInt(len(meshes)),
-        links=StaticInt(len(links)),
-        half=StaticInt(half),
-        lag=StaticInt(2 if planar else 0),
-        tilts=StaticInt(2 * planar + bodies),
-        mechanical=StaticInt(2 * half),
-        states=StaticInt(states),
+        spatial=number(spatial),
+        planar=number(planar),
+        bodies=number(bodies),
+        meshes=number(len(meshes)),
+        links=number(len(links)),
+        half=number(half),
+        lag=number(2 if planar else 0),
+        tilts=number(2 * planar + bodies),
+        mechanical=number(2 * half),
+        states=number(states),
         driver=driver,
         driven=driven,
-        carrier=Indices(carriers or [GROUND] * len(meshes)),
+        carrier=places(carriers or [GROUND] * len(meshes)),
         first=first,
         second=second,
-        pins=Indices([int(link in pins) for link in range(len(links))]),
-        holds=Indices([int(link in holds) for link in range(len(links))]),
-        frames=StaticInt(frames),
-        input=StaticInt(drives),
-        output=StaticInt(loaded),
+        pins=places([int(link in pins) for link in range(len(links))]),
+        holds=places([int(link in holds) for link in range(len(links))]),
+        frames=number(frames),
+        input=number(drives),
+        output=number(loaded),
     )
 
 

@@ -12,6 +12,7 @@ import pytest
 from tribodyn.kernels.native import compiler, kernel, packed, store
 from tribodyn.numerics import elementary
 from tribodyn.numerics.cache import read_kept
+from tribodyn.numerics.static import RuntimeIndices
 
 
 class Inner(NamedTuple):
@@ -43,6 +44,13 @@ def half(x):
 def fill(out, value):
     for i in range(out.shape[0]):
         out[i] = value
+
+
+@kernel
+def of_items(items, places, shift, out):
+    for i in range(out.shape[0]):
+        item = items[places[i]]
+        out[i] = item.factor * item.row[shift - i] + item.row[-1]
 
 
 @pytest.fixture
@@ -174,3 +182,17 @@ def test_processes_that_start_at_once_leave_one_good_file(folder, tmp_path_facto
     assert [process.wait() for process in running] == [0, 0]
     file = kept(folder)
     assert read_kept(file.parent.name, file.name) is not None
+
+
+def test_how_many_items_there_are_is_read_at_run_time(rng):
+    """Of several; and a negative index counts from the end, in functions from outside the package."""
+    for count in (2, 3, 5):
+        items = tuple(Inner(factor, rng.random(6)) for factor in rng.random(count).tolist())
+        places, out = rng.integers(0, count, 4), np.empty(4)
+        of_items(items, RuntimeIndices(places.tolist()), 1, out)
+        expected = [items[k].factor * items[k].row[1 - i] + items[k].row[-1] for i, k in enumerate(places)]
+        np.testing.assert_allclose(out, expected, rtol=1e-14)
+    assert len(of_items._codes) == 1
+    of_items(items[:1], RuntimeIndices((0,)), 1, out[:1])  # a single item is part of the record
+    assert out[0] == pytest.approx(items[0].factor * items[0].row[1] + items[0].row[-1], rel=1e-14)
+    assert len(of_items._codes) == 2

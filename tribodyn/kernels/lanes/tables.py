@@ -64,7 +64,7 @@ class LaneRecordsType(types.Type):
     def __init__(self, part: SubRecord):
         self.item = LaneRecordType(part.fields)
         self.size = part.size
-        super().__init__(name=f"LaneRecords({self.item.name} x {part.items})")
+        super().__init__(name=f"LaneRecords({self.item.name})")
 
 
 class LaneRecord(NamedTuple):
@@ -83,7 +83,7 @@ class LaneRecord(NamedTuple):
             block.ctypes.data + first * block.strides[0]
             for block, first in zip(blocks, self.part.first, strict=True)
         )
-        return PackedValue(LaneLayout(self.part), struct.pack("=3q", *places), self)
+        return PackedValue(LaneLayout(self.part.in_types()), struct.pack("=3q", *places), self)
 
 
 class LaneLayout(NamedTuple):
@@ -242,11 +242,12 @@ def _record_attribute(context, builder, record, value, name):
         return builder.load(row_at(builder, value.numbers, at), align=ALIGNMENT)
     lengths = [
         builder.load(builder.gep(value.lengths, [INT64(field.first_length + axis)]))
-        for axis in range(field.ndim)
+        for axis in range(field.ndim + field.inline)
     ]
-    shape = cgutils.pack_array(builder, lengths)
+    shape = cgutils.pack_array(builder, lengths[: field.ndim])
     if field.inline:
         rows = cgutils.create_struct_proxy(ElementArrayType(field.ndim, ROW))(context, builder)
+        at = builder.mul(lengths[-1], INT64(WIDTH))
         rows.data, rows.shape = builder.gep(value.numbers, [at]), shape
         return rows._getvalue()
     table = cgutils.create_struct_proxy(LaneTableType(field.ndim, field.shared))(context, builder)

@@ -1,9 +1,9 @@
 """What kernels are and how their arguments lie in memory: a single block of words of 8 bytes.
 
 A number is a word; an array its address and lengths; a named tuple its fields in order, and a tuple its
-items, which are alike; a function and a fixed number no word at all. The layout says which of these a
-value is, and the machine code of a kernel depends on nothing else: functions, fixed numbers and indices are
-compiled in, other numbers and lengths never.
+single item or the address of several, which are alike; a function and a fixed number no word at all. The
+layout says which of these a value is, and the machine code of a kernel depends on nothing else: functions,
+fixed numbers and indices are compiled in, other numbers, lengths and how many items there are never.
 
 A function that is handed to a kernel is compiled into it, with all that it calls and with the numbers that
 it takes from its module and from around it. Of functions it is the bytecode that counts, wherever they are
@@ -11,6 +11,7 @@ defined: in a file, in a cell of a notebook or inside another function. The mach
 all that it depends on is functions, modules in files, numbers and texts.
 """
 
+import ctypes
 import hashlib
 import struct
 import sys
@@ -25,7 +26,7 @@ import numpy as np
 
 from tribodyn.numerics import elementary
 from tribodyn.numerics.sources import code_of
-from tribodyn.numerics.static import Indices, StaticInt
+from tribodyn.numerics.static import Indices, RuntimeIndices, StaticInt
 
 _serial = count()
 
@@ -190,7 +191,7 @@ class Code(NamedTuple):
 
 
 class Numeric(NamedTuple):
-    """A number: "float", "int" or "bool"."""
+    """A number: "float", "int" or "bool"; or "indices" that are read at run time, by their address."""
 
     name: str
 
@@ -223,10 +224,10 @@ class IndicesLayout(NamedTuple):
 
 
 class SeveralLayout(NamedTuple):
-    """Layout of a tuple of so many items of one layout."""
+    """Layout of a tuple of items of one layout: a single one in its place, several where a word points at."""
 
     item: Any
-    items: int
+    items: int = 0  # 1, or 0: any number
 
 
 class RecordLayout:
@@ -255,10 +256,9 @@ class PackedValue(NamedTuple):
     value: Any = None  # what was packed
 
 
-FLOAT, INT, BOOL = Numeric("float"), Numeric("int"), Numeric("bool")
+FLOAT, INT, BOOL, INDICES = map(Numeric, ("float", "int", "bool", "indices"))
 _float, _int = struct.Struct("=d").pack, struct.Struct("=q").pack
 _array = cache(Array)
-_several = cache(SeveralLayout)
 
 
 @cache
@@ -279,6 +279,9 @@ def packed(value: Any) -> PackedValue:
         return PackedValue(FixedLayout(int(value)), b"", value)
     if isinstance(value, Indices):
         return PackedValue(IndicesLayout(tuple(value)), b"", value)
+    if isinstance(value, RuntimeIndices):
+        table = np.array(value, dtype=np.int64)
+        return PackedValue(INDICES, _int(table.ctypes.data), table)
     if isinstance(value, (bool, np.bool_)):
         return PackedValue(BOOL, _int(value), value)
     if isinstance(value, (int, np.integer)):
@@ -292,7 +295,11 @@ def packed(value: Any) -> PackedValue:
     if isinstance(value, tuple):
         items = [packed(item) for item in value]
         (layout,) = {item.layout for item in items}  # a kernel takes items that are alike
-        return PackedValue(_several(layout, len(items)), b"".join(item.words for item in items), value)
+        words = b"".join(item.words for item in items)
+        if len(items) == 1:
+            return PackedValue(SeveralLayout(layout, 1), words, items)
+        block = ctypes.create_string_buffer(words, len(words))
+        return PackedValue(SeveralLayout(layout), _int(ctypes.addressof(block)), (items, block))
     raise TypeError(
         f"a kernel takes numbers, arrays, functions and tuples of them, not {type(value).__name__}"
     )
@@ -313,7 +320,7 @@ def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> Pack
     """Pack several values as the fields of one record."""
     items = [packed(value) for value in values]
     layouts = tuple(item.layout for item in items)
-    return PackedValue(record(name, names, layouts), b"".join(item.words for item in items), values)
+    return PackedValue(record(name, names, layouts), b"".join(item.words for item in items), items)
 
 
 def functions_in(layout: Any) -> Iterator[FunctionLayout]:

@@ -20,6 +20,7 @@ from numba.core.errors import NumbaError
 from numba.core.registry import cpu_target
 
 from tribodyn.errors import InputError
+from tribodyn.kernels.native import indexing  # noqa: F401  (its import lets arrays be read by it)
 from tribodyn.kernels.native.arguments import OPTIONS, Compiled, RecordLayout, Target, functions_in
 from tribodyn.kernels.native.functions import register_laws
 from tribodyn.kernels.native.parts import FUSE, as_part

@@ -52,10 +52,10 @@ class RecordType(types.Type):
 
 
 class SeveralType(types.Type):
-    """Type of a block of records of one type, one after the other."""
+    """Type of a block of records of one type, one after the other; `items` as its layout has it."""
 
     def __init__(self, several: SeveralLayout):
-        self.item = type_of(several.item)
+        self.item, self.items = type_of(several.item), several.items
         self.words = words_of(several.item)
         super().__init__(name=f"{several.items} x {self.item.name}")
 
@@ -68,7 +68,15 @@ class IndicesType(types.Type):
         super().__init__(name=f"Indices{values}")
 
 
+class RuntimeIndicesType(types.Type):
+    """Type of whole numbers by place, at an address; they do not change while a kernel runs."""
+
+    def __init__(self):
+        super().__init__(name="RuntimeIndices")
+
+
 @register_model(IndicesType)
+@register_model(RuntimeIndicesType)
 @register_model(RecordType)
 @register_model(SeveralType)
 class _RecordModel(models.OpaqueModel):
@@ -78,13 +86,18 @@ class _RecordModel(models.OpaqueModel):
 def words_of(layout: Any) -> int:
     """Words that a value of a layout takes."""
     if isinstance(layout, SeveralLayout):
-        return layout.items * words_of(layout.item)
+        return words_of(layout.item) if layout.items else 1
     if isinstance(layout, RecordLayout):
         return sum(words_of(field) for _, field in layout.fields)
     return 1 if isinstance(layout, Numeric) else layout.words
 
 
-_NUMBERS = {"float": types.float64, "int": types.int64, "bool": types.boolean}
+_NUMBERS = {
+    "float": types.float64,
+    "int": types.int64,
+    "bool": types.boolean,
+    "indices": RuntimeIndicesType(),
+}
 
 
 def type_of(layout: Any) -> Any:
@@ -113,6 +126,8 @@ def _read(context, builder, kind, block, word):
     if isinstance(kind, types.IntegerLiteral):
         return _INT64(kind.literal_value)
     place = builder.gep(block, [_INT64(WORD * word)])
+    if isinstance(kind, RuntimeIndicesType) or (isinstance(kind, SeveralType) and not kind.items):
+        return builder.inttoptr(_load(builder, place, _INT64), place.type)
     if isinstance(kind, (RecordType, SeveralType)):
         return place
     if isinstance(kind, types.Array):
@@ -136,7 +151,8 @@ def _read(context, builder, kind, block, word):
 
 
 def _load(builder, place, kind, index=0):
-    value = builder.load(builder.gep(builder.bitcast(place, kind.as_pointer()), [_INT64(index)]), align=WORD)
+    index = _INT64(index) if isinstance(index, int) else index
+    value = builder.load(builder.gep(builder.bitcast(place, kind.as_pointer()), [index]), align=WORD)
     value.set_metadata("invariant.load", builder.module.add_metadata([]))
     return value
 
@@ -160,7 +176,7 @@ class _Items(AbstractTemplate):
         several, index = args
         if isinstance(several, SeveralType) and isinstance(index, types.Integer):
             return signature(several.item, several, types.int64)
-        if isinstance(several, IndicesType) and isinstance(index, types.Integer):
+        if isinstance(several, (IndicesType, RuntimeIndicesType)) and isinstance(index, types.Integer):
             return signature(types.int64, several, types.int64)
         return None
 
@@ -176,6 +192,11 @@ def _index(context, builder, signature, values):
     table = ir.Constant(ir.ArrayType(_INT64, len(signature.args[0].values)), list(signature.args[0].values))
     whole = cgutils.global_constant(builder, "indices", table)
     return builder.load(builder.gep(whole, [_INT64(0), values[1]]))
+
+
+@lower_builtin(operator.getitem, RuntimeIndicesType, types.int64)
+def _number_at(context, builder, signature, values):
+    return _load(builder, values[0], _INT64, values[1])
 
 
 def _place(record, name, block):

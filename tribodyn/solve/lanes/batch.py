@@ -5,6 +5,7 @@ Of a model numbers and addresses of tables are packed as rows, from which lanes 
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -129,24 +130,33 @@ def _part(name: str, value: Any, first: Extent, lengths: list[int]) -> SubRecord
         return parts[0]._replace(items=len(value))
     at = Extent(0, 0, 0)
     fields: list[Field | SubRecord] = []
-    inline = type(value).__name__ in SHORT
-    for field, item in zip(value._fields, value, strict=True):
+    for field, item, inline in _in_order(value):
         if isinstance(item, tuple):
             part = _part(field, item, at, lengths)
             fields.append(part)
             at = _after(part)
             continue
         axes = np.shape(item)
-        among = bool(axes) and inline and field not in SHARED
-        row = at.numbers if among or not axes else at.addresses
-        fields.append(Field(field, len(axes), row, at.lengths, field in SHARED, among))
-        lengths += axes
+        row = -1 if inline else at.addresses if axes else at.numbers
+        fields.append(Field(field, len(axes), row, at.lengths, field in SHARED, inline))
+        lengths += (*axes, at.numbers) if inline else axes
         at = Extent(
-            at.numbers + (int(np.prod(axes)) if among else not axes),
-            at.addresses + (bool(axes) and not among),
-            at.lengths + len(axes),
+            at.numbers + (int(np.prod(axes)) if inline else not axes),
+            at.addresses + (bool(axes) and not inline),
+            at.lengths + len(axes) + inline,
         )
     return SubRecord(name, tuple(fields), first, at)
+
+
+def _in_order(value: Any) -> list[tuple[str, Any, bool]]:
+    """Fields of a record, or several records; whether they are short tables, which come last."""
+    names = getattr(value, "_fields", [""] * len(value))
+    short = type(value).__name__ in SHORT
+    parts = [
+        (name, item, short and not isinstance(item, tuple) and bool(np.ndim(item)) and name not in SHARED)
+        for name, item in zip(names, value, strict=True)
+    ]
+    return sorted(parts, key=itemgetter(2))
 
 
 def _row(value: Any, kept: dict[int, Kept], known: Known) -> tuple[list[float], list[int]]:
@@ -155,16 +165,14 @@ def _row(value: Any, kept: dict[int, Kept], known: Known) -> tuple[list[float], 
         return known[id(value)][:2]
     numbers: list[float] = []
     addresses: list[int] = []
-    names = getattr(value, "_fields", [""] * len(value))
-    inline = type(value).__name__ in SHORT
-    for field, item in zip(names, value, strict=True):
+    for _, item, inline in _in_order(value):
         if isinstance(item, tuple):
             own, pointed = _row(item, kept, known)
             numbers += own
             addresses += pointed
         elif not np.ndim(item):
             numbers.append(float(item))
-        elif inline and field not in SHARED:
+        elif inline:
             numbers += np.ravel(item).tolist()
         else:
             if id(item) not in kept:

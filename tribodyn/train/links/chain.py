@@ -1,7 +1,8 @@
 """The laws of a train's links, as kernels are compiled for them.
 
-Links whose law is not the linear one make a chain in which every function hands on what is another link's; it
-ends with the linear law of all others. A train of linear links has the end alone.
+Links under the laws of this package stand in a table, which kernels read and do not depend on. A link under a
+law from outside is part of a chain of types, in which every function hands on what is another link's, and
+which ends with the table of all others.
 """
 
 from collections.abc import Callable, Sequence
@@ -10,14 +11,23 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.numerics.elementary import law
+from tribodyn.numerics.elementary import law, namespace, skippable, where
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.static import StaticInt
 from tribodyn.train.links.law import LinkLaw, try_link_law
 from tribodyn.train.links.linear import linear
+from tribodyn.train.links.play import Play, with_play
 
 
-class LinearLinks(NamedTuple):
-    """End of a chain: the links that are linear."""
+class PlayOfLinks(NamedTuple):
+    """Play of every link, as `play.Play` has it; links that are not in the table are linear."""
+
+    play: Float[Array, " link"]  # rad; 0: linear
+    contact_share: Float[Array, " link"]
+
+
+class TabulatedLinks(NamedTuple):
+    """End of a chain: the links of the table."""
 
     #: (link, twist, stiffness, parameters, laws) -> torque, energy, share of damping; see `LinkLaw`
     act: Callable[..., Any]
@@ -26,7 +36,7 @@ class LinearLinks(NamedTuple):
 
 
 class LawOfLink(NamedTuple):
-    """Part of a chain: one link that has a law of its own, and the rest."""
+    """Part of a chain: one link that has a law from outside this package, and the rest."""
 
     act: Callable[..., Any]
     slope: Callable[..., Any]
@@ -42,18 +52,39 @@ class OfLink(NamedTuple):
     rest: Any
 
 
-class NoLinkParameters(NamedTuple):
-    """Parameters of the linear law."""
+#: All links are linear.
+NO_PLAY = PlayOfLinks(np.zeros(0), np.zeros(0))
 
 
 @law
-def _act_linearly(link, twist, stiffness, parameters, laws):
-    return linear(twist, stiffness, parameters)
+def _play_of(link, table):
+    """Parameters of a link's play; of one that has none such as give a number."""
+    loose = table.play[link] > 0.0
+    return Play(where(loose, table.play[link], 1.0), where(loose, table.contact_share[link], 1.0))
 
 
 @law
-def _slope_of_linear(link, twist, by, stiffness, parameters, laws):
-    return stiffness, 0.0
+def _act_by_table(link, twist, stiffness, table, laws):
+    torque, energy, share = linear(twist, stiffness, table)
+    share = share + 0.0 * twist
+    if link < table.play.shape[0] and not skippable(table.play[link] == 0.0):
+        beyond, stored, acting = with_play(twist, stiffness, _play_of(link, table))
+        loose = table.play[link] > 0.0
+        torque, energy = where(loose, beyond, torque), where(loose, stored, energy)
+        share = where(loose, acting, share)
+    return torque, energy, share
+
+
+@law
+def _slope_by_table(link, twist, by, stiffness, table, laws):
+    slope, rise = stiffness + 0.0 * twist, 0.0 * twist
+    if link < table.play.shape[0] and not skippable(table.play[link] == 0.0):
+        torque, _, share = _act_by_table(link, twist + by, stiffness, table, laws)
+        before, _, less = _act_by_table(link, twist - by, stiffness, table, laws)
+        loose = table.play[link] > 0.0
+        slope = where(loose, (torque - before) / (2.0 * by), slope)
+        rise = where(loose, (share - less) / (2.0 * by), rise)
+    return slope, rise
 
 
 @law
@@ -76,34 +107,53 @@ def _slope(link, twist, by, stiffness, parameters, laws):
     return torque + 0.0 * twist, share + 0.0 * twist
 
 
-LINEAR = LinearLinks(_act_linearly, _slope_of_linear)
+BY_TABLE = TabulatedLinks(_act_by_table, _slope_by_table)
 
 
 def chain_of(
     laws: Sequence[tuple[str, LinkLaw, dict[str, Any]]], stiffness: Sequence[float]
-) -> tuple[LinearLinks | LawOfLink, Any]:
+) -> tuple[TabulatedLinks | LawOfLink, Any]:
     """Laws and parameters of a train: of every link its key in the scenario, the law, values of its keys.
 
     Raises InputError where a law lacks a value, or comes from outside this package and does not work.
     """
-    chain: Any = LINEAR
-    parameters: Any = NoLinkParameters()
+    chain: Any = BY_TABLE
+    plays = [Play(0.0, 1.0)] * len(laws)
+    outside: list[Any] = []
+    loose = False
     for link, (key, own, values) in enumerate(laws):
-        if own.function is not linear:
-            try:
-                numbers = own.made(None, values)
-                try_link_law(own, stiffness[link], numbers)
-            except InputError as error:
-                place = f"{key}.{error.key.rpartition('.')[2]}"
-                raise InputError(place, error.value, error.rule, error.remedy) from error
+        if own.function is linear:
+            continue
+        try:
+            numbers = own.made(None, values)
+            try_link_law(own, stiffness[link], numbers)
+        except InputError as error:
+            place = f"{key}.{error.key.rpartition('.')[2]}"
+            raise InputError(place, error.value, error.rule, error.remedy) from error
+        if own.function is with_play:
+            plays[link], loose = numbers, True
+        else:
             chain = LawOfLink(_act, _slope, own.function, StaticInt(link), chain)
-            parameters = OfLink(numbers, parameters)
+            outside.append(numbers)
+    parameters: Any = NO_PLAY
+    if loose:
+        xp = namespace(*(number for play in plays for number in play))
+        parameters = PlayOfLinks(*map(xp.asarray, zip(*plays, strict=True)))
+    for numbers in outside:
+        parameters = OfLink(numbers, parameters)
     return chain, parameters
 
 
 def numbers_of(parameters: Any) -> list[Any]:
     """Values of the keys of all laws of a chain, one after the other."""
-    return [*parameters.own, *numbers_of(parameters.rest)] if parameters else []
+    return (
+        [*parameters.own, *numbers_of(parameters.rest)] if isinstance(parameters, OfLink) else [*parameters]
+    )
+
+
+def are_linear(parameters: Any) -> bool:
+    """Whether no link has another law than the linear one."""
+    return not isinstance(parameters, OfLink) and not len(parameters.play)
 
 
 def _torque(link: int, twist: float, model: Any) -> float:

@@ -13,7 +13,7 @@ from tribodyn.mesh.cycle import polynomials
 from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.train.links.chain import NoLinkParameters
+from tribodyn.train.links.chain import NO_PLAY
 
 #: (kg, kg m²) of the gears; stiffness and damping ratio of their bearings in x and y.
 MASSES = {"pinion": (1.7, 0.0021), "gear": (9.3, 0.047)}
@@ -162,7 +162,7 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
         assert set(numbers) == set(getattr(found, part)._fields) - empty
         for name, value in numbers.items():
             np.testing.assert_allclose(getattr(getattr(found, part), name), value, rtol=1e-12, err_msg=name)
-    assert found.links.own == NoLinkParameters()
+    assert found.links.own is NO_PLAY
     # c = 2 ζ √(k m) of a stiffness k = 1
     assert found.meshes[0].damping == pytest.approx(2.0 * 0.06 * math.sqrt(mass), rel=1e-12)
     assert found.layout == (PAIR_WITH_MOTOR if shaft else PAIR)
