@@ -91,6 +91,21 @@ def test_what_is_no_mesh_is_said(gearbox: dict[str, str], message: str):
         load_data({"title": "x", "kind": "efficiency", "gearbox": gearbox}, "x")
 
 
+@pytest.mark.parametrize("key", ["mesh", "scenario"])
+def test_what_is_no_text_is_refused(key: str):
+    with pytest.raises(InputError, match=f"gearbox.{key} = 5: not text"):
+        load_data({"kind": "efficiency", "gearbox": SECOND | {key: 5}}, "x")
+    with pytest.raises(InputError, match="gearbox.further = 1: unknown key"):
+        load_data({"kind": "efficiency", "gearbox": SECOND | {"further": 1}}, "x")
+
+
+def test_a_file_that_names_itself_is_refused(tmp_path: Path):
+    file = tmp_path / "itself.toml"
+    file.write_text('title = "x"\nkind = "efficiency"\ngearbox = { scenario = "itself.toml" }\n')
+    with pytest.raises(InputError, match="is no gearbox of several meshes"):
+        load(file)
+
+
 def test_a_drive_beside_it_contradicts():
     with pytest.raises(InputError, match="contradicts drive"):
         load_data({"title": "x", "kind": "efficiency", "gearbox": SECOND, "drive": "spur-25-51"}, "x")

@@ -7,32 +7,46 @@ from typing import Any
 from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.input.sources import SCENARIOS, shipped
+from tribodyn.input.quantity import Table
+from tribodyn.input.resolve import resolve
+from tribodyn.input.sources import SCENARIOS, find_scenario, shipped
 from tribodyn.input.tables.duty import LOADS, SPEEDS
-from tribodyn.studies.protocol.load import load
+from tribodyn.studies import study_of
+from tribodyn.studies.gears.scenario import GearboxTable
+from tribodyn.studies.protocol.load import loaded_from, table_of
+
+
+class _Asked(Table):
+    """The part of a scenario that is read before the rest."""
+
+    gearbox: GearboxTable
 
 
 def with_pair(data: Mapping[str, Any], schema: type[BaseModel], folder: Path) -> dict[str, Any]:
     """A scenario's data with its `gearbox` replaced by the tables that the pair of gears of its mesh has.
 
     What the data say themselves holds. `folder` is the file's. Raises InputError where there is no such
-    gearbox or mesh.
+    gearbox or mesh, and pydantic's ValidationError where `gearbox` is no such table.
     """
-    asked = data["gearbox"]
-    if not isinstance(asked, Mapping) or not isinstance(asked.get("scenario"), str):
-        return dict(data)  # for the schema to refuse
-    name, mesh = asked["scenario"], asked.get("mesh", "")
-    if "drive" in data and "family" in data["drive"]:
+    asked = _Asked.model_validate({"gearbox": data["gearbox"]}).gearbox
+    name = asked.scenario
+    if isinstance(drive := data.get("drive"), Mapping) and "family" in drive:
         rule = "contradicts drive, which is a pair of gears too"
         raise InputError("gearbox", None, rule, "leave the one or the other out")
     beside, known = folder / name, (shipped(SCENARIOS) / f"{name}.toml").is_file()
-    loaded = load(name if known or not beside.is_file() else beside)
-    whole = loaded.study.whole()
-    if whole is None:
-        rule = f"is no gearbox of several meshes, but {loaded.study.about}"
-        raise InputError("gearbox.scenario", quoted(name), rule, "name its drive: drive = …")
     try:
-        tables = whole.pair(loaded.case, mesh)
+        path = find_scenario(name if known or not beside.is_file() else str(beside))
+    except InputError as error:
+        raise InputError("gearbox.scenario", error.value, error.rule, error.remedy) from None
+    resolved = resolve(path, {}, table_of)
+    study = study_of(resolved.data)
+    whole = study.whole()
+    if whole is None:
+        rule = f"is no gearbox of several meshes, but {study.about}"
+        raise InputError("gearbox.scenario", quoted(name), rule, "name its drive: drive = …")
+    case = loaded_from(resolved, path).case
+    try:
+        tables = whole.pair(case, asked.mesh)
     except InputError as error:
         raise InputError(f"gearbox.{error.key}", error.value, error.rule, error.remedy) from None
     return _put({key: value for key, value in data.items() if key != "gearbox"}, tables, schema)
