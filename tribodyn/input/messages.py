@@ -191,6 +191,7 @@ _PLAIN = {
         "use letters, digits, space, - _ and .",
     ),
     "model_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
+    "dict_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
     "tuple_type": ("not a list", "write a list: [ … ]"),
     "too_long": ("more than {max_length} values", "write fewer"),
     "too_short": ("fewer than {min_length} values", "write at least {min_length}"),
