@@ -93,9 +93,9 @@ def test_what_is_no_mesh_is_said(gearbox: dict[str, str], message: str):
 
 @pytest.mark.parametrize("key", ["mesh", "scenario"])
 def test_what_is_no_text_is_refused(key: str):
-    with pytest.raises(InputError, match=f"gearbox.{key} = 5: not text"):
+    with pytest.raises(InputError, match=rf"gearbox\.{key} = 5: not text"):
         load_data({"kind": "efficiency", "gearbox": SECOND | {key: 5}}, "x")
-    with pytest.raises(InputError, match="gearbox.further = 1: unknown key"):
+    with pytest.raises(InputError, match=r"gearbox\.further = 1: unknown key"):
         load_data({"kind": "efficiency", "gearbox": SECOND | {"further": 1}}, "x")
 
 
