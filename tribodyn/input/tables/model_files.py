@@ -308,3 +308,10 @@ class DriveTable(Described):
     def has_ring(self) -> bool:
         """Whether one of the gears is internal."""
         return self.pinion.internal or self.gear.internal
+
+
+class GearboxTable(quantity.Table):
+    """A mesh of another scenario."""
+
+    scenario: quantity.Text = Field(description="name of a scenario of a train, or its file")
+    mesh: quantity.Text = quantity.written("", description="name of the mesh; default: the only one")

@@ -11,8 +11,8 @@ from tribodyn.input.quantity import Table
 from tribodyn.input.resolve import resolve
 from tribodyn.input.sources import SCENARIOS, find_scenario, shipped
 from tribodyn.input.tables.duty import LOADS, SPEEDS
+from tribodyn.input.tables.model_files import GearboxTable
 from tribodyn.studies import study_of
-from tribodyn.studies.gears.scenario import GearboxTable
 from tribodyn.studies.protocol.load import loaded_from, table_of
 
 

@@ -12,7 +12,7 @@ from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.fields import Slices, head_of
-from tribodyn.input.quantity import Switch, Table, Text, model_file, written
+from tribodyn.input.quantity import Switch, model_file
 from tribodyn.input.tables.bearings import Bearings, broken_bearing_rules
 from tribodyn.input.tables.drive_data import masses_of, teeth_of
 from tribodyn.input.tables.drive_rules import (
@@ -36,7 +36,7 @@ from tribodyn.input.tables.losses import (
     temperature_of,
 )
 from tribodyn.input.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
-from tribodyn.input.tables.model_files import DriveTable, MisalignmentTable
+from tribodyn.input.tables.model_files import DriveTable, GearboxTable, MisalignmentTable
 from tribodyn.input.tables.own_teeth import broken_own_teeth, teeth_alike
 from tribodyn.input.tables.quality import (
     DeviationSample,
@@ -85,13 +85,6 @@ SampleNumber = Annotated[
 
 #: Where a table [mesh] has no keys of misalignment, and neither does the drive's quality add any.
 _ALIGNED = MisalignmentTable(from_quality=0.0)
-
-
-class GearboxTable(Table):
-    """A mesh of another scenario."""
-
-    scenario: Text = Field(description="name of a scenario of a train, or its file")
-    mesh: Text = written("", description="name of the mesh; default: the only one")
 
 
 class GearScenario(SpectrumScenario):
