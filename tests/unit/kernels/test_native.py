@@ -190,7 +190,8 @@ def test_how_many_items_there_are_is_read_at_run_time(rng):
         items = tuple(Inner(factor, rng.random(6)) for factor in rng.random(count).tolist())
         places, out = rng.integers(0, count, 4).tolist(), np.empty(4)
         of_items(items, RuntimeIndices(places), 1, out)
-        expected = [items[k].factor * items[k].row[1 - i] + items[k].row[-1] for i, k in enumerate(places)]
+        chosen = [items[int(k)] for k in places]
+        expected = [one.factor * one.row[1 - i] + one.row[-1] for i, one in enumerate(chosen)]
         np.testing.assert_allclose(out, expected, rtol=1e-14)
     assert len(of_items._codes) == 1
     one = Inner(0.3, rng.random(6))
