@@ -17,6 +17,8 @@ from tribodyn.solve.transient import make_integrator
 
 #: Laws that all of them have, under which a steady state takes little.
 LAWS = {"film.law": "dowson-higginson", "friction.law": "coulomb", "friction.coefficient": 0.0}
+#: Derivatives in more directions at once than a reducer has, 40 in place of 24.
+WIDER = {f"tribodyn.solve.march.variational.{each}" for each in ("explicit", "engage_with_derivative")}
 LOOSE = {"shaft.0.law": "play", "shaft.0.play": "0.02 deg", "shaft.0.stiffness": "4e5 N*m/rad"}
 
 
@@ -54,11 +56,13 @@ def of_the_first() -> dict[str, int]:
 
 
 @pytest.mark.parametrize(
-    ("name", "overrides"),
-    [("idler-train", {}), ("planetary-24-84", {}), ("two-stage-reducer", LOOSE)],
+    ("name", "overrides", "further"),
+    [("idler-train", {}, set()), ("planetary-24-84", {}, WIDER), ("two-stage-reducer", LOOSE, set())],
 )
-def test_a_second_layout_compiles_nothing(of_the_first, name, overrides):
+def test_a_second_layout_compiles_nothing(of_the_first, name, overrides, further):
     """Other bodies, meshes, links, states, intervals; and a link that has play."""
     assert {name.rpartition(".")[2] for name in of_the_first} >= {"integrate", "march_lanes", "explicit"}
+    before = machine_codes()
     solve(train(name, **overrides))
-    assert machine_codes() == of_the_first
+    after = machine_codes()
+    assert {each for each in after if after[each] != before.get(each)} == further

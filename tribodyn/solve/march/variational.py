@@ -39,8 +39,8 @@ from tribodyn.train.structure import TrainLayout
 #: Floats to a cache line, on which dual numbers begin: half the time of a march that lets them cross it.
 CACHE_LINE = 8
 
-#: Directions of a pass of trains: with three or six bodies within a tenth of the time that any number takes.
-OF_TRAINS = 24
+#: Directions of a pass of trains: few numbers, so that many trains share machine code.
+OF_TRAINS = (24, 40, 64)
 
 EXPLICIT = explicit_8.METHOD
 STIFF = rodas4.METHOD._replace(opened=ignore_segment, stepped=ignore_step)
@@ -79,11 +79,12 @@ class Directions(NamedTuple):
 def directions_of(count: int, most: int, layout: TrainLayout) -> Directions:
     """Those for so many directions at the start, in as few passes of at most so many as there can be.
 
-    Of several meshes always `OF_TRAINS` in a pass, so that one machine code serves all trains.
+    Of several meshes one of `OF_TRAINS`, so that trains share machine code.
     """
     passes = max(1, -(-count // most))
-    width = max(1, -(-count // (passes * BLOCK)))
-    wide = min(most, OF_TRAINS) if layout.meshes > 1 else BLOCK * width
+    wide = BLOCK * max(1, -(-count // (passes * BLOCK)))
+    if layout.meshes > 1:
+        wide = min(most, *(each for each in OF_TRAINS if each >= wide))
     return Directions(StaticInt(wide), StaticInt(BLOCK * (2 if layout.spatial else 1)))
 
 
