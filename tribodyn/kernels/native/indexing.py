@@ -22,9 +22,13 @@ def _counted(kind: Any, value: Any) -> Any:
     return types.uint64 if kind is types.int64 and not isinstance(value, ir.Constant) else kind
 
 
+def _in_package(builder: Any) -> bool:
+    return builder.function.name.startswith(_OURS)
+
+
 def _from_the_start(builder: Any, sig: Any, args: Any) -> Any:
     """The signature of an access to an array, with its indices as they count."""
-    if not builder.function.name.startswith(_OURS):
+    if not _in_package(builder):
         return sig
     array, index, *others = sig.args
     if isinstance(index, types.BaseTuple):
@@ -44,7 +48,8 @@ def _at(context, builder, sig, args):
     """
     part = arrayobj.getitem_arraynd_intp(context, builder, _from_the_start(builder, sig, args), args)
     kind = sig.return_type
-    if not isinstance(kind, types.Array) or kind.ndim < 2 or isinstance(args[1], ir.Constant):
+    whole = not isinstance(kind, types.Array) or kind.ndim < 2 or isinstance(args[1], ir.Constant)
+    if whole or not _in_package(builder):
         return part
     view = context.make_array(kind)(context, builder, part)
     same = ir.FunctionType(view.data.type, [view.data.type])
