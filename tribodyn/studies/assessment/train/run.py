@@ -124,7 +124,7 @@ def assessed(
         ),
         "not_judged": _not_judged(case),
         "in_doubt": numbered(_in_doubt(own)),
-        "assumed": numbered(list(_assumed(case, meshes))),
+        "assumed": numbered(list(_assumed(case, meshes, len(next(iter(spectra.values()), ()))))),
         "extrapolated": numbered([*_extrapolated(every, done), *_outside(meshes)]),
         **{name: own[name] for name in (TRUST, REASONS) if own.get(name)},
         "wall_time": perf_counter() - begun,
@@ -206,8 +206,11 @@ def _values(
     return found
 
 
-def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
-    settings = case.settings
+def _assumed(
+    case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]], duties: int
+) -> Iterator[str]:
+    settings, subject, whole = case.settings, case.subject.case, case.whole
+    pairs = [mesh.pair for mesh in whole.meshes(subject)]
     yield f"In every mesh {factors_said(settings)}"
     if settings.mesh_load_factor is None and any("alike" in mesh for mesh in meshes.values()):
         yield "K_γ of each planetary stage is that of the simulation."
@@ -229,14 +232,12 @@ def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]])
             "temperature of a ring."
         )
     if rated:
-        pairs = [mesh.pair for mesh in case.whole.meshes(case.subject.case)]
         materials = {remark for pair in pairs for remark in metal_remarks(pair)}
         yield from sorted(materials)
-        yield life_said(settings, len(case.whole.duties(case.subject.case)))
+        yield life_said(settings, duties)
         rings = {text: name for name in reversed(rated) for text in ring_said(meshes[name]["iso"])}
         yield from (f"Mesh {name}: {text}" for text, name in reversed(rings.items()))
-    subject, whole = case.subject.case, case.whole
-    yield from bearing_remarks(whole.shafts(subject), whole.meshes(subject)[0].pair.lubricant)
+    yield from bearing_remarks(whole.shafts(subject), pairs[0].lubricant)
     if any("S_B" not in mesh.get("simulated", {}) for mesh in meshes.values()):
         yield "Without an FZG load stage of the oil there is no safety against scuffing."
 
