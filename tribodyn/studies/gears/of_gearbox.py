@@ -9,7 +9,7 @@ from pydantic import BaseModel
 from tribodyn.errors import InputError, quoted
 from tribodyn.input.quantity import Table
 from tribodyn.input.resolve import resolve
-from tribodyn.input.sources import SCENARIOS, find_scenario, shipped
+from tribodyn.input.sources import SCENARIOS, find_model
 from tribodyn.input.tables.duty import LOADS, SPEEDS
 from tribodyn.input.tables.model_files import GearboxTable
 from tribodyn.studies import study_of
@@ -22,10 +22,10 @@ class _Asked(Table):
     gearbox: GearboxTable
 
 
-def with_pair(data: Mapping[str, Any], schema: type[BaseModel], folder: Path) -> dict[str, Any]:
+def with_pair(data: Mapping[str, Any], schema: type[BaseModel], referring: Path) -> dict[str, Any]:
     """A scenario's data with its `gearbox` replaced by the tables that the pair of gears of its mesh has.
 
-    What the data say themselves holds. `folder` is the file's. Raises InputError where there is no such
+    What the data say themselves holds. `referring` is the file. Raises InputError where there is no such
     gearbox or mesh, and pydantic's ValidationError where `gearbox` is no such table.
     """
     asked = _Asked.model_validate({"gearbox": data["gearbox"]}).gearbox
@@ -33,11 +33,7 @@ def with_pair(data: Mapping[str, Any], schema: type[BaseModel], folder: Path) ->
     if isinstance(drive := data.get("drive"), Mapping) and "family" in drive:
         rule = "contradicts drive, which is a pair of gears too"
         raise InputError("gearbox", None, rule, "leave the one or the other out")
-    beside, known = folder / name, (shipped(SCENARIOS) / f"{name}.toml").is_file()
-    try:
-        path = find_scenario(name if known or not beside.is_file() else str(beside))
-    except InputError as error:
-        raise InputError("gearbox.scenario", error.value, error.rule, error.remedy) from None
+    path = find_model(name, SCENARIOS, "gearbox.scenario", referring)
     resolved = resolve(path, {}, table_of)
     study = study_of(resolved.data)
     whole = study.whole()

@@ -97,13 +97,13 @@ class GearScenario(SpectrumScenario):
     drive: Annotated[DriveTable, model_file("drives")]
 
     @classmethod
-    def completed(cls, data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    def completed(cls, data: dict[str, Any], referring: Path) -> dict[str, Any]:
         """A scenario's data with the pair of gears of its `gearbox`, if any; see `of_gearbox.with_pair`."""
         if "gearbox" not in data:
             return data
         from tribodyn.studies.gears.of_gearbox import with_pair  # loads the gearbox
 
-        return with_pair(data, cls, folder)
+        return with_pair(data, cls, referring)
 
 
 def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:

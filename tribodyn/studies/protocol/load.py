@@ -141,7 +141,7 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     model = study.table(data)
     try:
         if (completed := getattr(model, "completed", None)) is not None:
-            data = completed(data, path.parent)
+            data = completed(data, path)
         if isinstance(kind, str) and kind not in STUDIES:
             unknown = unknown_name("kind", kind, STUDIES, STUDIES.what)
             raise outside(unknown, kind, remedy=unknown.remedy) or unknown
