@@ -65,4 +65,5 @@ def test_a_second_layout_compiles_nothing(of_the_first, name, overrides, further
     before = machine_codes()
     solve(train(name, **overrides))
     after = machine_codes()
-    assert {each for each in after if after[each] != before.get(each)} == further
+    # a wider code that an earlier test of this process has loaded is not loaded again
+    assert {each for each in after if after[each] != before.get(each)} <= further
