@@ -6,7 +6,7 @@ python -m tools.usual_ranges --into docs/scenario.md
 from argparse import Namespace
 
 from tools.marked_block import generate, table
-from tribodyn.studies.gears.usual import USUAL
+from tribodyn.gears.plausibility import USUAL
 
 
 def usual_ranges(_given: Namespace | None = None) -> str:

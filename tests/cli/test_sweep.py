@@ -10,11 +10,11 @@ import pytest
 import xarray
 
 from tests.support.verbs import complaint, ended, invoke, sets
+from tribodyn.gears.case import TEMPERATURE_SWEPT
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
-from tribodyn.studies.gears.case import TEMPERATURE_SWEPT
 from tribodyn.studies.motion.pair.report import SWEPT
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"

@@ -8,11 +8,11 @@ import pytest
 
 from tests.support.soak_parameters import all_in_soak
 from tests.support.states import TURN_G, WORK_IN, WORK_PARAMETRIC, recorded, sampled
+from tribodyn.gears.motion.running import energy_residual
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.march.reversal import SHARES, stops
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
-from tribodyn.studies.gears.over_time.running import energy_residual
 from tribodyn.studies.motion.pair.outputs import outputs
 
 SAMPLES = 100

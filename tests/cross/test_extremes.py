@@ -7,14 +7,14 @@ from hypothesis import strategies as st
 
 from tests.support.states import recorded
 from tribodyn.dynamics.extremes import LOWEST
+from tribodyn.gears.motion.extremes import RECORDED, RunningExtremes
+from tribodyn.gears.motion.sampled import sampled_with_extremes
 from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
-from tribodyn.studies.gears.over_time.extremes import RECORDED, RunningExtremes
-from tribodyn.studies.gears.over_time.sampled import sampled_with_extremes
 from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run

@@ -7,6 +7,7 @@ from scipy.interpolate import CubicSpline
 from tests.support.foreign_marching import gear_march, oscillator_march
 from tests.support.harmonic_balance import HarmonicBalance, turning_points
 from tribodyn.errors import InputError
+from tribodyn.gears.tabulated import tables
 from tribodyn.solve.branch.arclength import FOLD, MERGING, PERIOD_DOUBLING
 from tribodyn.solve.branch.continuation import Leg
 from tribodyn.solve.branch.gear_pairs import GearLines, UnstableRange, followed_states
@@ -15,7 +16,6 @@ from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import DOWN, UP, frequency_response
-from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 

@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 
 from tribodyn.errors import InputError
+from tribodyn.gears.prepare import contact_quantities
+from tribodyn.gears.rating.margins import bulk_of
 from tribodyn.grid.grid import _put
 from tribodyn.input.sources import file_name
-from tribodyn.studies.gears.prepare import contact_quantities
-from tribodyn.studies.gears.rated.margins import bulk_of
 from tribodyn.studies.motion.batch.signals import SignalBatch, SignalSettings
 from tribodyn.studies.sweeping.signals import SignalRequest
 

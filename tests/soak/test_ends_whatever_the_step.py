@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
+from tribodyn.gears.tabulated import tables
 from tribodyn.solve.branch.arclength import NEIMARK_SACKER
 from tribodyn.solve.branch.continuation import Leg, follow
 from tribodyn.solve.branch.gear_pairs import GearLines
 from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.orbit.shooting import shoot
-from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 

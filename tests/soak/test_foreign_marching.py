@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.support.foreign_marching import Compared, Reported, compared, gear_march, oscillator_march
+from tribodyn.gears.tabulated import tables
 from tribodyn.grid.engines import LocalEngine
 from tribodyn.grid.grid import Grid
 from tribodyn.grid.run import run, settings_of
@@ -15,7 +16,6 @@ from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_response
-from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 

@@ -32,7 +32,7 @@ ENGINES: dict[str, tuple[str, ...]] = {
 # Chunks of few cases: something lies between nothing and everything. Dask's workers import the main
 # program too, without its arguments.
 _SWEEP = (
-    "from tribodyn.studies.gears import batch\nbatch.MOST_IN_CHUNK = {most_in_chunk}\n"
+    "from tribodyn.studies.motion import batch\nbatch.MOST_IN_CHUNK = {most_in_chunk}\n"
     "from tribodyn.cli import main\nif __name__ == '__main__':\n    main()\n"
 )
 

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.gears.motion.recorded import DOF, LAYOUT, SAMPLES, scales_of
 from tribodyn.mesh.record_arrays import from_arrays
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.layout import Head
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.writer import RecordWriter
-from tribodyn.studies.gears.over_time.recorded import DOF, LAYOUT, SAMPLES, scales_of
 
 
 def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9, sides: Sequence[float] = (1.0, 1.0)):

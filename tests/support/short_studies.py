@@ -6,8 +6,8 @@ import pickle
 from pathlib import Path
 from typing import Any
 
+from tribodyn.cases.results import RunResult
 from tribodyn.studies.protocol.load import filled, load_scenario
-from tribodyn.studies.protocol.recording import RunResult
 from tribodyn.studies.protocol.run import run
 
 #: Kinds whose runs take long even when they are short.

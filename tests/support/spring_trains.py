@@ -12,9 +12,9 @@ import numpy as np
 
 from tests.support.train_matrices import GROUND, Train
 from tests.support.train_scenarios import case_of_table
+from tribodyn.gears.tabulated import Tabulated
 from tribodyn.mesh.cycle import polynomials
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare, tabulated
 from tribodyn.train.structure import shift_of, turn_of

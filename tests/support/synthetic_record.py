@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.support.record_samples import gear_pair_writer
-from tribodyn.studies.gears.over_time.recorded import DOF, SAMPLES
+from tribodyn.gears.motion.recorded import DOF, SAMPLES
 
 MODULE, TEETH, PRESSURE_ANGLE, SPEED, TORQUE = 3e-3, (23, 47), np.radians(20.0), 10.0, 500.0
 PITCH_RADII = tuple(MODULE * teeth / 2 for teeth in TEETH)

@@ -10,7 +10,7 @@ from tribodyn.numerics.output_files import check_output, make_folder, write_outp
 
 if TYPE_CHECKING:
     from tribodyn.geometry.assembly import Assembly
-    from tribodyn.studies.gears.drive_file import DriveModel
+    from tribodyn.studies.drive_file import DriveModel
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -51,11 +51,11 @@ def gear(
 ) -> None:
     """Print a gear pair's geometry; draw it."""
     from tribodyn.cli.printing import print_files, print_findings, print_json, print_prose
+    from tribodyn.gears.check import sheet_tables
     from tribodyn.geometry.families import family
     from tribodyn.geometry.limits.checks import check
     from tribodyn.quantities.quantity import in_si
-    from tribodyn.studies.gears.check import sheet_tables
-    from tribodyn.studies.gears.drive_file import load_drive
+    from tribodyn.studies.drive_file import load_drive
 
     loaded = load_drive(model, overrides(settings), mesh)
     written: list[Path] = []
@@ -79,7 +79,7 @@ def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tup
     """The pair with a free-form path, and the drive file that was written of it."""
     import tomli_w
 
-    from tribodyn.studies.gears.drive_file import as_spline, load_drive
+    from tribodyn.studies.drive_file import as_spline, load_drive
 
     fitted = as_spline(model, values, "--as-spline")
     if folder != Path():

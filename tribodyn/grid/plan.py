@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases import cost
+from tribodyn.cases.cost import Driver, Estimate, described
 from tribodyn.errors import InputError
 from tribodyn.grid.grid import Grid
 from tribodyn.input.vary import VARY
 from tribodyn.record.sweep_schema import DONE
-from tribodyn.studies.protocol import cost
-from tribodyn.studies.protocol.cost import Driver, Estimate, described
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 
 #: Above this a sweep is refused unless it is asked for: surely a step was mistyped.

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import tomli_w
 
+from tribodyn.cases.cost import say_beforehand
 from tribodyn.errors import InputError
 from tribodyn.grid.data_set import DataSet, listed_of
 from tribodyn.grid.engines import Block, Engine
@@ -20,7 +21,6 @@ from tribodyn.input.vary import Axis
 from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, WAITING, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter, values_left
 from tribodyn.record.writer import check_target
-from tribodyn.studies.protocol.cost import say_beforehand
 from tribodyn.studies.sweeping.batch import Chunk
 
 Follow = Callable[[int, int], None]

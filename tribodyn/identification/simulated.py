@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.cost import Estimate
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.identification.fit import MARGIN
 from tribodyn.identification.measured import MeasuredSignal
@@ -13,7 +14,6 @@ from tribodyn.identification.unknowns import Unknown, case_at, shares_of
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.sensors import Sensed
 from tribodyn.studies import study_of
-from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.signals import SignalRequest
 
 

@@ -10,6 +10,7 @@ import tomli_w
 
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.errors import InputError
+from tribodyn.gears.check import sheet_tables
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
@@ -22,8 +23,7 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh
 from tribodyn.quantities.quantity import in_si
-from tribodyn.studies.gears.check import sheet_tables
-from tribodyn.studies.gears.drive_file import DriveModel, as_spline, load_drive
+from tribodyn.studies.drive_file import DriveModel, as_spline, load_drive
 
 if TYPE_CHECKING:
     import xarray

@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from tribodyn.cases.cost import refuse_large, say_beforehand
 from tribodyn.errors import InputError, quoted
 from tribodyn.identification.fit import WHITE, Fit, evolution, fitted, sobol, whiteness
 from tribodyn.identification.measured import measured_of
@@ -18,7 +19,6 @@ from tribodyn.interface import shown
 from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.post.progress import Report, progress_of
-from tribodyn.studies.protocol.cost import refuse_large, say_beforehand
 from tribodyn.studies.sweeping.signals import RUN_IN
 
 #: Level of the intervals, and starts that are tried beside the scenario's own: a power of two, per unknown.

@@ -41,10 +41,10 @@ from tribodyn.dynamics.extremes import (
     vertex,
 )
 from tribodyn.dynamics.places import motion_of, place_in_mesh
+from tribodyn.gears.motion.sampled import sampled_with_extremes
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of, worthwhile
 from tribodyn.solve.right_hand_side import contacts_of, work_array
-from tribodyn.studies.gears.over_time.sampled import sampled_with_extremes
 from tribodyn.studies.motion.pair.outputs import outputs, recorded
 
 OVERRIDES = [

@@ -19,7 +19,7 @@ from tribodyn.geometry.families import (
     spline,
 )
 from tribodyn.geometry.path import contact_limits, kinematics, mirrored, position
-from tribodyn.studies.gears.drive_file import load_drive
+from tribodyn.studies.drive_file import load_drive
 
 SHIPPED = {
     "circular-arc-23-47": circular_arc,

@@ -19,7 +19,7 @@ from tribodyn.geometry.path import position
 from tribodyn.geometry.rack_section import normal_section, transverse_section
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.geometry.tooth import flank_point
-from tribodyn.studies.gears.drive_file import as_spline, load_drive
+from tribodyn.studies.drive_file import as_spline, load_drive
 
 PAIR = {
     "family": "involute",

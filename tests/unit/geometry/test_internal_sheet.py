@@ -10,7 +10,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
-from tribodyn.studies.gears.drive_file import as_spline, load_drive
+from tribodyn.studies.drive_file import as_spline, load_drive
 
 RING = {"teeth": 93, "internal": True, "face_width": "550 mm", "profile_shift": 0.1171, "cutter_teeth": 30}
 DRIVE = {

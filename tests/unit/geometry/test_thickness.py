@@ -25,7 +25,7 @@ from tribodyn.geometry.gauges import (
 )
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.tooth import flank_point
-from tribodyn.studies.gears.drive_file import load_drive
+from tribodyn.studies.drive_file import load_drive
 
 ALLOWANCE = -90e-6
 CASES = [(drive, side) for drive in (STANDARD, SHIFTED) for side in ("pinion", "gear")]

@@ -7,9 +7,9 @@ import pytest
 
 from tribodyn.derivatives.numbers import numbers_of
 from tribodyn.errors import InputError
+from tribodyn.gears.check import oil_data, oil_remarks, oil_table
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies import study_of
-from tribodyn.studies.gears.check import oil_data, oil_remarks, oil_table
 
 SCENARIO = tomllib.loads(
     """

@@ -10,10 +10,10 @@ import tomli_w
 
 import tribodyn
 from tribodyn.errors import InputError
+from tribodyn.gears.case import ROUNDED
 from tribodyn.geometry.families.involute import shift_sensitivity, tight_centre_distance
 from tribodyn.input.quantity import shift_rounding
-from tribodyn.studies.gears.check import BRIEF
-from tribodyn.studies.gears.drive_file import load_drive
+from tribodyn.studies.drive_file import load_drive
 from tribodyn.studies.protocol.load import load_scenario
 
 
@@ -159,4 +159,4 @@ def test_a_sweep_says_of_which_cases_it_is(scenario: Path):
     swept = tribodyn.sweep(str(scenario), {"drive.centre_distance": values}, output=scenario.parent / "s.h5")
     messages = [str(message) for message in swept["message"].values]
     assert "the teeth overlap" in messages[1]
-    assert [BRIEF in message for message in messages] == [True, False, False]
+    assert [ROUNDED in message for message in messages] == [True, False, False]

@@ -8,7 +8,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.sheet import geometry_sheet
-from tribodyn.studies.gears.drive_file import load_drive
+from tribodyn.studies.drive_file import load_drive
 from tribodyn.studies.protocol.load import load
 
 PAIR = {

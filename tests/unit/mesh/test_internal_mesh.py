@@ -19,10 +19,10 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
+from tribodyn.studies.drive_file import DriveModel, load_drive
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import places
 from tribodyn.studies.efficiency.run import prepare
-from tribodyn.studies.gears.drive_file import DriveModel, load_drive
 from tribodyn.studies.protocol.load import load_scenario
 
 jax.config.update("jax_enable_x64", True)

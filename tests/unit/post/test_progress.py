@@ -91,7 +91,7 @@ def test_a_notebook_shows_it_below_the_cell_and_the_last_one_stays():
 
 LONG = """
 from tribodyn.post.progress import progress_of
-from tribodyn.studies.protocol.cost import Estimate, say_beforehand
+from tribodyn.cases.cost import Estimate, say_beforehand
 with progress_of(PROGRESS, 'slow work'):
     say_beforehand(Estimate(seconds=59.0))
     say_beforehand(Estimate(3 * 2.0**20, 2048.0, 150.0))

@@ -11,9 +11,9 @@ import pytest
 
 from tests.support.record_samples import block, gear_pair_writer, geometry, mesh_cycle
 from tribodyn.errors import InputError
+from tribodyn.gears.motion.recorded import DOF
 from tribodyn.record.reader import Record
 from tribodyn.record.writer import RecordWriter
-from tribodyn.studies.gears.over_time.recorded import DOF
 
 SCENARIO = 'title = "test"\n[operating]\ngear_torque = "500 N*m"\n'
 SUMMARY = {

@@ -8,8 +8,8 @@ import pytest
 
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.errors import InputError
+from tribodyn.gears.motion.recorded import SAMPLES
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears.over_time.recorded import SAMPLES
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 
+from tribodyn.gears.rating.standard import path_of
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family
@@ -16,7 +17,6 @@ from tribodyn.standards import contact_path as paths
 from tribodyn.standards import micropitting as films
 from tribodyn.standards import scuffing
 from tribodyn.standards.micropitting import Flanks, Load, Oil
-from tribodyn.studies.gears.rated.standard import path_of
 
 HELIX, RACK = math.radians(10.0), math.radians(20.0)
 

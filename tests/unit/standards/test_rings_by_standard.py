@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.standard import path_of
 from tribodyn.geometry.path import kinematics
 from tribodyn.standards.contact_path import (
     equivalent_radius,
@@ -10,8 +12,6 @@ from tribodyn.standards.contact_path import (
     point_distances,
     rolling_speeds,
 )
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.standard import path_of
 from tribodyn.studies.protocol.load import load_scenario
 
 SPEED = 12.0

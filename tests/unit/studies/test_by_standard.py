@@ -5,11 +5,11 @@ import math
 import pytest
 
 from tests.support.short_studies import short_case
+from tribodyn.gears.by_standard import quality_of, rated
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import involute
 from tribodyn.standards.flank_tolerances import flank_tolerances
-from tribodyn.studies.gears.by_standard import quality_of, rated
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7830.0, 46.0, 470.0, 6e9)
 

@@ -8,12 +8,8 @@ from typing import Any, NamedTuple
 import pytest
 
 from tests.support.short_studies import short_case
-from tribodyn.errors import InputError
-from tribodyn.numerics.parameter import Variable, flag
-from tribodyn.record.schema import Layout
-from tribodyn.studies import STUDIES
-from tribodyn.studies.protocol import cost
-from tribodyn.studies.protocol.cost import (
+from tribodyn.cases import cost
+from tribodyn.cases.cost import (
     HEAD,
     LIMITS,
     PROGRAM,
@@ -23,6 +19,10 @@ from tribodyn.studies.protocol.cost import (
     record_bytes,
     refuse_large,
 )
+from tribodyn.errors import InputError
+from tribodyn.numerics.parameter import Variable, flag
+from tribodyn.record.schema import Layout
+from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.run import run
 
 MIB = 2.0**20

@@ -5,10 +5,10 @@ from typing import Any
 
 import pytest
 
+from tribodyn.gears.check import sheet_and_stiffness, sheet_tables, with_unit
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import crc, involute
-from tribodyn.studies.gears.check import sheet_and_stiffness, sheet_tables, with_unit
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7830.0, 46.0, 470.0, 6e9)
 LOAD, STIFFNESS = 2600.0, 5.2e8

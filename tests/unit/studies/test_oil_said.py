@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tribodyn.studies.gears.check import oil_data, oil_remarks, oil_table
+from tribodyn.gears.check import oil_data, oil_remarks, oil_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.oil import LubricantData
 

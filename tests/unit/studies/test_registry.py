@@ -37,7 +37,7 @@ from tribodyn.post.figures.drawing import Drawing
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.input.quantity import Table, Text
-from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.cases.results import target, writer
 from tribodyn.studies.protocol.study import CaseHead, CheckResult, RunResult, Study, TextTable
 
 TEMPLATE = 'title = "TITLE"\\nkind = "pendulum"\\nlength = 1.0\\n'

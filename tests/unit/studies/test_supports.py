@@ -9,20 +9,20 @@ import pytest
 
 import tribodyn as td
 from tests.support.drawn_shafts import BALL, BETWEEN, OVERHUNG, ROLLER, SHAFTS
+from tribodyn.cases.results import CheckResult
 from tribodyn.dynamics.data import in_space
 from tribodyn.errors import InputError
+from tribodyn.gears.plausibility import with_duty
+from tribodyn.gears.rating.bearings import bearing_part, bearing_remarks, opening_part, shafts_of_pair
+from tribodyn.gears.supports import mean_loads
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.interface.scenario import scenario
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.standards.rolling_bearings import life_factor, reference_viscosity
-from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks, opening_part, shafts_of_pair
-from tribodyn.studies.gears.rated.first_page import bearings_table
-from tribodyn.studies.gears.supports import mean_loads
-from tribodyn.studies.gears.usual import with_duty
+from tribodyn.studies.assessment.first_page import bearings_table
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.protocol.recording import CheckResult
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
 
 HELICAL = {"mesh.slices": 7, "friction.law": "none", "bearings": "rigid-1e9"}

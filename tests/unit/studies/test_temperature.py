@@ -8,9 +8,9 @@ import pytest
 
 import tribodyn as td
 from tribodyn.errors import InputError
+from tribodyn.gears.prepare import Thermal, at_own_temperature
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.efficiency.run import prepare, quantities_of
-from tribodyn.studies.gears.prepare import Thermal, at_own_temperature
 from tribodyn.studies.motion.prepare import prepare as prepare_motion
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tribodyn.studies.gears.prepare import _heat, contact_quantities, thermal_quantities
+from tribodyn.gears.prepare import _heat, contact_quantities, thermal_quantities
 from tribodyn.tribology.losses import Loss
 
 LOSSES = {"churning": Loss(30.0, ("too fast",)), "windage": Loss(5.0, ()), "bearings": Loss(15.0, ())}

@@ -8,11 +8,11 @@ import pytest
 
 from tests.support.verbs import ROOT, ended, sets
 from tools.usual_ranges import usual_ranges
+from tribodyn.gears.duty import nominal_duty
+from tribodyn.gears.plausibility import USUAL, unusual_values
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.input.sources import names, shipped
-from tribodyn.studies.gears.duty import nominal_duty
-from tribodyn.studies.gears.usual import USUAL, unusual_values
 from tribodyn.studies.protocol.load import load, load_scenario
 
 DRY, OILED = "involute-18-36", "efficiency-oil-18-36"

@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
+from tribodyn.cases.cost import Driver, Estimate, forced_periods, recorded, total
 from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.schema import Layout
-from tribodyn.studies.protocol.cost import Driver, Estimate, forced_periods, recorded, total
 from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.studies.sweeping import branches
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.results import target, writer
 from tribodyn.errors import SimulationError
 from tribodyn.solve.branch.arclength import KINDS
 from tribodyn.studies.backlash_oscillator.case import LAYOUT, LAYOUT_WITH_UNSTABLE, BacklashOscillatorCase
@@ -20,7 +21,6 @@ from tribodyn.studies.backlash_oscillator.response import (
     Response,
     frequency_response,
 )
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
 from tribodyn.studies.sweeping.branches import branch_values, end_values
 

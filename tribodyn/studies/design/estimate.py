@@ -1,5 +1,6 @@
 """What a search takes, before any work."""
 
+from tribodyn.cases.cost import Driver, Estimate, record_bytes
 from tribodyn.studies.design.candidates.archive import FACTORS, resolutions
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, shapes_gears, start_of
 from tribodyn.studies.design.candidates.converged import counts
@@ -7,7 +8,6 @@ from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.layout import layout_of, names_of, scales_of
 from tribodyn.studies.design.methods import method_of
-from tribodyn.studies.protocol.cost import Driver, Estimate, record_bytes
 
 #: Evaluations that are usual.
 USUAL = 300

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.results import target, writer
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.work import usable_cores
@@ -51,7 +52,6 @@ from tribodyn.studies.design.layout import (
 )
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, signed, write_best
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
 
 #: Evaluations that a process of its own is worth.

@@ -11,13 +11,13 @@ import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.slices import friction_ratio, peak_ratio
+from tribodyn.gears.motion.recorded import DOF, DOF_IN_SPACE, samples_of
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, contacts, settled
 from tribodyn.mesh.quasi_static import efficiency, normal_arms, quasi_static
 from tribodyn.studies.efficiency.places import Array, Places, Sharing, piecewise, places
 from tribodyn.studies.efficiency.slices import judged, of_pairs, phases_of, share_evenly, slices_at
-from tribodyn.studies.gears.over_time.recorded import DOF, DOF_IN_SPACE, samples_of
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import range_shares
 

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.assessed import Contribution, Findings, Request, Task, TaskResult, of_teeth
 from tribodyn.studies.efficiency import STUDY
-from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult, of_teeth
 
 _TASK, _SAMPLES = "efficiency-", "efficiency-samples"
 #: Slices of the face of samples, fewer of spur teeth that nothing but deviations inclines, and positions of

@@ -1,10 +1,10 @@
 """Reported quantities of an efficiency study, and how far to trust them."""
 
+from tribodyn.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
 from tribodyn.post.report import on_closures, on_energy, on_methods
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
 
 REPORTED: Reported = {
     "Geometry": quantities(

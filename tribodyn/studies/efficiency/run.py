@@ -9,8 +9,20 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.results import target, writer
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, effective_contact_ratio
 from tribodyn.errors import InputError
+from tribodyn.gears.check import check_gears, oil_data
+from tribodyn.gears.motion.recorded import gears_layout, scales_of
+from tribodyn.gears.motion.steady import of_the_face
+from tribodyn.gears.plausibility import checks_gears
+from tribodyn.gears.prepare import (
+    PreparedGears,
+    assembled,
+    at_tooth_temperature,
+    contact_quantities,
+    thermal_quantities,
+)
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import back_flanks
@@ -35,17 +47,6 @@ from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing
 from tribodyn.studies.efficiency.published import by_loss_factor, path_contact, rotations, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
 from tribodyn.studies.efficiency.slices import deflections, judged
-from tribodyn.studies.gears.check import check_gears, oil_data
-from tribodyn.studies.gears.over_time.recorded import gears_layout, scales_of
-from tribodyn.studies.gears.over_time.steady import of_the_face
-from tribodyn.studies.gears.prepare import (
-    PreparedGears,
-    assembled,
-    at_tooth_temperature,
-    contact_quantities,
-    thermal_quantities,
-)
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities
 from tribodyn.tribology.friction.coulomb import constant
@@ -100,6 +101,7 @@ def prepare(case: EfficiencyCase) -> PreparedEfficiency:
     return PreparedEfficiency(case, assembly, cycle, thermal, duty_of(case), flanks)
 
 
+@checks_gears
 def check(case: EfficiencyCase) -> CheckResult:
     """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
     study = prepare(case)

@@ -6,18 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
+from tribodyn.cases import cost
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.errors import InputError
-from tribodyn.input.quantity import Table, written
-from tribodyn.input.tables.bearings import Stiffness
-from tribodyn.input.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
-from tribodyn.input.tables.internal_gear import driving_internal
-from tribodyn.input.tables.laws import FrictionTable
-from tribodyn.input.tables.model_files import MisalignmentTable
-from tribodyn.studies.gears.case import LubricatedCase, with_chosen
-from tribodyn.studies.gears.over_time.recorded import LAYOUT
-from tribodyn.studies.gears.prepare import with_chosen_laws
-from tribodyn.studies.gears.scenario import (
+from tribodyn.gears.case import LubricatedCase, with_chosen
+from tribodyn.gears.motion.recorded import LAYOUT
+from tribodyn.gears.prepare import with_chosen_laws
+from tribodyn.gears.scenario import (
     FaceSlices,
     FilmKeys,
     FoundationCoupling,
@@ -36,7 +31,12 @@ from tribodyn.studies.gears.scenario import (
     gear_fields,
     oil_fields,
 )
-from tribodyn.studies.protocol import cost
+from tribodyn.input.quantity import Table, written
+from tribodyn.input.tables.bearings import Stiffness
+from tribodyn.input.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
+from tribodyn.input.tables.internal_gear import driving_internal
+from tribodyn.input.tables.laws import FrictionTable
+from tribodyn.input.tables.model_files import MisalignmentTable
 
 if TYPE_CHECKING:
     from tribodyn.studies.efficiency.places import Sharing

@@ -6,13 +6,13 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.gears.prepare import PreparedGears, assembled
 from tribodyn.geometry.helix import curvature_share, line_stretch, speed_share
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array
 from tribodyn.studies.ehl.case import BEGIN, END, PLACES, EhlCase
-from tribodyn.studies.gears.prepare import PreparedGears, assembled
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of, with_laws, without_nominal_conditions
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled

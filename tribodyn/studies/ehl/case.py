@@ -7,11 +7,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from tribodyn.cases.cost import Driver, Estimate, recorded, solved_contacts, total
+from tribodyn.gears.case import LubricatedCase
 from tribodyn.mesh.record_arrays import described
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.protocol.cost import Driver, Estimate, recorded, solved_contacts, total
 from tribodyn.tribology.ehl.grid import STEP
 
 #: Places of a profile, and where they begin and end, in half widths of the Hertz contact.

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.cases.results import TextTable
 from tribodyn.errors import InputError
 from tribodyn.input.resolve import resolve_table
 from tribodyn.input.tables.duty import OiledOperatingTable
@@ -16,7 +17,6 @@ from tribodyn.studies.ehl.along_path import PairWay, PreparedEhl, prepare, seen_
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import by_laws, solve
 from tribodyn.studies.protocol.load import loaded_from, table_of
-from tribodyn.studies.protocol.recording import TextTable
 from tribodyn.studies.protocol.study import CaseHead, Progress
 from tribodyn.tribology.closure import untried_closure_of, with_laws
 from tribodyn.tribology.film import FILM_LAWS

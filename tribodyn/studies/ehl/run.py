@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.results import target, writer
 from tribodyn.errors import InputError
+from tribodyn.gears.check import check_gears
 from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.numerics.shapes import Array
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.case import BEGIN, END, PLACES, SAMPLES, EhlCase, layout_of, unsolved
 from tribodyn.studies.ehl.squeezed import SteadyContact, squeezed, steady_of
-from tribodyn.studies.gears.check import check_gears
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.ehl.of_case import friction_band
 from tribodyn.tribology.film import FILM_LAWS

@@ -8,12 +8,12 @@ import numpy as np
 from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.gears.scenario import GearScenario, Oil, broken_gear_rules, gear_fields, oil_fields
 from tribodyn.input import units
 from tribodyn.input.fields import LoadCurve
 from tribodyn.input.quantity import InUnit, Switch, Table, csv_file, written
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.gears.scenario import GearScenario, Oil, broken_gear_rules, gear_fields, oil_fields
 from tribodyn.tribology.ehl.grid import STEP
 from tribodyn.tribology.law import FilmData
 

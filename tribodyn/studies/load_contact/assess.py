@@ -5,11 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.record.reader import Record
-from tribodyn.standards.load_factors import transverse_load_factor
-from tribodyn.studies.load_contact import STUDY
-from tribodyn.studies.load_contact.along import ALONG, highest_over_face
-from tribodyn.studies.protocol.part import (
+from tribodyn.cases.assessed import (
     Contribution,
     Findings,
     ReportCurve,
@@ -18,6 +14,10 @@ from tribodyn.studies.protocol.part import (
     TaskResult,
     of_teeth,
 )
+from tribodyn.record.reader import Record
+from tribodyn.standards.load_factors import transverse_load_factor
+from tribodyn.studies.load_contact import STUDY
+from tribodyn.studies.load_contact.along import ALONG, highest_over_face
 
 _TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-contact-samples"
 _SPECTRUM = "loaded-contact-spectrum"

@@ -4,12 +4,7 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
-from tribodyn.geometry.body import GEOMETRY
-from tribodyn.mesh.record_arrays import MESH_CYCLE
-from tribodyn.numerics.parameter import Variable
-from tribodyn.record.schema import Layout
-from tribodyn.studies.gears.case import GearCase, LubricatedCase
-from tribodyn.studies.protocol.cost import (
+from tribodyn.cases.cost import (
     FINITE_ELEMENTS,
     TOUCHING,
     Driver,
@@ -18,6 +13,11 @@ from tribodyn.studies.protocol.cost import (
     recorded,
     total,
 )
+from tribodyn.gears.case import GearCase, LubricatedCase
+from tribodyn.geometry.body import GEOMETRY
+from tribodyn.mesh.record_arrays import MESH_CYCLE
+from tribodyn.numerics.parameter import Variable
+from tribodyn.record.schema import Layout
 
 PHASE = Variable(("phase",), "1", "phase of the mesh in mesh cycles from the first position")
 PAIR = Variable(

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.results import target, writer
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import (
     LoadedContact,
@@ -17,19 +18,19 @@ from tribodyn.compliance.sharing.loaded_contact import (
 )
 from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.errors import SimulationError
+from tribodyn.gears.check import sheet_and_stiffness
+from tribodyn.gears.plausibility import checks_gears
+from tribodyn.gears.rating.bearings import bearing_part, opening_part, shafts_of_pair
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.helix import overlap_ratio, pitch_slope
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
-from tribodyn.studies.gears.check import sheet_and_stiffness
-from tribodyn.studies.gears.rated.bearings import bearing_part, opening_part, shafts_of_pair
 from tribodyn.studies.load_contact.along import of_one_cycle
 from tribodyn.studies.load_contact.case import BODIES, LAYOUT, OILED, LoadContactCase
 from tribodyn.studies.load_contact.film import film_over_face
 from tribodyn.studies.load_contact.prepare import PreparedTeeth, contact_of, flanks_of, prepare
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 
 
@@ -82,6 +83,7 @@ def run(
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
+@checks_gears
 def check(case: LoadContactCase) -> CheckResult:
     """Check a case, and say what gears it describes and how stiff they are."""
     study = prepare(case)

@@ -7,13 +7,9 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.errors import InputError
-from tribodyn.input import units
-from tribodyn.input.quantity import Count, InUnit, NotNegative, Table, written
-from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
-from tribodyn.input.tables.model_files import MisalignmentTable
-from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.prepare import with_chosen_laws
-from tribodyn.studies.gears.scenario import (
+from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.prepare import with_chosen_laws
+from tribodyn.gears.scenario import (
     FaceSlices,
     FilmKeys,
     GearBodySupport,
@@ -29,6 +25,10 @@ from tribodyn.studies.gears.scenario import (
     mesh_of,
     oil_fields,
 )
+from tribodyn.input import units
+from tribodyn.input.quantity import Count, InUnit, NotNegative, Table, written
+from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
+from tribodyn.input.tables.model_files import MisalignmentTable
 from tribodyn.studies.load_contact.case import LoadContactCase
 
 Load = Annotated[float, InUnit(units.positive(units.TORQUE))]

@@ -7,12 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.data import matrices_in_space
+from tribodyn.gears.model import tilting_inertia
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.shared_tables import table_key
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.gears.model import tilting_inertia
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.motion.case import HOUSING, Gearbox, LinkData
 from tribodyn.studies.motion.described.teeth import engagement
 from tribodyn.train.phases import Engagement, Phases, nominal_phases

@@ -9,15 +9,15 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
+from tribodyn.cases.results import CaseHead
 from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
+from tribodyn.gears.case import ROUNDED, LubricatedCase, OutputData, rounded_in
+from tribodyn.gears.supports import GearSupport
 from tribodyn.geometry.drive import BodyMass, Side
 from tribodyn.numerics.curve import Table
 from tribodyn.sensing.data import HousingData, SensorData
 from tribodyn.solve.methods import SolverData
-from tribodyn.studies.gears.case import LubricatedCase, OutputData
-from tribodyn.studies.gears.supports import GearSupport
-from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.train.links.law import LinkLaw
 from tribodyn.train.links.linear import LAW as LINEAR_LINK
 from tribodyn.train.phases import ToothedShaft
@@ -225,6 +225,10 @@ class Gearbox(CaseHead):
         the period: that of hunting teeth has millions of cycles.
         """
         return self.period if self.period <= self.max_period else min(self.period, self.solver.cycles + 1)
+
+    def remarks_in_brief(self) -> list[str]:
+        """As of a pair of gears."""
+        return [ROUNDED] if rounded_in(self.toml) else []
 
     def chosen(self) -> dict[str, tuple[str, str]]:
         """Give the laws that "auto" took, those of the reference mesh for all."""

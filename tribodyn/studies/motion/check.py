@@ -6,17 +6,18 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.results import CheckResult, TextTable
 from tribodyn.dynamics.modes import Modes, modes
-from tribodyn.studies.gears.check import check_gears
-from tribodyn.studies.gears.prepare import PreparedGears
-from tribodyn.studies.gears.rated.bearings import (
+from tribodyn.gears.check import check_gears
+from tribodyn.gears.plausibility import checks_gears, with_duty
+from tribodyn.gears.prepare import PreparedGears
+from tribodyn.gears.rating.bearings import (
     bearing_part,
     bearing_remarks,
     bearing_rows,
 )
-from tribodyn.studies.gears.usual import with_duty
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.described.alike import together
+from tribodyn.studies.motion.described.mesh_groups import together
 from tribodyn.studies.motion.frequencies import (
     distinct_meshes,
     mesh_frequencies,
@@ -29,7 +30,6 @@ from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.motion.sensed import listener_of
 from tribodyn.studies.motion.train.whole import shafts as shafts_of
-from tribodyn.studies.protocol.recording import CheckResult, TextTable
 from tribodyn.train.flow import flow
 
 #: Share of a mode's energy below which a body is left out of a table.
@@ -38,6 +38,7 @@ LITTLE = 0.005
 HARMONICS = 3
 
 
+@checks_gears
 def check(given: Gearbox | Case) -> CheckResult:
     """Check a case, tabulate its meshes, and say what gearbox it describes."""
     prepared = prepare(given)

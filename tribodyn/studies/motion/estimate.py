@@ -1,10 +1,10 @@
 """What a run of a gearbox takes."""
 
-from tribodyn.studies.gears.taken import drivers, radians_of, table
+from tribodyn.cases import cost
+from tribodyn.gears.run_cost import drivers, radians_of, table
 from tribodyn.studies.motion.case import HOUSING, Gearbox
 from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.record import usual_layout
-from tribodyn.studies.protocol import cost
 
 #: How often the samples of the last cycles are held; share of a pair's record that pictures read at once.
 _WINDOW_HELD, _READ = 2.0, 0.05

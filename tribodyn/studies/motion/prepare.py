@@ -8,14 +8,14 @@ import numpy as np
 
 from tribodyn.dynamics import parameters
 from tribodyn.errors import InputError
+from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.model import hand_of, mesh_of, options_of, varying_load, with_own_teeth
+from tribodyn.gears.prepare import Thermal
+from tribodyn.gears.tabulated import Tabulated, tables
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.twist import static_twist
-from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, varying_load, with_own_teeth
-from tribodyn.studies.gears.prepare import Thermal
-from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.studies.motion.assembled import (
     BodyInertia,
     body_inertias,
@@ -27,7 +27,7 @@ from tribodyn.studies.motion.assembled import (
 from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox, LoadData
 from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
-from tribodyn.studies.motion.warmth import at_tooth_temperatures
+from tribodyn.studies.motion.thermal_iteration import at_tooth_temperatures
 from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases, entering_teeth, nominal_phases
 from tribodyn.train.planetary import CARRIER

@@ -10,17 +10,17 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.outputs import holding_links
+from tribodyn.gears.motion import by_revolution
+from tribodyn.gears.motion.recorded import OF_SLICES, PAIR, gears_layout, scales_of
+from tribodyn.gears.motion.recorded import SAMPLES as OF_A_PAIR
+from tribodyn.gears.motion.running import MeshOfRun, mesh_pairs
+from tribodyn.gears.motion.sampled import Sampled
 from tribodyn.geometry.body import GEOMETRY, geometry_arrays
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.record_arrays import as_arrays, described
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
-from tribodyn.studies.gears.over_time import by_revolution
-from tribodyn.studies.gears.over_time.recorded import OF_SLICES, PAIR, gears_layout, scales_of
-from tribodyn.studies.gears.over_time.recorded import SAMPLES as OF_A_PAIR
-from tribodyn.studies.gears.over_time.running import MeshOfRun, mesh_pairs
-from tribodyn.studies.gears.over_time.sampled import Sampled
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.pair.outputs import recorded
 from tribodyn.studies.motion.prepare import PreparedGearbox, geometry_of

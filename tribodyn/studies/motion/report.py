@@ -3,6 +3,10 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from tribodyn.cases.results import TextTable
+from tribodyn.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
+from tribodyn.gears.motion.extremes_text import on_extremes
+from tribodyn.gears.sensing.tables import sensor_tables
 from tribodyn.post import verdict as of_any
 from tribodyn.post.page.mechanism import Mechanism
 from tribodyn.post.report import on_closures, on_energy, on_methods
@@ -10,13 +14,9 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.withheld import reasons
-from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
-from tribodyn.studies.gears.over_time.extremes_said import on_extremes
-from tribodyn.studies.gears.sensed.tables import sensor_tables
-from tribodyn.studies.motion.described.alike import between, groups_of, together
+from tribodyn.studies.motion.described.mesh_groups import between, groups_of, together
 from tribodyn.studies.motion.pictures.rolling_train import rolling_train
 from tribodyn.studies.motion.planetary.results import STAGES
-from tribodyn.studies.protocol.recording import TextTable
 
 #: Of several meshes the worst where it is not of all together.
 REPORTED: Reported = {

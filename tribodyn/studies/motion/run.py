@@ -8,17 +8,18 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.results import target, writer
 from tribodyn.dynamics.modes import modes
 from tribodyn.errors import SimulationError
+from tribodyn.gears.check import oil_data
+from tribodyn.gears.motion.marched import record_motion, run_until_warm
+from tribodyn.gears.motion.running import RunStatistics
+from tribodyn.gears.motion.steady import limits_in, warning_of
+from tribodyn.gears.sensing.numbers import signal_quantities
 from tribodyn.record.reader import MESHES
 from tribodyn.record.sensors import write_sensed
 from tribodyn.record.trust import judge_tribology
 from tribodyn.record.withheld import remarked
-from tribodyn.studies.gears.check import oil_data
-from tribodyn.studies.gears.over_time.marched import record_motion, run_until_warm
-from tribodyn.studies.gears.over_time.running import RunStatistics
-from tribodyn.studies.gears.over_time.steady import limits_in, warning_of
-from tribodyn.studies.gears.sensed.numbers import signal_quantities
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.planetary.jamming import jams
@@ -34,8 +35,7 @@ from tribodyn.studies.motion.summary import (
     window_of,
     worst_of,
 )
-from tribodyn.studies.motion.warmth import at_own_temperatures
-from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
 from tribodyn.studies.protocol.study import Progress, RunResult
 
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.

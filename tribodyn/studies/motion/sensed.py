@@ -3,8 +3,8 @@
 import numpy as np
 
 from tribodyn.dynamics.outputs import holding_links
-from tribodyn.studies.gears.sensed.listening import Listener
-from tribodyn.studies.gears.sensed.places import RingPlaces, Sensible, placed
+from tribodyn.gears.sensing.listening import Listener
+from tribodyn.gears.sensing.sensor_places import RingPlaces, Sensible, placed
 from tribodyn.studies.motion.frequencies import lines_of
 from tribodyn.studies.motion.planetary.results import meshes_of_member
 from tribodyn.studies.motion.prepare import PreparedGearbox

@@ -5,13 +5,13 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.studies.gears.by_standard import rated
-from tribodyn.studies.gears.over_time.extremes import RunningExtremes
-from tribodyn.studies.gears.over_time.running import MeshOfRun
-from tribodyn.studies.gears.over_time.steady import LAST_ORDER, at_rest, mesh_quantities, power_quantities
-from tribodyn.studies.gears.prepare import contact_quantities, thermal_quantities
-from tribodyn.studies.gears.rated.margins import margins_of
-from tribodyn.studies.motion.described.alike import ALIKE, alike_of
+from tribodyn.gears.by_standard import rated
+from tribodyn.gears.motion.extremes import RunningExtremes
+from tribodyn.gears.motion.running import MeshOfRun
+from tribodyn.gears.motion.steady import LAST_ORDER, at_rest, mesh_quantities, power_quantities
+from tribodyn.gears.prepare import contact_quantities, thermal_quantities
+from tribodyn.gears.rating.margins import margins_of
+from tribodyn.studies.motion.described.mesh_groups import ALIKE, alike_of
 from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.structure import FRICTION, OUT, rotational_error, work_of, work_of_mesh
 

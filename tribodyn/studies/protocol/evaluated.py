@@ -5,18 +5,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.cases.cost import Estimate, variable_bytes
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.families import family
-from tribodyn.geometry.limits.limits import plain_distances
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.quantities.motion import LIMITS
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, number
 from tribodyn.record.withheld import remarked, remarks, warned
-from tribodyn.studies.gears.check import remarks_in_brief
-from tribodyn.studies.protocol.cost import Estimate, variable_bytes
 from tribodyn.studies.protocol.scratch import within
 from tribodyn.studies.protocol.study import Study
 from tribodyn.studies.sweeping.batch import Chunk
@@ -58,10 +54,8 @@ def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) ->
         found = _together(study, batch, cases, workers)
     else:
         found = [alone(study, case, number) for number, case in enumerate(cases)]
-    if not study.has_gears:
-        return found
     return [
-        known if isinstance(known, str) else _of_teeth(case) | known
+        known if isinstance(known, str) else case.without_run() | known
         for case, known in zip(cases, found, strict=True)
     ]
 
@@ -93,11 +87,6 @@ def _together(
         {name: float(rows[name][i]) for name in study.swept()} if status == DONE else str(rows["message"][i])
         for i, status in enumerate(rows["status"])
     ]
-
-
-def _of_teeth(case: Any) -> dict[str, float]:
-    gears = assemble(family(case.family), case.drive)
-    return {CONTACT_RATIO: float(gears.contact_ratio), **plain_distances(gears)}
 
 
 class NoSettings(NamedTuple):
@@ -167,7 +156,7 @@ class OneByOne:
             for name in layout.quantities:
                 if found.get(name) is not None:
                     rows[name][i] = found[name]
-            rows["message"][i] = remarked(*map(warned, [*remarks(found), *remarks_in_brief(case.toml)]))
+            rows["message"][i] = remarked(*map(warned, [*remarks(found), *case.remarks_in_brief()]))
             rows[TRUST][i] = number(found)
             rows["status"][i] = DONE
         return rows

@@ -3,7 +3,7 @@
 import hashlib
 import json
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib import resources
@@ -108,6 +108,12 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
     return loaded_from(resolve(path, overrides or {}, table_of), path)
 
 
+def opened(path: Path) -> tuple[Study, Callable[[], Any]]:
+    """The study of a scenario's file, and what makes its case."""
+    resolved = resolve(path, {}, table_of)
+    return study_of(resolved.data), lambda: loaded_from(resolved, path).case
+
+
 def table_of(data: Mapping[str, Any]) -> Any:
     """Return the schema of a scenario's data."""
     return study_of(data).table(data)
@@ -141,7 +147,7 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     model = study.table(data)
     try:
         if (completed := getattr(model, "completed", None)) is not None:
-            data = completed(data, path)
+            data = completed(data, path, opened)
         if isinstance(kind, str) and kind not in STUDIES:
             unknown = unknown_name("kind", kind, STUDIES, STUDIES.what)
             raise outside(unknown, kind, remedy=unknown.remedy) or unknown

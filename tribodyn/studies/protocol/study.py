@@ -9,9 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
-from tribodyn.errors import InputError
-from tribodyn.numerics.registry import cannot_be_loaded
-from tribodyn.studies.protocol.cost import (
+from tribodyn.cases.cost import (
     WORTH_SAYING,
     Estimate,
     as_data,
@@ -20,23 +18,22 @@ from tribodyn.studies.protocol.cost import (
     say_beforehand,
     share_of_limits,
 )
-from tribodyn.studies.protocol.recording import CaseHead as CaseHead
-from tribodyn.studies.protocol.recording import CheckResult as CheckResult
-from tribodyn.studies.protocol.recording import RunResult as RunResult
-from tribodyn.studies.protocol.recording import TextTable as TextTable
+from tribodyn.cases.results import CaseHead as CaseHead
+from tribodyn.cases.results import CheckResult as CheckResult
+from tribodyn.cases.results import Progress as Progress
+from tribodyn.cases.results import RunResult as RunResult
+from tribodyn.cases.results import TextTable as TextTable
+from tribodyn.errors import InputError
+from tribodyn.numerics.registry import cannot_be_loaded
 
 if TYPE_CHECKING:
+    from tribodyn.cases.assessed import Contribution, WholeDrive
     from tribodyn.input.quantity import Table
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.reader import Record
-    from tribodyn.studies.protocol.part import Contribution, WholeDrive
     from tribodyn.studies.protocol.verb import Verb
     from tribodyn.studies.sweeping.batch import Batch
-
-Progress = Callable[[float], None]
-"""Called with the share done, 0 … 1."""
-
 
 #: Part -> the modules in which what it holds may stand, too.
 _ALSO_IN = {
@@ -74,9 +71,9 @@ class Study:
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case or scenario)
-    assess        ``ROLE``, the part that it plays in an assessment of a drive (optional), see `protocol.part`
+    assess        ``ROLE``, the part that it plays in an assessment of a drive (optional): `cases.assessed`
     whole         ``WHOLE``, its meshes as pairs of gears (optional): it can be assessed mesh by mesh, see
-                  `protocol.part`
+                  `cases.assessed`
     derivatives   ``DIFFERENTIABLE``, what makes quantities of a case a function of its numbers (optional:
                   that of a pair of gears), called as `derivatives.differentiable.Differentiable`
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
@@ -149,11 +146,6 @@ class Study:
         estimate = self.estimate(case)
         refuse_large(estimate, allow_large)
         checked = self._part("check", "check")(case)
-        if self.has_gears:
-            from tribodyn.studies.gears.check import with_rounding
-            from tribodyn.studies.gears.usual import with_duty
-
-            checked = with_duty(with_rounding(checked, case.toml), case)
         from tribodyn.quantities.quantity import in_si
 
         title = {"title": case.title}

@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 import tomli_w
 
+from tribodyn.cases.assessed import Task, TaskResult
+from tribodyn.cases.results import target, writer
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.output_files import write_output
 from tribodyn.numerics.sources import computing_digest
@@ -24,8 +26,6 @@ from tribodyn.record.reader import Record
 from tribodyn.record.schema import COMPLETE, Layout
 from tribodyn.studies.protocol.evaluated import evaluated
 from tribodyn.studies.protocol.load import load_data, put_chosen
-from tribodyn.studies.protocol.part import Task, TaskResult
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CaseHead, Progress, RunResult, Study
 
 

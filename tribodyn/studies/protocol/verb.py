@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tribodyn.studies.protocol.recording import TextTable
+    from tribodyn.cases.results import TextTable
 
 
 class Option(NamedTuple):

@@ -3,9 +3,7 @@
 from dataclasses import dataclass
 from functools import partial
 
-from tribodyn.numerics.parameter import Variable
-from tribodyn.record.schema import TIME, Layout
-from tribodyn.studies.protocol.cost import (
+from tribodyn.cases.cost import (
     Driver,
     Estimate,
     in_memory,
@@ -14,6 +12,8 @@ from tribodyn.studies.protocol.cost import (
     rolling_elements,
     total,
 )
+from tribodyn.numerics.parameter import Variable
+from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.studies.rolling.engagement import Mode, RollingFriction
 from tribodyn.studies.rolling.geometry import RollingDrive

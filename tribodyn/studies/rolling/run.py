@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.results import target, writer
 from tribodyn.errors import InputError
+from tribodyn.gears.check import with_unit
 from tribodyn.record.trust import Judge
-from tribodyn.studies.gears.check import with_unit
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
 from tribodyn.studies.rolling.case import LAYOUT, RollingCase
 from tribodyn.studies.rolling.engagement import (

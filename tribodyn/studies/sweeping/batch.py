@@ -6,8 +6,8 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
+from tribodyn.cases.cost import Estimate
 from tribodyn.record.sweep_schema import SweepLayout
-from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.signals import SignalRequest
 
 

@@ -6,12 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from tribodyn.geometry.body import GEOMETRY
-from tribodyn.mesh.record_arrays import MESH_CYCLE
-from tribodyn.numerics.parameter import Variable
-from tribodyn.record.schema import Layout
-from tribodyn.studies.gears.case import GearCase, LubricatedCase
-from tribodyn.studies.protocol.cost import (
+from tribodyn.cases.cost import (
     TOUCHING,
     Driver,
     Estimate,
@@ -20,6 +15,11 @@ from tribodyn.studies.protocol.cost import (
     recorded,
     total,
 )
+from tribodyn.gears.case import GearCase, LubricatedCase
+from tribodyn.geometry.body import GEOMETRY
+from tribodyn.mesh.record_arrays import MESH_CYCLE
+from tribodyn.numerics.parameter import Variable
+from tribodyn.record.schema import Layout
 from tribodyn.tribology.wear.law import WearData
 from tribodyn.tribology.wear.running_in import RunningIn
 

@@ -12,10 +12,14 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.results import target, writer
 from tribodyn.compliance.sharing.flank_gap import check_modifications
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import check_contact
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.gears.check import oil_data, sheet_and_stiffness
+from tribodyn.gears.plausibility import checks_gears
+from tribodyn.gears.prepare import assembled
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.kernels.native.arguments import function_layout
@@ -28,9 +32,6 @@ from tribodyn.record.previous import Origin, keep_previous
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import check_target
-from tribodyn.studies.gears.check import oil_data, sheet_and_stiffness
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.studies.wear.case import BODIES, WearCase, layout_of, recorded_at
 from tribodyn.studies.wear.outcome import row_of, state_of, summary_of
@@ -78,6 +79,7 @@ def flanks_of(case: WearCase) -> LoadedFlanks:
     return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
 
 
+@checks_gears
 def check(case: WearCase) -> CheckResult:
     """Check a case, and say what gears it describes and how stiff they are."""
     flanks = prepare(case).places.held.flanks

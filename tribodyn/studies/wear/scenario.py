@@ -7,19 +7,9 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.geometry.flanks.modification import uneven_teeth
-from tribodyn.input.quantity import Positive, Table, Text, written
-from tribodyn.input.tables.drive_rules import modifications_of
-from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
-from tribodyn.input.tables.internal_gear import driving_internal
-from tribodyn.input.tables.laws import FrictionTable, LawTable, law_values
-from tribodyn.input.tables.model_files import MisalignmentTable
-from tribodyn.input.tables.own_teeth import ToothSampleNumber, own_teeth_of
-from tribodyn.mesh.teeth.deviations import PitchErrors
-from tribodyn.mesh.teeth.fields import OwnTeeth
-from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.prepare import with_chosen_laws
-from tribodyn.studies.gears.scenario import (
+from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.prepare import with_chosen_laws
+from tribodyn.gears.scenario import (
     FaceSlices,
     FilmKeys,
     GearBodySupport,
@@ -35,6 +25,16 @@ from tribodyn.studies.gears.scenario import (
     mesh_of,
     oil_fields,
 )
+from tribodyn.geometry.flanks.modification import uneven_teeth
+from tribodyn.input.quantity import Positive, Table, Text, written
+from tribodyn.input.tables.drive_rules import modifications_of
+from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
+from tribodyn.input.tables.internal_gear import driving_internal
+from tribodyn.input.tables.laws import FrictionTable, LawTable, law_values
+from tribodyn.input.tables.model_files import MisalignmentTable
+from tribodyn.input.tables.own_teeth import ToothSampleNumber, own_teeth_of
+from tribodyn.mesh.teeth.deviations import PitchErrors
+from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.studies.wear.case import ALIKE, EACH, WearCase
 from tribodyn.tribology.law import FilmData
 from tribodyn.tribology.wear import WEAR_LAWS

@@ -9,12 +9,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from tribodyn.compliance import iso6336
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.capacity import capacity_of, life_bins
+from tribodyn.gears.rating.standard import Standard, rated_duty, standard_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.root_section import critical_section
 from tribodyn.standards import contact_path, load_factors
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
-from tribodyn.studies.gears.rated.standard import Standard, rated_duty, standard_of
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation.books import helical_report_geometry as shape
 from tribodyn.validation.books import rows_of

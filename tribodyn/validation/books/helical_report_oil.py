@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.gears.rating.margins import flanks_of, strength_of
+from tribodyn.gears.rating.standard import Standard
 from tribodyn.standards import contact_path, fzg, micropitting, scuffing
-from tribodyn.studies.gears.rated.margins import flanks_of, strength_of
-from tribodyn.studies.gears.rated.standard import Standard
 from tribodyn.validation.books import helical_report_geometry as shape
 from tribodyn.validation.books.helical_report_geometry import both
 

@@ -8,6 +8,9 @@ import math
 from typing import Any
 
 from tribodyn.compliance import iso6336
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.capacity import capacity_of, life_bins
+from tribodyn.gears.rating.standard import rated_duty, standard_of
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.root_section import critical_section
@@ -15,9 +18,6 @@ from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.standards import contact_path, fzg, load_factors, micropitting
 from tribodyn.standards.flank_tolerances import flank_tolerances_1995
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
-from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.validation.books import rows_of
 from tribodyn.validation.books import stplus_geometry as shape

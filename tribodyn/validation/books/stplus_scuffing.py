@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from tribodyn.compliance.iso6336 import ReferenceStiffness
+from tribodyn.gears.rating.margins import flanks_of, strength_of
 from tribodyn.standards import contact_path, fzg, micropitting, scuffing
-from tribodyn.studies.gears.rated.margins import flanks_of, strength_of
 from tribodyn.tribology.oil import kinematic_viscosity
 from tribodyn.validation.books.stplus_geometry import ALPHA, WIDTH, pair
 

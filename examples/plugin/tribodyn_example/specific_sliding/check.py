@@ -1,7 +1,7 @@
 """What `tribodyn check` says of a case."""
 
+from tribodyn.gears.check import sheet_tables
 from tribodyn.geometry.sheet import geometry_sheet
-from tribodyn.studies.gears.check import sheet_tables
 from tribodyn.studies.protocol.study import CheckResult
 from tribodyn_example.specific_sliding.scenario import SlidingCase
 from tribodyn_example.specific_sliding.sliding import sliding_of

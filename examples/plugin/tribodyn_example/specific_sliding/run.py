@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import Any
 
+from tribodyn.cases.results import target, writer
 from tribodyn.geometry.body import GEOMETRY, geometry_arrays
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
 from tribodyn_example.specific_sliding.scenario import SlidingCase
 from tribodyn_example.specific_sliding.sliding import sliding_of, summary_of

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 from tests.support.short_studies import short_case, shortened, written_template
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.gears.rating.standard import path_of
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
@@ -20,7 +21,6 @@ from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
 from tribodyn.studies.assessment.pair.margins import local_of, point_angles
 from tribodyn.studies.assessment.pair.parts import request_of
-from tribodyn.studies.gears.rated.standard import path_of
 from tribodyn.studies.protocol.load import load_scenario
 
 KIND = "assessment"

@@ -10,7 +10,12 @@ import pytest
 from tests.support.short_studies import short_case
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import roll_through
-from tribodyn.studies.assessment.pair.beside import (
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.capacity import capacity_of, life_bins
+from tribodyn.gears.rating.standard import rated_duty, standard_of
+from tribodyn.studies.assessment.pair.rated_flank import NominalLoad, nominal_load, rated_flanks
+from tribodyn.studies.assessment.pair.reasons import bending_reasons, pitting_reasons, reasons, rests_on
+from tribodyn.studies.assessment.pair.simulated_strength import (
     GivenFactors,
     _in_motion,
     given_factors,
@@ -18,11 +23,6 @@ from tribodyn.studies.assessment.pair.beside import (
     root_bins,
     strength_beside,
 )
-from tribodyn.studies.assessment.pair.rated_flank import NominalLoad, nominal_load, rated_flanks
-from tribodyn.studies.assessment.pair.reasons import bending_reasons, pitting_reasons, reasons, rests_on
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
-from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
 from tribodyn.studies.protocol.load import load_scenario
 
 SLICES = 7

@@ -5,16 +5,16 @@ from typing import Any
 
 import pytest
 
+from tribodyn.cases.assessed import Meshing
 from tribodyn.compliance.iso6336 import blank_factor
 from tribodyn.errors import InputError
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.capacity import Capacity, capacity_of, life_bins
+from tribodyn.gears.rating.standard import Standard, iso_part, rated_duty, standard_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.studies.assessment.pair.parts import faces_of, other_torques, request_of
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins
-from tribodyn.studies.gears.rated.standard import Standard, iso_part, rated_duty, standard_of
-from tribodyn.studies.motion.train import whole
+from tribodyn.studies.motion.train import assessable as whole
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.protocol.part import Meshing
 
 
 def case_of(changes: dict[str, Any] | None = None) -> Any:

@@ -6,7 +6,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from tribodyn.studies.gears.rated.standard import margins_by_standard
+from tribodyn.gears.rating.standard import margins_by_standard
 
 OIL = 353.15
 FOUND = cast(

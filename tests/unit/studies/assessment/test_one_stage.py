@@ -10,11 +10,8 @@ import pytest
 
 from tests.support.drawn_shafts import BETWEEN
 from tribodyn.errors import InputError
-from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.record.reader import Record
-from tribodyn.studies import STUDIES
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import (
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.capacity import (
     Capacity,
     as_life,
     capacity_of,
@@ -22,10 +19,13 @@ from tribodyn.studies.gears.rated.capacity import (
     required,
     shorter_life,
 )
-from tribodyn.studies.gears.rated.limits import LIMITS, judged, with_unlimited, written_limit
-from tribodyn.studies.gears.rated.spectrum import spectrum_part
-from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
-from tribodyn.studies.motion.train import whole
+from tribodyn.gears.rating.limits import LIMITS, judged, with_unlimited, written_limit
+from tribodyn.gears.rating.spectrum import spectrum_part
+from tribodyn.gears.rating.standard import rated_duty, standard_of
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.record.reader import Record
+from tribodyn.studies import STUDIES
+from tribodyn.studies.motion.train import assessable as whole
 from tribodyn.studies.protocol.load import load_data, load_scenario
 from tribodyn.studies.protocol.run import run
 

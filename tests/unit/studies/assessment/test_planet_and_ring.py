@@ -4,11 +4,11 @@ import tomllib
 
 import pytest
 
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.capacity import capacity_of, life_bins
+from tribodyn.gears.rating.rating_text import ring_said
+from tribodyn.gears.rating.standard import rated_duty, standard_of
 from tribodyn.interface.scenario import scenario
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
-from tribodyn.studies.gears.rated.said import ring_said
-from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
 
 SET = """
 title = "NREL 5 MW stage 1"

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
+from tribodyn.gears.rating.spectrum import spectrum_tables
 from tribodyn.studies.assessment.pair.run import check
-from tribodyn.studies.gears.rated.spectrum import spectrum_tables
 from tribodyn.studies.protocol.load import load_scenario
 
 SCENARIO = """

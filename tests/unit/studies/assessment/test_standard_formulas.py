@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from tests.support.short_studies import written_template
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.standard import RatedDuty, Standard, iso_part, standard_of
 from tribodyn.standards import scuffing
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.standard import RatedDuty, Standard, iso_part, standard_of
 from tribodyn.studies.protocol.load import load_scenario
 
 TEETH, SHIFT, MODULE, WIDTH, CENTRE = (25, 60), (0.2, 0.1), 3.0, 40.0, 129.0

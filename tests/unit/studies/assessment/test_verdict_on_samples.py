@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from tribodyn.studies.gears.rated.limits import on_limits, over_samples
+from tribodyn.gears.rating.limits import on_limits, over_samples
 
 LIMITS: dict[str, Any] = {
     "dynamic_factor": {"value": 1.3, "limit": 1.5, "kept": True},

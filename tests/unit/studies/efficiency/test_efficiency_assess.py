@@ -1,5 +1,5 @@
+from tribodyn.cases.assessed import Request
 from tribodyn.studies.efficiency.assess import tasks
-from tribodyn.studies.protocol.part import Request
 
 
 def test_an_assessment_needs_the_first_law_only():

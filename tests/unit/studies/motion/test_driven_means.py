@@ -5,8 +5,8 @@ import pytest
 
 import tribodyn as td
 from tests.support.states import PAIR, WORK_DAMPING, WORK_FRICTION, WORK_IN
+from tribodyn.gears.motion.running import energy_residual
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears.over_time.running import energy_residual
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.states import PAIR, WORK_FRICTION, WORK_SLIDING
-from tribodyn.studies.gears.over_time.steady import friction_work_on_vibration, warning_of
+from tribodyn.gears.motion.steady import friction_work_on_vibration, warning_of
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

@@ -8,11 +8,11 @@ import pytest
 
 import tribodyn as td
 from tests.support.train_scenarios import case_of_table
+from tribodyn.cases.cost import GIB, refuse_large
 from tribodyn.errors import InputError
 from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.motion.estimate import estimate
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.protocol.cost import GIB, refuse_large
 from tribodyn.train.schedule import schedule_of
 
 #: Pinion and wheel of every stage; no two on a shaft have a divisor.

@@ -15,8 +15,8 @@ from tribodyn.geometry.body import geometry_arrays
 from tribodyn.post.figures.panel import View
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.check import check
-from tribodyn.studies.motion.described.alike import between, together
 from tribodyn.studies.motion.described.carried import body_labels, mesh_labels, sets_of
+from tribodyn.studies.motion.described.mesh_groups import between, together
 from tribodyn.studies.motion.described.places import (
     contacts,
     gear_outlines,

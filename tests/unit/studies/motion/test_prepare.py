@@ -9,8 +9,8 @@ import pytest
 from tests.support.states import PAIR, PAIR_WITH_MOTOR, TURN_G
 from tribodyn.dynamics.approach import ELASTIC_LOAD
 from tribodyn.dynamics.energy import strain_energy
+from tribodyn.gears.tabulated import tables
 from tribodyn.mesh.cycle import polynomials
-from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.links.chain import NO_PLAY

@@ -10,8 +10,8 @@ import tomli_w
 from tests.support.train_scenarios import REDUCER, train_case
 from tests.support.turning_outlines import assert_teeth_touch
 from tribodyn.errors import InputError
+from tribodyn.gears.prepare import assembled
 from tribodyn.geometry.body import body_masses
-from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.motion.assembled import assemblies, body_inertias, table_numbers
 from tribodyn.studies.protocol.load import load_scenario
 

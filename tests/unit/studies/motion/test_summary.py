@@ -16,8 +16,8 @@ from tests.support.states import (
     WORK_PARAMETRIC,
     WORK_SLIDING,
 )
-from tribodyn.studies.gears.over_time.extremes import RECORDED, Extreme, RunningExtremes
-from tribodyn.studies.gears.over_time.running import energy_residual
+from tribodyn.gears.motion.extremes import RECORDED, Extreme, RunningExtremes
+from tribodyn.gears.motion.running import energy_residual
 from tribodyn.studies.motion.summary import concluded, steady_quantities
 
 SAMPLES, CYCLES, SPEED, PITCH, RADIUS = 50, 4, 100.0, 0.27, 0.07

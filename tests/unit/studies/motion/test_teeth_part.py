@@ -5,8 +5,8 @@ import math
 import pytest
 
 from tests.support.short_studies import short_case
+from tribodyn.gears.prepare import contact_quantities
 from tribodyn.record.reader import MESHES, Record
-from tribodyn.studies.gears.prepare import contact_quantities
 from tribodyn.studies.motion.report import verdict
 from tribodyn.studies.motion.run import run
 

@@ -180,7 +180,7 @@ def lives(checked: Any) -> list[dict[str, float]]:
 
 
 def test_bearings_of_drawn_shafts_have_the_lives_of_a_pair():
-    from tribodyn.studies.gears.usual import with_duty
+    from tribodyn.gears.plausibility import with_duty
 
     pair, train = (
         scenario_of(kind, keys)

@@ -6,16 +6,16 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from tribodyn.cases import cost
+from tribodyn.gears.by_standard import Quality
+from tribodyn.gears.case import GearCase, LubricatedCase, OiledCase
+from tribodyn.gears.prepare import with_chosen_laws
+from tribodyn.gears.rating.settings import RatingTable
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.input.quantity import NotNegative, Positive, Text, written
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.assessment.pair.unknowns import UnknownsTable
-from tribodyn.studies.gears.by_standard import Quality
-from tribodyn.studies.gears.case import GearCase, LubricatedCase, OiledCase
-from tribodyn.studies.gears.prepare import with_chosen_laws
-from tribodyn.studies.gears.rated.settings import RatingTable
-from tribodyn.studies.protocol import cost
 from tribodyn.tribology.law import AUTO, FrictionData
 
 _ALONG = ("roll_angle",)

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tribodyn.cases.assessed import ReportCurve
+from tribodyn.gears.rating.standard import ZERO_CELSIUS
 from tribodyn.post.figures.drawing import Drawing, single
 from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
-from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS
-from tribodyn.studies.protocol.part import ReportCurve
 
 
 def pictures(record: Record, curves: Sequence[ReportCurve]) -> Figure:

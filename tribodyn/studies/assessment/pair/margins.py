@@ -10,6 +10,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
+from tribodyn.gears.rating.capacity import Capacity, safeties, shorter_life
+from tribodyn.gears.rating.limits import judged, with_unlimited, worst
+from tribodyn.gears.rating.margins import Strength, bulk_of, flanks_of, oil_of
+from tribodyn.gears.rating.standard import (
+    ZERO_CELSIUS,
+    Standard,
+    by_point,
+    factors_by_name,
+    margins_by_standard,
+)
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.helix import curvature_share, pitch_slope, speed_share
 from tribodyn.geometry.path import kinematics
@@ -17,16 +27,6 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards import micropitting, scuffing
 from tribodyn.standards.micropitting import Films
 from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.gears.rated.capacity import Capacity, safeties, shorter_life
-from tribodyn.studies.gears.rated.limits import judged, with_unlimited, worst
-from tribodyn.studies.gears.rated.margins import Strength, bulk_of, flanks_of, oil_of
-from tribodyn.studies.gears.rated.standard import (
-    ZERO_CELSIUS,
-    Standard,
-    by_point,
-    factors_by_name,
-    margins_by_standard,
-)
 
 #: Half width of a Hertz contact over its radius from which it is none: at the pitch point of a cycloid.
 _WIDEST = 0.1

@@ -7,6 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.gears.rating.rating_text import unit_of
+from tribodyn.gears.rating.sheet import COLUMNS, rating_rows
+from tribodyn.gears.rating.spectrum import spectrum_tables
+from tribodyn.gears.rating.standard import ZERO_CELSIUS
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
@@ -16,18 +20,14 @@ from tribodyn.quantities.catalogue import SPREAD, quantities, scatter
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
+from tribodyn.studies.assessment import first_page
+from tribodyn.studies.assessment.first_page import limits_table, listed, numbers_table
 from tribodyn.studies.assessment.pair import parts
 from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.assessment.pair.figures import pictures
-from tribodyn.studies.assessment.pair.holds import holds
+from tribodyn.studies.assessment.pair.limit_table import holds
 from tribodyn.studies.assessment.pair.report import verdict
 from tribodyn.studies.assessment.pair.run import check
-from tribodyn.studies.gears.rated import first_page
-from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
-from tribodyn.studies.gears.rated.said import unit_of
-from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
-from tribodyn.studies.gears.rated.spectrum import spectrum_tables
-from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS
 from tribodyn.studies.pages import loaded_again
 from tribodyn.studies.protocol import tasks
 

@@ -6,14 +6,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.cases.assessed import Contribution, Findings, Request, Task, TaskResult
+from tribodyn.gears.by_standard import base_pitch_deviation, running_in_of
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import reference_radius
 from tribodyn.geometry.families import family
 from tribodyn.studies import STUDIES
 from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.assessment.pair.unknowns import Draw, drawn
-from tribodyn.studies.gears.by_standard import base_pitch_deviation, running_in_of
-from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult
 from tribodyn.studies.protocol.study import Study
 from tribodyn.tribology.law import AUTO
 

@@ -4,10 +4,13 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from tribodyn.gears.rating.capacity import Capacity, safeties
+from tribodyn.gears.rating.standard import LoadFactors
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.studies.assessment.pair.beside import (
+from tribodyn.studies.assessment.pair.case import AssessmentCase
+from tribodyn.studies.assessment.pair.simulated_strength import (
     GivenFactors,
     LoadedTeeth,
     SimulatedStrength,
@@ -15,9 +18,6 @@ from tribodyn.studies.assessment.pair.beside import (
     loaded_teeth,
     strength_beside,
 )
-from tribodyn.studies.assessment.pair.case import AssessmentCase
-from tribodyn.studies.gears.rated.capacity import Capacity, safeties
-from tribodyn.studies.gears.rated.standard import LoadFactors
 
 #: By how much safeties part until the reason is given: 5 % of stress are a factor of 5 in a life.
 PARTED = 0.05

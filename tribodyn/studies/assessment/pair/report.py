@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from tribodyn.gears.rating.limits import on_limits
+from tribodyn.gears.rating.rating_text import sentences as sentences
 from tribodyn.post.verdict import numbers, outside, with_unit
 from tribodyn.quantities.catalogue import quantities, scatter_of
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears.rated.limits import on_limits
-from tribodyn.studies.gears.rated.said import sentences as sentences
 
 REPORTED: Reported = {
     "Geometry": quantities(

@@ -10,12 +10,28 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.assessed import TaskResult
+from tribodyn.cases.results import TextTable
+from tribodyn.gears.check import sheet_tables, with_oil
+from tribodyn.gears.plausibility import checks_gears
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.american import agma_part
+from tribodyn.gears.rating.bearings import bearing_part, shafts_of_pair
+from tribodyn.gears.rating.capacity import Capacity, capacity_of, life_bins, required
+from tribodyn.gears.rating.limits import not_judged
+from tribodyn.gears.rating.margins import strength_of
+from tribodyn.gears.rating.rating_text import numbered
+from tribodyn.gears.rating.sheet import COLUMNS, rating_rows
+from tribodyn.gears.rating.spectrum import spectrum_part, spectrum_tables
+from tribodyn.gears.rating.standard import Standard, iso_part, rated_duty, standard_of
+from tribodyn.gears.rating.strength import metal_remarks
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment.pair import parts
+from tribodyn.studies.assessment.pair.assessment_text import assumed, extrapolated
 from tribodyn.studies.assessment.pair.case import LAYOUT, AssessmentCase
 from tribodyn.studies.assessment.pair.margins import (
     LocalValues,
@@ -25,24 +41,9 @@ from tribodyn.studies.assessment.pair.margins import (
     simulated_part,
 )
 from tribodyn.studies.assessment.pair.reasons import compared
-from tribodyn.studies.assessment.pair.said import assumed, extrapolated
 from tribodyn.studies.assessment.pair.scatter import Conclusion, put_in, samples_of
-from tribodyn.studies.gears.check import sheet_tables, with_oil
-from tribodyn.studies.gears.drive_file import sheet_of
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.american import agma_part
-from tribodyn.studies.gears.rated.bearings import bearing_part, shafts_of_pair
-from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins, required
-from tribodyn.studies.gears.rated.limits import not_judged
-from tribodyn.studies.gears.rated.margins import strength_of
-from tribodyn.studies.gears.rated.said import numbered
-from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
-from tribodyn.studies.gears.rated.spectrum import spectrum_part, spectrum_tables
-from tribodyn.studies.gears.rated.standard import Standard, iso_part, rated_duty, standard_of
-from tribodyn.studies.gears.rated.strength import metal_remarks
+from tribodyn.studies.drive_file import sheet_of
 from tribodyn.studies.protocol import tasks
-from tribodyn.studies.protocol.part import TaskResult
-from tribodyn.studies.protocol.recording import TextTable
 from tribodyn.studies.protocol.scratch import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 
@@ -52,6 +53,7 @@ WITHOUT_UNIT, SPREAD_OF = ("limits", "limit_values", "samples"), "_spread"
 _PARTS = {"worst", "median", "pinion"}
 
 
+@checks_gears
 def check(case: AssessmentCase) -> CheckResult:
     """Check a case and what it asks of the other studies; say what gears and oil it describes."""
     assembly = assembled(case)

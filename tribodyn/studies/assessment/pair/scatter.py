@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.gears.rating.capacity import Capacity, safeties, shorter_life
+from tribodyn.gears.rating.limits import least, over_samples, worst
+from tribodyn.gears.rating.standard import Standard
 from tribodyn.quantities.catalogue import SPREAD, scatter
-from tribodyn.studies.assessment.pair.beside import SimulatedStrength
 from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.assessment.pair.margins import LocalValues
+from tribodyn.studies.assessment.pair.simulated_strength import SimulatedStrength
 from tribodyn.studies.assessment.pair.unknowns import Draw
-from tribodyn.studies.gears.rated.capacity import Capacity, safeties, shorter_life
-from tribodyn.studies.gears.rated.limits import least, over_samples, worst
-from tribodyn.studies.gears.rated.standard import Standard
 
 #: Quantity of the simulation -> its name by the standards.
 _NAMES = {"dynamic_factor": "K_v", "transverse_load_factor": "K_Halpha", "face_load_factor": "K_Hbeta"}

@@ -7,6 +7,18 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tribodyn.errors import InputError, unknown_name
+from tribodyn.gears.rating.american import broken_agma
+from tribodyn.gears.rating.capacity import required
+from tribodyn.gears.rating.limits import OilLimits, Pressure
+from tribodyn.gears.rating.settings import broken_strength_rules
+from tribodyn.gears.scenario import (
+    FaceSlices,
+    GearScenario,
+    Oil,
+    ShaftKeys,
+    broken_gear_rules,
+    gear_fields,
+)
 from tribodyn.geometry.families import family
 from tribodyn.input import units
 from tribodyn.input.fields import Temperature
@@ -20,18 +32,6 @@ from tribodyn.input.tables.model_files import MisalignmentTable
 from tribodyn.input.tables.quality import tolerances_of
 from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
 from tribodyn.studies.assessment.pair.unknowns import broken_unknowns
-from tribodyn.studies.gears.rated.american import broken_agma
-from tribodyn.studies.gears.rated.capacity import required
-from tribodyn.studies.gears.rated.limits import OilLimits, Pressure
-from tribodyn.studies.gears.rated.settings import broken_strength_rules
-from tribodyn.studies.gears.scenario import (
-    FaceSlices,
-    GearScenario,
-    Oil,
-    ShaftKeys,
-    broken_gear_rules,
-    gear_fields,
-)
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO
 

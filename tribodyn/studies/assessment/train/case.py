@@ -6,13 +6,13 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from tribodyn.cases import cost
+from tribodyn.cases.assessed import WholeDrive
+from tribodyn.gears.rating.settings import AtLeastOne, RatingTable
 from tribodyn.input.quantity import Positive, Text
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.studies.gears.rated.settings import AtLeastOne, RatingTable
-from tribodyn.studies.protocol import cost
 from tribodyn.studies.protocol.load import Loaded
-from tribodyn.studies.protocol.part import WholeDrive
 from tribodyn.studies.protocol.study import CaseHead
 
 SPEED = Variable(("input_speed",), "rad/s", "speed of the input, increasing; that of the duty is one of them")

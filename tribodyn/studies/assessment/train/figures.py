@@ -7,12 +7,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tribodyn.gears.rating.limits import SAFETIES, least
 from tribodyn.post.figures.drawing import Drawing, single
 from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.train.report import groups_of
-from tribodyn.studies.gears.rated.limits import SAFETIES, least
 
 _RPM = 30.0 / math.pi
 

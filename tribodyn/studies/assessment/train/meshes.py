@@ -4,22 +4,22 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from tribodyn.record.reader import MESHES
-from tribodyn.studies.assessment.train.case import TrainAssessmentCase
-from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import as_life, capacity_of, life_bins, required, shorter_life
-from tribodyn.studies.gears.rated.limits import SAFETIES, least, worst
-from tribodyn.studies.gears.rated.margins import strength_of
-from tribodyn.studies.gears.rated.said import numbered
-from tribodyn.studies.gears.rated.spectrum import spectrum_part
-from tribodyn.studies.gears.rated.standard import (
+from tribodyn.cases.assessed import MeshAtDuty
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.rating.capacity import as_life, capacity_of, life_bins, required, shorter_life
+from tribodyn.gears.rating.limits import SAFETIES, least, worst
+from tribodyn.gears.rating.margins import strength_of
+from tribodyn.gears.rating.rating_text import numbered
+from tribodyn.gears.rating.spectrum import spectrum_part
+from tribodyn.gears.rating.standard import (
     factors_by_name,
     iso_part,
     margins_by_standard,
     rated_duty,
     standard_of,
 )
-from tribodyn.studies.protocol.part import MeshAtDuty
+from tribodyn.record.reader import MESHES
+from tribodyn.studies.assessment.train.case import TrainAssessmentCase
 
 STAGES = "stages"
 #: Of the run at the duty, of each mesh.

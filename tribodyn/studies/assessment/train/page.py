@@ -6,12 +6,23 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from tribodyn.gears.rating.capacity import shorter_life
+from tribodyn.gears.rating.limits import LIMITS, SAFETIES, least, worst
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
 from tribodyn.post.page.page import table
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.assessment import first_page
+from tribodyn.studies.assessment.first_page import (
+    Judged,
+    holds_table,
+    judged_cell,
+    limits_table,
+    listed,
+    numbers_table,
+)
 from tribodyn.studies.assessment.train.case import TrainAssessmentCase
 from tribodyn.studies.assessment.train.report import (
     groups_of,
@@ -22,17 +33,6 @@ from tribodyn.studies.assessment.train.report import (
     verdict,
 )
 from tribodyn.studies.assessment.train.run import DUTY, tasks_of
-from tribodyn.studies.gears.rated import first_page
-from tribodyn.studies.gears.rated.capacity import shorter_life
-from tribodyn.studies.gears.rated.first_page import (
-    Judged,
-    holds_table,
-    judged_cell,
-    limits_table,
-    listed,
-    numbers_table,
-)
-from tribodyn.studies.gears.rated.limits import LIMITS, SAFETIES, least, worst
 from tribodyn.studies.pages import loaded_again, overview
 from tribodyn.studies.protocol import tasks
 

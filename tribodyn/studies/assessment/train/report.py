@@ -3,17 +3,17 @@
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from tribodyn.cases.results import TextTable
+from tribodyn.gears.rating.bearings import bearing_rows
+from tribodyn.gears.rating.capacity import shorter_life
+from tribodyn.gears.rating.limits import on_limits
+from tribodyn.gears.rating.rating_text import sentences as sentences
+from tribodyn.gears.rating.rating_text import unit_of
+from tribodyn.gears.rating.spectrum import spectrum_tables
 from tribodyn.post.verdict import numbers, with_unit
 from tribodyn.quantities.catalogue import QUANTITIES, quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
-from tribodyn.studies.gears.rated.bearings import bearing_rows
-from tribodyn.studies.gears.rated.capacity import shorter_life
-from tribodyn.studies.gears.rated.limits import on_limits
-from tribodyn.studies.gears.rated.said import sentences as sentences
-from tribodyn.studies.gears.rated.said import unit_of
-from tribodyn.studies.gears.rated.spectrum import spectrum_tables
-from tribodyn.studies.protocol.recording import TextTable
 
 REPORTED: Reported = {
     "Train": quantities("train_ratio", "input_speed", "power_in_mean", "power_friction_mean", "efficiency"),

@@ -10,18 +10,18 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.assessed import Task, TaskResult
+from tribodyn.gears.rating.bearings import bearing_part, bearing_remarks
+from tribodyn.gears.rating.limits import SAFETIES, judged, not_judged, with_unlimited
+from tribodyn.gears.rating.rating_text import factors_said, life_said, numbered, ring_said
+from tribodyn.gears.rating.strength import metal_remarks
 from tribodyn.post.report import EXCEEDED
 from tribodyn.post.verdict import outside
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
 from tribodyn.studies.assessment.train.case import LAYOUT, SAMPLES, TrainAssessmentCase
 from tribodyn.studies.assessment.train.meshes import STAGES, rated_mesh, spectra_of, worst_margins
-from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks
-from tribodyn.studies.gears.rated.limits import SAFETIES, judged, not_judged, with_unlimited
-from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered, ring_said
-from tribodyn.studies.gears.rated.strength import metal_remarks
 from tribodyn.studies.protocol import tasks
-from tribodyn.studies.protocol.part import Task, TaskResult
 from tribodyn.studies.protocol.scratch import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
 

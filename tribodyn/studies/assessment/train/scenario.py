@@ -8,12 +8,12 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, create_model
 
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.gears.rating.capacity import required
+from tribodyn.gears.rating.limits import OilLimits
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Positive, Table, scenario_file, written
 from tribodyn.studies import study_of
 from tribodyn.studies.assessment.train.case import TrainAssessmentCase, TrainRatingTable, of_mesh
-from tribodyn.studies.gears.rated.capacity import required
-from tribodyn.studies.gears.rated.limits import OilLimits
 from tribodyn.studies.protocol.load import broken_rules as rules_broken_by
 from tribodyn.studies.protocol.load import load_data, schema_inside
 from tribodyn.tribology.friction import FRICTION_LAWS

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases import cost
+from tribodyn.cases.cost import Estimate
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
@@ -27,8 +29,6 @@ from tribodyn.studies.motion.case import refuse_long_period
 from tribodyn.studies.motion.estimate import drivers_of, marching_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.report import swept_of
-from tribodyn.studies.protocol import cost
-from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Batch, Chunk
 from tribodyn.studies.sweeping.signals import SignalRequest
 

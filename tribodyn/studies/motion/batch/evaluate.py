@@ -14,19 +14,18 @@ import numpy as np
 from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.gears.motion.extremes import RunningExtremes
+from tribodyn.gears.motion.running import add_extremes, judge_run
+from tribodyn.gears.motion.sampled import sampled_with_extremes
+from tribodyn.gears.motion.steady import warning_of
+from tribodyn.gears.prepare import MOST_MOTIONS
+from tribodyn.gears.tabulated import TABLES_KEPT, MadeOnce
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, Judge, judge_tribology, number
 from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.solve.branch.gear_pairs import UnstableRange
 from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.solve.right_hand_side import engage_next
-from tribodyn.studies.gears.check import remarks_in_brief
-from tribodyn.studies.gears.over_time.extremes import RunningExtremes
-from tribodyn.studies.gears.over_time.running import add_extremes, judge_run
-from tribodyn.studies.gears.over_time.sampled import sampled_with_extremes
-from tribodyn.studies.gears.over_time.steady import warning_of
-from tribodyn.studies.gears.prepare import MOST_MOTIONS
-from tribodyn.studies.gears.tabulated import TABLES_KEPT, MadeOnce
 from tribodyn.studies.motion.batch.gearboxes import (
     REFERENCE,
     keys_of_tables,
@@ -249,7 +248,7 @@ def _fill(
         rows[name][i] = value
     warning = warning_of(quantities["friction_work_on_vibration"], prepared.pairs[0].friction.sliding)
     texts = [*jams(prepared), *remarks(trust | {"warning": warning})]
-    texts += remarks_in_brief(prepared.case.toml)
+    texts += prepared.case.remarks_in_brief()
     rows["message"][i] = remarked(rows["message"][i], *map(warned, texts))
     rows[TRUST][i] = number(trust)
     model, section = prepared.model, outcome.section

@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.gears.motion.extremes import RunningExtremes
+from tribodyn.gears.motion.sampled import Sampled
+from tribodyn.gears.shared_tables import table_key
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.studies.gears.over_time.extremes import RunningExtremes
-from tribodyn.studies.gears.over_time.sampled import Sampled
-from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
 from tribodyn.studies.motion.case import Gearbox, refuse_long_period
 from tribodyn.studies.motion.pair.case import Case
@@ -19,7 +19,7 @@ from tribodyn.studies.motion.planetary.frames import rolling_of
 from tribodyn.studies.motion.planetary.results import stage_quantities, worst_stage
 from tribodyn.studies.motion.prepare import PreparedGearbox, structure_of
 from tribodyn.studies.motion.summary import concluded, meshes_of_run, steady_quantities
-from tribodyn.studies.motion.warmth import at_own_temperatures
+from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
 
 #: The mesh whose transmission error a sweep samples.
 REFERENCE = 0

@@ -11,15 +11,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.cases import cost
+from tribodyn.cases.cost import Estimate
+from tribodyn.cases.results import CaseHead
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.gears.sensing.sensor_places import FEWEST
+from tribodyn.gears.sensing.sensor_signals import BLOCK, Heard, listen
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.sensors import Sensed
 from tribodyn.record.sweep_schema import CASE, DONE, FAILED, OF_EVERY_SWEEP, SweepLayout
 from tribodyn.record.withheld import remarked, warned
 from tribodyn.sensing.data import KINDS
-from tribodyn.studies.gears.check import remarks_in_brief
-from tribodyn.studies.gears.sensed.heard import BLOCK, Heard, listen
-from tribodyn.studies.gears.sensed.places import FEWEST
 from tribodyn.studies.motion.batch.gearboxes import MOST_STATES, keys_of_tables, pace_of
 from tribodyn.studies.motion.batch.stretch import (
     HeardStretch,
@@ -32,8 +34,6 @@ from tribodyn.studies.motion.batch.stretch import (
 from tribodyn.studies.motion.estimate import drivers_of, marching_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.sensed import listener_of
-from tribodyn.studies.protocol import cost
-from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Chunk
 from tribodyn.studies.sweeping.signals import SignalRequest
 
@@ -209,7 +209,7 @@ class SignalBatch:
             operation = ready[i].model.operation
             shaft = float(operation.nominal_speed) / (2.0 * pi)
             rows["line_frequency"][i] = [line.order * shaft for line in sensed.lines]
-            _fill(rows, i, sensed, stretches[i].start, settings, chunk.cases[i].toml)
+            _fill(rows, i, sensed, stretches[i].start, settings, chunk.cases[i])
         return rows
 
     def heard(
@@ -293,7 +293,7 @@ def _angle_name(settings: SignalSettings, rate: float) -> str:
 
 
 def _fill(
-    rows: dict[str, Any], i: int, sensed: Sensed, start: float, settings: SignalSettings, toml: str
+    rows: dict[str, Any], i: int, sensed: Sensed, start: float, settings: SignalSettings, case: CaseHead
 ) -> None:
     """Put the signals of a case into its row."""
     for signal in sensed.signals:
@@ -312,7 +312,7 @@ def _fill(
         rows[signal.name][i] = signal.values[part]
         rows[_angle_name(settings, signal.rate)][i] = signal.angle[part] - signal.angle[first]
     rows["start_time"][i] = start
-    rows["message"][i] = remarked(*map(warned, remarks_in_brief(toml)))
+    rows["message"][i] = remarked(*map(warned, case.remarks_in_brief()))
     rows["status"][i] = DONE
 
 

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.gears.sensing.sensor_signals import BLOCK
 from tribodyn.signals.resampling import REACH
-from tribodyn.studies.gears.sensed.heard import BLOCK
 from tribodyn.studies.motion.batch.gearboxes import Pace, pace_of
 from tribodyn.studies.sweeping.signals import SignalRequest
 

@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.cases.cost import variable_bytes
 from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_schema import WORD, SweepLayout
 from tribodyn.solve.orbit.motions import MAX_PERIOD
-from tribodyn.studies.protocol.cost import variable_bytes
 from tribodyn.studies.sweeping import branches
 
 #: `stable`, where the linearised motion was not looked at.

@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.numerics.shapes import Array, Int
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.described.alike import together
+from tribodyn.studies.motion.described.mesh_groups import together
 
 
 class CarriedSet(NamedTuple):

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError, quoted
 from tribodyn.input.tables.duty import given_twice
 from tribodyn.studies.motion.case import LoadData
-from tribodyn.studies.motion.described.drawn import Moving, ends_of
 from tribodyn.studies.motion.described.duty_tables import LoadTable, TrainOperating
+from tribodyn.studies.motion.described.placed_train import Moving, ends_of
 from tribodyn.train.statics import Torques, nominal_torques
 
 _SPEEDS, _LOADS = ("input_speed", "output_speed"), ("output_torque", "input_torque", "power")

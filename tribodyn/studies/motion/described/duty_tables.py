@@ -5,10 +5,10 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator, Field
 
 from tribodyn.errors import quoted
+from tribodyn.gears.motion.settings import MOST_HARMONICS, TorqueHarmonic
 from tribodyn.input import fields, quantity
 from tribodyn.input.quantity import Positive, Table, Text, Weighed, csv_file, written
 from tribodyn.input.tables.duty import MOST_DUTIES, Power, Speed
-from tribodyn.studies.gears.motion import MOST_HARMONICS, TorqueHarmonic
 
 
 def _one_place(value: Any) -> Any:

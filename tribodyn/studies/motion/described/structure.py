@@ -11,12 +11,12 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+from tribodyn.gears.motion.settings import Mesh
 from tribodyn.geometry.families import family
 from tribodyn.input.quantity import Printed
 from tribodyn.input.tables.bearings import Bearing
 from tribodyn.input.tables.drive_data import drive_of
 from tribodyn.input.tables.model_files import DriveTable, Gear
-from tribodyn.studies.gears.motion import Mesh
 from tribodyn.studies.motion.described.tables import (
     GROUND,
     BareMesh,

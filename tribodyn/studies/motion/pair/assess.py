@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.cases.assessed import Contribution, Findings, ReportCurve, Request, Task, TaskResult
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion import PAIR as STUDY
-from tribodyn.studies.protocol.part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
 
 _TASK, _SAMPLES, _AT_DUTY = "steady-states", "steady-states-samples", "steady-duty"
 #: Mesh cycles until the motion at the duty counts as steady, and samples of each, for vibrations of some ten

@@ -5,10 +5,10 @@ from fractions import Fraction
 from math import nan, pi
 
 from tribodyn.dynamics.data import BearingData
+from tribodyn.gears.case import LubricatedCase, OutputData
 from tribodyn.geometry.drive import SIDES, internal_side
 from tribodyn.sensing.data import HousingData, SensorData
 from tribodyn.solve.methods import SolverData
-from tribodyn.studies.gears.case import LubricatedCase, OutputData
 from tribodyn.studies.motion.case import (
     HOUSING,
     BodyData,

@@ -4,9 +4,9 @@ import numpy as np
 
 from tribodyn.dynamics.outputs import IN_SPACE_NAMES, evaluated
 from tribodyn.dynamics.parameters import Model
+from tribodyn.gears.motion.recorded import OF_SLICES, SAMPLES
+from tribodyn.gears.motion.sampled import Sampled, sampled
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.studies.gears.over_time.recorded import OF_SLICES, SAMPLES
-from tribodyn.studies.gears.over_time.sampled import Sampled, sampled
 
 #: Bodies of the pair, and its only mesh.
 PINION, GEAR, MESH = 0, 1, 0

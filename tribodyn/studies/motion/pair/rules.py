@@ -3,19 +3,19 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError
-from tribodyn.input.tables.drive_data import gives_backlash
-from tribodyn.input.tables.duty import broken_duty_rules, duty_of
-from tribodyn.input.tables.internal_gear import driving_internal
-from tribodyn.input.tables.sensors import broken_sensor_rules
-from tribodyn.studies.gears.damage_rules import broken_damage
-from tribodyn.studies.gears.motion import (
+from tribodyn.gears.damage_rules import broken_damage
+from tribodyn.gears.motion.settings import (
     broken_flank_rules,
     broken_mesh_rules,
     broken_output_rules,
     broken_solver_rules,
     broken_source_rules,
 )
-from tribodyn.studies.gears.scenario import broken_gear_rules
+from tribodyn.gears.scenario import broken_gear_rules
+from tribodyn.input.tables.drive_data import gives_backlash
+from tribodyn.input.tables.duty import broken_duty_rules, duty_of
+from tribodyn.input.tables.internal_gear import driving_internal
+from tribodyn.input.tables.sensors import broken_sensor_rules
 from tribodyn.studies.motion.pair.scenario import Scenario, gears_of_pair
 
 

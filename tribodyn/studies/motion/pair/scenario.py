@@ -10,15 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.geometry.drive import SIDES
-from tribodyn.input import fields
-from tribodyn.input.quantity import csv_file, model_file, written
-from tribodyn.input.tables.bearings import Bearings
-from tribodyn.input.tables.damage import Damages, GearPlace, damage_of
-from tribodyn.input.tables.duty import DutyTable, OiledOperatingTable, duty_of
-from tribodyn.input.tables.own_teeth import own_teeth_of, with_own_teeth
-from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
-from tribodyn.studies.gears.motion import (
+from tribodyn.gears.motion.settings import (
     MOST_HARMONICS,
     Friction,
     Mesh,
@@ -29,8 +21,8 @@ from tribodyn.studies.gears.motion import (
     output_data,
     solver_data,
 )
-from tribodyn.studies.gears.prepare import with_chosen_laws
-from tribodyn.studies.gears.scenario import (
+from tribodyn.gears.prepare import with_chosen_laws
+from tribodyn.gears.scenario import (
     FilmKeys,
     GearScenario,
     LossKeys,
@@ -40,7 +32,15 @@ from tribodyn.studies.gears.scenario import (
     gear_fields,
     oil_fields,
 )
-from tribodyn.studies.gears.supports import bearings_of
+from tribodyn.gears.supports import bearings_of
+from tribodyn.geometry.drive import SIDES
+from tribodyn.input import fields
+from tribodyn.input.quantity import csv_file, model_file, written
+from tribodyn.input.tables.bearings import Bearings
+from tribodyn.input.tables.damage import Damages, GearPlace, damage_of
+from tribodyn.input.tables.duty import DutyTable, OiledOperatingTable, duty_of
+from tribodyn.input.tables.own_teeth import own_teeth_of, with_own_teeth
+from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
 from tribodyn.studies.motion.pair.case import Case
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.input.tables.bearings import bearing_of
 from tribodyn.studies.motion.case import HOUSING, LinkData, SetData
-from tribodyn.studies.motion.described.drawn import Drawn, Moving
+from tribodyn.studies.motion.described.placed_train import Drawn, Moving
 from tribodyn.studies.motion.planetary.described import SetPart, pin_offset
 from tribodyn.train.planetary import CARRIER
 

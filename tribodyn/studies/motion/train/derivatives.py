@@ -17,12 +17,12 @@ from tribodyn.derivatives.differentiable import Differentiable, check_keys
 from tribodyn.derivatives.numbers import numbers_of, unit_at
 from tribodyn.derivatives.quantities import ALSO, QUANTITIES
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.drive import SIDES
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.described.drawn import Moving, ends_of, key_in_train, moving
 from tribodyn.studies.motion.described.duty import torques_of
+from tribodyn.studies.motion.described.placed_train import Moving, ends_of, key_in_train, moving
 
 #: Quantities of the whole train, of the friction losses of all meshes.
 TOTALS = {

@@ -19,7 +19,7 @@ from tribodyn.input.tables.losses import (
     broken_formulas,
     drag_of,
 )
-from tribodyn.studies.motion.described.drawn import Moving
+from tribodyn.studies.motion.described.placed_train import Moving
 from tribodyn.studies.motion.described.tables import PartName
 from tribodyn.tribology.losses import LossData
 

@@ -5,7 +5,7 @@ from typing import Any
 from tribodyn.input.tables.damage import GearPlace, damage_of
 from tribodyn.input.tables.own_teeth import own_teeth_of
 from tribodyn.mesh.teeth.fields import CARRYING, OwnTeeth
-from tribodyn.studies.motion.described.drawn import Moving
+from tribodyn.studies.motion.described.placed_train import Moving
 
 
 def own_teeth(scenario: Any, train: Moving, mesh: int, view: Any) -> tuple[OwnTeeth, OwnTeeth]:

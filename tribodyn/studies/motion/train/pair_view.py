@@ -2,11 +2,11 @@
 
 from typing import Any, NamedTuple
 
+from tribodyn.gears.motion.settings import Friction, Mesh
+from tribodyn.gears.supports import GearSupports
 from tribodyn.input.tables.model_files import DriveTable
-from tribodyn.studies.gears.motion import Friction, Mesh
-from tribodyn.studies.gears.supports import GearSupports
-from tribodyn.studies.motion.described.drawn import Moving
 from tribodyn.studies.motion.described.duty_tables import TrainOperating
+from tribodyn.studies.motion.described.placed_train import Moving
 from tribodyn.studies.motion.described.structure import mesh_table
 
 

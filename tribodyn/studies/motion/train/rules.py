@@ -4,22 +4,22 @@ from collections.abc import Iterator
 from typing import Any
 
 from tribodyn.errors import InputError, InputErrors, quoted
-from tribodyn.input.tables.bearings import broken_bearing
-from tribodyn.input.tables.drive_data import gives_backlash
-from tribodyn.input.tables.duty import unnamed_duty
-from tribodyn.input.tables.sensors import broken_sensor_rules
-from tribodyn.studies.gears.damage_rules import broken_damage
-from tribodyn.studies.gears.motion import (
+from tribodyn.gears.damage_rules import broken_damage
+from tribodyn.gears.motion.settings import (
     broken_flank_rules,
     broken_mesh_rules,
     broken_output_rules,
     broken_solver_rules,
     broken_source_rules,
 )
-from tribodyn.studies.gears.scenario import broken_gear_rules
-from tribodyn.studies.motion.described.drawn import Moving, drawn, in_terms_of_train, moving
+from tribodyn.gears.scenario import broken_gear_rules
+from tribodyn.input.tables.bearings import broken_bearing
+from tribodyn.input.tables.drive_data import gives_backlash
+from tribodyn.input.tables.duty import unnamed_duty
+from tribodyn.input.tables.sensors import broken_sensor_rules
 from tribodyn.studies.motion.described.duty import broken_duty_rules, duty_of
 from tribodyn.studies.motion.described.names import broken_names, broken_sort
+from tribodyn.studies.motion.described.placed_train import Moving, drawn, in_terms_of_train, moving
 from tribodyn.studies.motion.described.tables import PlanetaryStage
 from tribodyn.studies.motion.train.losses import broken_losses
 from tribodyn.studies.motion.train.own_teeth import gears_of_train

@@ -6,6 +6,20 @@ from typing import Annotated, Any, Literal, cast
 from pydantic import Discriminator, Field, Tag
 
 from tribodyn.dynamics.data import OperatingData
+from tribodyn.gears.by_standard import quality_of
+from tribodyn.gears.case import LubricatedCase, with_chosen
+from tribodyn.gears.motion.settings import (
+    Friction,
+    Mesh,
+    Output,
+    Solver,
+    moving_mesh_of,
+    output_data,
+    solver_data,
+)
+from tribodyn.gears.prepare import with_chosen_laws
+from tribodyn.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
+from tribodyn.gears.supports import GearSupport
 from tribodyn.geometry.drive import SIDES, BodyMass
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Count, csv_tables, model_file, written
@@ -24,20 +38,6 @@ from tribodyn.input.tables.model_files import (
 from tribodyn.input.tables.own_teeth import with_own_teeth
 from tribodyn.input.tables.quality import grade_of, tolerances_of
 from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
-from tribodyn.studies.gears.by_standard import quality_of
-from tribodyn.studies.gears.case import LubricatedCase, with_chosen
-from tribodyn.studies.gears.motion import (
-    Friction,
-    Mesh,
-    Output,
-    Solver,
-    moving_mesh_of,
-    output_data,
-    solver_data,
-)
-from tribodyn.studies.gears.prepare import with_chosen_laws
-from tribodyn.studies.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
-from tribodyn.studies.gears.supports import GearSupport
 from tribodyn.studies.motion.case import (
     HOUSING,
     BodyData,
@@ -47,9 +47,9 @@ from tribodyn.studies.motion.case import (
     SourceData,
     TrainMesh,
 )
-from tribodyn.studies.motion.described.drawn import Drawn, Moving, drawn, moving
 from tribodyn.studies.motion.described.duty import TrainDuty, duty_of, motor_torque
 from tribodyn.studies.motion.described.duty_tables import LoadTable, TrainOperating, TrainSpectrumDuty
+from tribodyn.studies.motion.described.placed_train import Drawn, Moving, drawn, moving
 from tribodyn.studies.motion.described.structure import bearings_by_body
 from tribodyn.studies.motion.described.tables import (
     MOST_PARTS,

@@ -10,10 +10,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.input.tables.bearings import bearing_of
-from tribodyn.input.tables.shafts import broken_shaft
-from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.gears.supports import (
+from tribodyn.gears.supports import (
     Five,
     GearSupport,
     GearSupports,
@@ -22,7 +19,10 @@ from tribodyn.studies.gears.supports import (
     mean_loads,
     misalignment_of,
 )
-from tribodyn.studies.motion.described.drawn import Drawn, Moving
+from tribodyn.input.tables.bearings import bearing_of
+from tribodyn.input.tables.shafts import broken_shaft
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.studies.motion.described.placed_train import Drawn, Moving
 from tribodyn.studies.motion.described.structure import bearings_by_body
 from tribodyn.studies.motion.described.tables import Shaft
 from tribodyn.train.positions import frame_of

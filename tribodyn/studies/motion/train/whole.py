@@ -4,16 +4,16 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any
 
+from tribodyn.cases.assessed import MeshAtDuty, Meshing, WholeDrive
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.gears.rating.bearings import TurningShaft
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.input.tables.model_files import DriveTable, Gear
-from tribodyn.studies.gears.rated.bearings import TurningShaft
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
-from tribodyn.studies.motion.described.alike import alike_of
+from tribodyn.studies.motion.described.mesh_groups import alike_of
 from tribodyn.studies.motion.planetary.results import meshes_of_member
 from tribodyn.studies.protocol.load import load_data
-from tribodyn.studies.protocol.part import MeshAtDuty, Meshing, WholeDrive
 from tribodyn.train.planetary import RING, SUN
 
 

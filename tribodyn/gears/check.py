@@ -1,0 +1,287 @@
+"""What is said of a case of gears: the geometry sheet, stiffness, oil, laws and a rounded centre distance."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tribodyn.cases.results import CheckResult, TextTable
+from tribodyn.gears.case import LubricatedCase, rounded_in
+from tribodyn.gears.prepare import PreparedGears
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import MaterialData
+from tribodyn.mesh.by_compliance import compliance_remark
+from tribodyn.mesh.quasi_static import single_pair
+from tribodyn.post.report import exceeded
+from tribodyn.post.verdict import IN_DOUBT
+from tribodyn.tribology.closure import (
+    duty_range,
+    exceeded_limits,
+    law_quantities,
+    laws_of,
+    nominal_line_load,
+)
+from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.high_pressure import contact_viscosity
+from tribodyn.tribology.law import Closure, FilmLaw, FrictionLaw
+from tribodyn.tribology.oil import (
+    GIVEN,
+    T_40,
+    T_100,
+    ZERO_CELSIUS,
+    LubricantData,
+    kinematic_viscosity,
+    oil_values,
+)
+from tribodyn.tribology.surface_state import range_shares
+
+
+def with_rounding(checked: CheckResult, toml: str) -> CheckResult:
+    """What `check` says, with how the centre distance of the scenario is rounded."""
+    rounded = rounded_in(toml)
+    if rounded is None:
+        return checked
+    lines = rounded.lines()
+    rows = [(name, f"{value:.6g} {unit}") for name, (value, unit) in lines.items()]
+    data = checked.data | {"geometry": checked.data["geometry"] | lines}
+    table = TextTable("Printed digits", ("quantity", "value"), rows)
+    return CheckResult(data, (*checked.tables, table), (*checked.remarks, rounded.remark()))
+
+
+#: Factor to the unit that is shown, and that unit, by SI unit.
+_SHOWN = {"Pa s": (1e3, "mPa s"), "1/Pa": (1e9, "1/GPa"), "1": (1.0, ""), "m2/s": (1e6, "mm2/s")}
+
+
+def oil_data(lubricant: LubricantData) -> dict[str, Any]:
+    """Return every number of a lubricant by name: `value` (SI), `unit`, `origin` and, where known, `spread`.
+
+    With a data sheet also `type`, `oil_temperature`, `temperature`, at which the numbers hold, K, and
+    `kinematic_viscosity`.
+    """
+    found: dict[str, Any] = {}
+    if (sheet := lubricant.sheet) is not None:
+        kinematic = kinematic_viscosity(sheet.viscosity_40, sheet.viscosity_100, lubricant.temperature)
+        found["type"] = sheet.type
+        warmer = lubricant.supply is not None
+        around = lubricant.supply if warmer else lubricant.temperature
+        origin = "operating.oil_temperature, or the network of [temperature]" if warmer else GIVEN
+        found["oil_temperature"] = {"value": around, "unit": "K", "origin": origin}
+        origin = "bulk temperature of the teeth" if warmer else "that of the oil"
+        found["temperature"] = {"value": lubricant.temperature, "unit": "K", "origin": origin}
+        found["kinematic_viscosity"] = {"value": kinematic, "unit": "m2/s", "origin": "ASTM D341"}
+    for name, number in oil_values(lubricant).items():
+        found[name] = {"value": float(number.value), "unit": number.unit, "origin": number.origin}
+        if number.spread is not None:
+            found[name]["spread"] = list(number.spread)
+    return found
+
+
+def oil_table(lubricant: LubricantData) -> TextTable:
+    """Return the same as a table."""
+    rows = []
+    for name, number in oil_data(lubricant).items():
+        if name in ("type", "oil_temperature", "temperature"):
+            continue
+        factor, unit = _SHOWN.get(number["unit"], (1.0, number["unit"]))
+        spread = " to ".join(f"{factor * end:.4g}" for end in number.get("spread", ()))
+        rows.append((name, f"{factor * number['value']:.4g}", unit, number["origin"], spread))
+    title = "Lubricant"
+    if (sheet := lubricant.sheet) is not None:
+        where = ", bulk temperature of the teeth" if lubricant.supply is not None else ""
+        title += f" ({sheet.type}) at {lubricant.temperature - ZERO_CELSIUS:.4g} °C{where}"
+    return TextTable(title, ("quantity", "value", "unit", "from", "spread"), rows)
+
+
+def oil_remarks(lubricant: LubricantData) -> list[str]:
+    """Say what is extrapolated beyond the data sheet's two temperatures, and a measured law's."""
+    if lubricant.sheet is None:
+        return []
+    measured = lubricant.sheet.law
+    found = [] if measured is None else contact_viscosity(lubricant).limits(0.0, lubricant.temperature)
+    if T_40 <= lubricant.temperature <= T_100:
+        return [*found]
+    return [
+        *found,
+        f"The oil at {lubricant.temperature - ZERO_CELSIUS:.4g} °C: viscosity extrapolated beyond the data "
+        "sheet's 40 to 100 °C by ASTM D341.",
+    ]
+
+
+#: Name of a law in messages, by what it is a law of.
+_NAMES = {"closure_exceeded": "film law", "friction_exceeded": "friction law"}
+
+
+_BY_BODIES = ("energy", "fem")
+_BODY_REMARKS = {
+    "free": 'mesh.body = "free": the stiffness has no wind-up of the gear bodies in it.',
+    "held": 'mesh.body = "held": the stiffness has the wind-up of the gear bodies against their bores in it.',
+}
+
+
+def check_gears(
+    prepared: PreparedGears[Any], closure: Closure | None = None, masses: Any = None
+) -> CheckResult:
+    """What `check` prints of gears whose mesh is tabulated, with the laws in use where there are any.
+
+    `masses`, (mass kg, inertia kg m²) of pinion and gear, stand in the sheet where they are given.
+    """
+    case, assembly = prepared.case, prepared.assembly
+    torque = case.operating.gear_torque
+    pair = single_pair(prepared.cycle, torque)
+    method = f'compliance = "{case.mesh.compliance}"'
+    remark = compliance_remark(assembly, case.materials, case.mesh)
+    checked = sheet_and_stiffness(assembly, case.materials, method, pair, masses, remark, torque)
+    checked = with_oil(checked, case.lubricant)
+    if case.mesh.compliance in _BY_BODIES:
+        checked = checked._replace(remarks=(*checked.remarks, _BODY_REMARKS[case.mesh.body]))
+    if prepared.slice_remark:
+        checked = checked._replace(remarks=(*checked.remarks, prepared.slice_remark))
+    return checked if closure is None else _with_laws(checked, case, closure)
+
+
+def with_oil(checked: CheckResult, lubricant: LubricantData) -> CheckResult:
+    """Return what `check` prints with the lubricant added, under the key `lubricant`."""
+    return checked._replace(
+        data={**checked.data, "lubricant": oil_data(lubricant)},
+        tables=(*checked.tables, oil_table(lubricant)),
+        remarks=(*checked.remarks, *oil_remarks(lubricant)),
+    )
+
+
+def _with_laws(checked: CheckResult, case: LubricatedCase, closure: Closure) -> CheckResult:
+    """Add the laws in use, why they were taken, and where the nominal duty leaves their ranges."""
+    outside = _exceeded(case, closure)
+    taken = zip(laws_of(case), (case.film.ratio, case.friction.ratio), strict=True)
+    rows = [(law.table, law.name, *_at_duty(law, outside, ratio)) for law, ratio in taken]
+    remarks = [remark for name, law in _NAMES.items() for remark in exceeded(outside, name, law)]
+    chosen = [f"{key} = {law}, {why}." for key, (law, why) in case.chosen().items()]
+    columns = ("", "law", "at this duty", "over the solved contact")
+    return checked._replace(
+        data={**checked.data, "laws": {**law_quantities(case), **outside}},
+        tables=(*checked.tables, TextTable("Laws", columns, rows)),
+        remarks=(*checked.remarks, *chosen, *remarks),
+    )
+
+
+def _at_duty(
+    law: FilmLaw | FrictionLaw, outside: dict[str, Any], ratio: tuple[float, float, float] | None
+) -> tuple[str, str]:
+    """Whether the duty is inside the range of a law, and how far it is from the solved contact.
+
+    `ratio` is that of contacts solved at the duty; None: there are none.
+    """
+    beyond = outside.get(f"{law.table}_outside", 0.0)
+    range = "inside its range" if law.limits else "no range stated"
+    if outside.get("closure_exceeded" if law.table == "film" else "friction_exceeded"):
+        range = "partly outside its range" if beyond < IN_DOUBT else "outside its range"
+    if ratio is not None:
+        return range, f"{ratio[0]:.2g} to {ratio[2]:.2g} at this duty"
+    if law.judged is None:
+        return range, "not compared"
+    low, _, high = (beyond >= IN_DOUBT and law.judged.outside) or law.judged.ratio
+    return range, f"{low:.2g} to {high:.2g} in nine of ten contacts"
+
+
+def _exceeded(case: LubricatedCase, closure: Closure) -> dict[str, Any]:
+    """Limits exceeded along the path by a pair that carries the whole torque alone, without vibration."""
+    if not case.operating.gear_torque or not case.operating.pinion_speed:
+        return {}
+    duty = duty_range(case)
+    entrainment, curvature, ratio = np.array(duty.places).T
+    sliding = ratio * entrainment
+    speeds = entrainment + 0.5 * sliding, entrainment - 0.5 * sliding
+    contact = local_contact(nominal_line_load(duty), curvature, entrainment, sliding, *speeds)
+    return exceeded_limits(case, *range_shares(contact, closure))
+
+
+def sheet_and_stiffness(
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    method: str,
+    pair: tuple[float, float],
+    masses: Any = None,
+    remark: str = "",
+    gear_torque: float = 0.0,
+) -> CheckResult:
+    """The sheet of gears that were checked, and how stiff they are.
+
+    `pair` is the normal load of a single pair at the pitch point, N, and its stiffness at that load, N/m, by
+    a `method`, with a `remark` on it; `masses` are those of `check_gears`. With the torque on the gear, N m,
+    the sheet has the forces of helical teeth.
+    """
+    from tribodyn.geometry.sheet import geometry_sheet
+
+    normal_load, stiffness = pair
+    width = float(assembly.common_width)
+    per_width = {method: stiffness / width}
+    reference, tables, remarks = {}, [], [remark] if remark else []
+    if assembly.family.involute:
+        iso, table, remark_on_reference = _reference(assembly, materials, normal_load)
+        reference = {"iso_6336_1": iso}
+        per_width["ISO 6336-1 c', factors below"] = iso["single_pair"]
+        per_width["ISO 6336-1 c'_th, theory"] = iso["theoretical"]
+        tables.append(table)
+        remarks.append(remark_on_reference)
+    by = {name: {"per_width": value, "stiffness": value * width} for name, value in per_width.items()}
+    sheet = geometry_sheet(assembly, masses, gear_torque=gear_torque)
+    line_load = normal_load / width
+    table = TextTable(
+        f"Stiffness of a single pair at the pitch point, at {line_load * 1e-3:.0f} N/mm",
+        ("by", "N/(mm um)", "N/m"),
+        [
+            (name, f"{value['per_width'] * 1e-9:.2f}", f"{value['stiffness']:.4g}")
+            for name, value in by.items()
+        ],
+    )
+    about = {"line_load": line_load, "by": by, "remark": remark} | reference
+    data = {"geometry": sheet, "stiffness": about}
+    return CheckResult(data, (*sheet_tables(sheet), table, *tables), remarks)
+
+
+def _reference(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], normal_load: float
+) -> tuple[dict[str, Any], TextTable, str]:
+    """Reference stiffness by ISO 6336-1: data in SI units, their table, and what is to be said of them."""
+    from tribodyn.compliance.iso6336 import bodies_outside, outside, pair_of, reference_stiffness
+
+    pair = pair_of(assembly, materials, normal_load)
+    stiffness = reference_stiffness(pair)
+    limits = [*outside(pair), *bodies_outside(assembly)]
+    per_width = "N/(mm um)"
+    rows = [
+        ("c'_th, one pair, theory for steel", f"{stiffness.theoretical * 1e-9:.2f}", per_width),
+        ("C_M, correction from measurements", f"{stiffness.correction:g}", ""),
+        ("C_R, bodies: solid discs", f"{stiffness.blank:g}", ""),
+        ("C_B, rack", f"{stiffness.rack:.4g}", ""),
+        ("E/E_St", f"{stiffness.material:.4g}", ""),
+        (f"reduction at F_t/b = {pair.line_load * 1e-3:.0f} N/mm", f"{stiffness.load:.4g}", ""),
+        ("c', one pair", f"{stiffness.single_pair * 1e-9:.2f}", per_width),
+        ("c_gamma alpha, mean of the mesh", f"{stiffness.mesh * 1e-9:.2f}", per_width),
+        ("c_gamma beta, for the face load factor", f"{stiffness.mesh_face * 1e-9:.2f}", per_width),
+    ]
+    remark = "ISO 6336-1, method B, with K_A = 1"
+    remark += ", reduced below 100 N/mm" if stiffness.load < 1.0 else ""
+    remark += f", is outside its limits: {'; '.join(limits)}." if limits else ": inside its limits."
+    data = {**stiffness._asdict(), "line_load": pair.line_load, "outside": limits}
+    return data, TextTable("Reference stiffness by ISO 6336-1", ("factor", "value", "unit"), rows), remark
+
+
+def sheet_tables(sheet: dict[str, Any]) -> Sequence[TextTable]:
+    """Lay out the sheet of `tribodyn.geometry.sheet`: a table of the pair, one of the gears."""
+    bodies = {name: sheet[name] for name in ("pinion", "gear")}
+    pair = {name: value for name, value in sheet.items() if name not in bodies}
+    names = dict.fromkeys(name for body in bodies.values() for name in body)
+    rows = [
+        (name, *(with_unit(*body[name]) if name in body else "" for body in bodies.values()))
+        for name in names
+    ]
+    return (
+        TextTable("Pair", ("quantity", "value"), [(name, with_unit(*value)) for name, value in pair.items()]),
+        TextTable("Gears", ("quantity", *bodies), rows),
+    )
+
+
+def with_unit(value: Any, unit: str) -> str:
+    """Write a value with its unit."""
+    number = f"{value:.6g}" if isinstance(value, float) else str(value)
+    return f"{number} {unit}".strip()

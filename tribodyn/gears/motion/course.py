@@ -1,0 +1,107 @@
+"""How a run whose speed changes goes: where over its course forces and transmission error are largest.
+
+Means are of a few mesh cycles each, so that a torque which accelerates the load is no vibration.
+"""
+
+import math
+from operator import attrgetter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.gears.motion.sampled import Sampled
+from tribodyn.post.cycles import CHANGING, amplitude_spectrum
+
+#: Mesh cycles of the slowest mesh in a row at least: orders are told to a half.
+_CYCLES = 2.0
+
+
+class CourseRow(NamedTuple):
+    """A mesh over a few of its cycles."""
+
+    time: float  # s, in their middle
+    speed: float  # of the gear that drives the first mesh, rad/s
+    factor: float  # largest over mean force, NaN where the mean is none
+    order: float  # of the mesh, with the largest amplitude of the force
+    swing: float  # of the transmission error about its straight course, m, peak to peak
+    swing_order: float  # with its largest amplitude
+    apart: float  # share of the time without contact
+
+
+class RunCourse:
+    """Takes in blocks of samples and sums up every few cycles of the first mesh."""
+
+    def __init__(self, rates: list[float], samples: int, pitch_angle: float):
+        self._rates, self._samples, self._pitch = rates, samples, pitch_angle
+        self._cycles = math.ceil(_CYCLES / min(rates))
+        self._held: list[tuple[np.ndarray, ...]] = []
+        self.rows: list[list[CourseRow]] = [[] for _ in rates]
+
+    def add(self, block: Sampled) -> None:
+        """Take in the next samples."""
+        first, count, size = 0, len(block.cycles), self._cycles * self._samples
+        while first < count:
+            last = min(count, first + size + 1 - sum(len(part[0]) for part in self._held))
+            self._held.append(_taken(block, slice(first, last)))
+            first = last
+            if sum(len(part[0]) for part in self._held) == size + 1:
+                self._conclude()
+
+    def _conclude(self) -> None:
+        time, torque, error, touching = map(np.concatenate, zip(*self._held, strict=True))
+        self._held = [(time[-1:], torque[-1:], error[-1:], touching[-1:])]  # which begins the next row
+        speed = self._cycles * self._pitch / float(time[-1] - time[0])
+        at = float(time[0] + time[-1]) / 2.0
+        along = np.linspace(0.0, 1.0, len(time))
+        for m, rate in enumerate(self._rates):
+            load = torque[:-1, m]
+            mean = float(np.mean(load))
+            largest = float(np.max(load * np.sign(mean))) / abs(mean) if mean else math.nan
+            # about the straight course from the first sample to that which closes the cycles
+            shaking, swinging = (
+                (values - along * (values[-1] - values[0]))[:-1] for values in (torque[:, m], error[:, m])
+            )
+            orders = (self._order(values) / rate for values in (shaking, swinging))
+            lost = 1.0 - float(np.mean(touching[:-1, m]))
+            self.rows[m].append(
+                CourseRow(at, speed, largest, next(orders), float(np.ptp(swinging)), next(orders), lost)
+            )
+
+    def _order(self, values: np.ndarray) -> float:
+        """Order of the first mesh with the largest amplitude."""
+        found = amplitude_spectrum(values, self._samples)
+        return float(found.orders[1:][np.argmax(found.amplitudes[1:])])
+
+    def summary(self, m: int) -> dict[str, Any]:
+        """What is said of a mesh: ends, and where it is largest; nothing of a run at one speed."""
+        rows = self.rows[m]
+        speeds = [row.speed for row in rows]
+        if len(rows) < 2 or max(speeds) - min(speeds) < CHANGING * max(map(abs, speeds)):
+            return {}
+        found: dict[str, Any] = {"first_speed": speeds[0], "last_speed": speeds[-1]}
+        swings = "transmission_error_peak_to_peak"
+        for name, field, order in (("dynamic_factor", "factor", "order"), (swings, "swing", "swing_order")):
+            known = [row for row in rows if math.isfinite(getattr(row, field))]
+            if known:
+                row = max(known, key=attrgetter(field))
+                found[name] = {"value": getattr(row, field), **_place(row), "order": getattr(row, order)}
+        apart = [row for row in rows if row.apart > 0.0]
+        if apart:
+            row = max(apart, key=lambda row: row.apart)
+            found["contact_loss_fraction"] = {"value": row.apart, **_place(row)}
+        return {"course": found}
+
+
+def _place(row: CourseRow) -> dict[str, float]:
+    return {"time": row.time, "speed": row.speed}
+
+
+def _taken(block: Sampled, part: slice) -> tuple[np.ndarray, ...]:
+    """Time, and of every mesh torque on the driven gear, transmission error and whether it touches."""
+    meshes = block.meshes
+    return (
+        block.whole["time"][part],
+        np.stack([mesh["driven_torque"][part] for mesh in meshes], axis=-1),
+        np.stack([mesh["transmission_error_rotational"][part] for mesh in meshes], axis=-1),
+        np.stack([np.any(mesh["normal_load"][part] > 0.0, axis=1) for mesh in meshes], axis=-1),
+    )

@@ -1,0 +1,270 @@
+"""Tables of scenarios that run gears over time: mesh, friction, solver, output, what drives; their rules."""
+
+from collections.abc import Iterator
+from math import ceil
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from tribodyn.compliance.foundation import Foundation
+from tribodyn.errors import InputError, unknown_name
+from tribodyn.gears.case import OutputData
+from tribodyn.gears.scenario import (
+    FaceSlices,
+    FoundationCoupling,
+    GearBodySupport,
+    SampleNumber,
+    SliceCoupling,
+    broken_stiffness_rules,
+    mesh_of,
+)
+from tribodyn.input import fields, units
+from tribodyn.input.quantity import (
+    Count,
+    InUnit,
+    Names,
+    NotNegative,
+    Positive,
+    Table,
+    Text,
+    csv_file,
+    written,
+)
+from tribodyn.input.tables.bearings import Stiffness
+from tribodyn.input.tables.drive_data import backlash_of
+from tribodyn.input.tables.laws import FrictionTable
+from tribodyn.input.tables.model_files import MisalignmentTable
+from tribodyn.input.tables.own_teeth import ToothSampleNumber
+from tribodyn.mesh.table import MeshData
+from tribodyn.solve.methods import AUTO, SOLVERS, SolverData
+
+#: Cosines in a load or an error: a curve is given by points.
+MOST_HARMONICS = 1000
+
+Smoothing = Annotated[float, InUnit(units.positive(units.LENGTH), "0.1 um")]
+
+
+class TorqueHarmonic(Table):
+    """A cosine in the load torque."""
+
+    amplitude: fields.Torque
+    frequency: Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY))]
+    phase: fields.Angle = written("0 deg")
+
+
+class ErrorHarmonic(Table):
+    """A cosine in the static transmission error, over the mesh cycle."""
+
+    order: Count = Field(description="1: mesh frequency, 2: twice that, …")
+    amplitude: fields.Error
+    phase: fields.Angle = written("0 deg")
+
+
+class TransmissionError(Table):
+    """Static transmission error e of a pair, positive where material is missing."""
+
+    harmonics: tuple[ErrorHarmonic, ...] = Field((), max_length=MOST_HARMONICS)
+    table: Annotated[fields.ErrorCurve, csv_file("roll_angle", "error")] | None = None
+
+
+class Mesh(Table):
+    """How the teeth in contact deflect, damp, separate and err."""
+
+    damping_ratio: NotNegative
+    compliance: Literal["energy", "fem", "constant", "table"] = "energy"
+    hertz: Literal["linear", "load-dependent"] = Field(
+        "linear", description="contact part of the energy method's compliance"
+    )
+    foundation: Foundation = Field(
+        "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
+    )
+    foundation_coupling: FoundationCoupling = True
+    body: GearBodySupport = "free"
+    stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
+    table: Annotated[fields.StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = Field(
+        None, description='of a single pair, with compliance = "table"'
+    )
+    formulation: Literal["classical", "energy-consistent"] = Field(
+        "classical", description="whether the varying stiffness acts on the rotations"
+    )
+    contact_width: Smoothing = written("0.1 um", description="deflection over which contact sets in")
+    backlash: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.1 mm")] | None = Field(
+        None, description="normal backlash at the pitch point; default: the drive's, see there"
+    )
+    points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
+    transmission_error: TransmissionError = written({})
+    deviation_sample: SampleNumber = None
+    tooth_sample: ToothSampleNumber = None
+    misalignment: MisalignmentTable = written({})
+    slices: FaceSlices = None
+    slice_coupling: SliceCoupling = True
+
+
+class Friction(FrictionTable):
+    """Which law acts between the flanks, and the law's own keys."""
+
+    sliding: Literal["kinematic", "dynamic"] = Field(
+        "dynamic", description="sliding speed from nominal rotation or from the vibrating bodies"
+    )
+    reversal_width: Smoothing = written("20 um", description="along the path, over which friction turns at P")
+
+
+class Solver(Table):
+    """How the equations are solved."""
+
+    method: Annotated[Text, Names(SOLVERS)] = AUTO
+    rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
+    cycles: Count = Field(20, description="mesh cycles to run")
+    revolutions: Positive | None = Field(
+        None, description="of the gear that drives the first mesh; takes the place of cycles"
+    )
+    max_steps: Annotated[int, Field(strict=True, gt=0, le=10**9)] = Field(
+        1_000_000, description="steps allowed in one mesh cycle"
+    )
+    initial: Literal["static", "unloaded"] = Field("static", description="state at the start")
+
+
+class Output(Table):
+    """What is recorded."""
+
+    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
+    window: Literal["all"] | tuple[NotNegative, Positive] | None = Field(
+        None,
+        description="revolutions of the gear that drives the first mesh, from and to, of which samples are "
+        'kept, or "all"; default: all, with solver.revolutions the last one',
+    )
+
+
+def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
+    """Return what a scenario's `drive` and its table `mesh`, a `Mesh`, say of the mesh; see `mesh_of`."""
+    mesh, error = scenario.mesh, scenario.mesh.transmission_error
+    return mesh_of(
+        scenario,
+        error=error.table.in_si() if error.table else None,
+        table=mesh.table.in_si() if mesh.table else None,
+        error_harmonics=tuple((cosine.order, cosine.amplitude, cosine.phase) for cosine in error.harmonics),
+        backlash=backlash_of(scenario.drive, mesh.backlash),
+        tilting=True,
+        **own,
+    )
+
+
+def solver_data(solver: Solver, teeth: int) -> SolverData:
+    """Return what a table [solver] says; `teeth` are those of the gear that drives the first mesh."""
+    cycles = solver.cycles
+    if solver.revolutions is not None:
+        cycles = max(1, ceil(solver.revolutions * teeth - 1e-9))
+    given = solver.model_dump(include={"method", "rtol", "max_steps", "initial"})
+    return SolverData(cycles=cycles, **given)
+
+
+def output_data(output: Output, solver: Solver, teeth: int, *, differ: bool) -> OutputData:
+    """Return what a table [output] says; `differ`: whether teeth differ."""
+    cycles = solver_data(solver, teeth).cycles
+    window = output.window
+    if window is None and solver.revolutions is not None:
+        window = max(0.0, cycles / teeth - 1.0), cycles / teeth
+    kept = None
+    if isinstance(window, tuple):
+        first, last = (min(cycles, round(revolutions * teeth)) for revolutions in window)
+        kept = min(first, cycles - 1), max(last, first + 1)
+    by_revolution = differ or solver.revolutions is not None or output.window is not None
+    return OutputData(output.samples_per_cycle, kept, teeth if by_revolution else 0)
+
+
+def broken_output_rules(output: Output, solver: Solver, teeth: int) -> Iterator[InputError]:
+    """Go through what contradicts in a table [output]."""
+    if not isinstance(output.window, tuple):
+        return
+    first, last = output.window
+    whole = solver_data(solver, teeth).cycles / teeth
+    shown = f"{first:g} to {last:g} revolutions"
+    if last <= first:
+        yield InputError("output.window", shown, "ends before it begins", "write it like [9, 10]")
+    elif first >= whole:
+        rule = f"begins behind the end of the run, which has {whole:.4g} revolutions"
+        yield InputError(
+            "output.window", shown, rule, "choose an earlier one, or run longer: solver.revolutions"
+        )
+
+
+def broken_solver_rules(solver: Solver) -> Iterator[InputError]:
+    """Go through what contradicts in a table [solver]."""
+    if solver.method not in SOLVERS:
+        yield unknown_name("solver.method", solver.method, SOLVERS, "solver")
+
+
+def broken_source_rules(operating: Any, motor_torque: str) -> Iterator[InputError]:
+    """Go through what contradicts in how a drive is driven; `motor_torque` is the key of its torque."""
+    if operating.source == "speed":
+        of_motor = ("drive_inertia", "shaft_stiffness", "shaft_damping", "speed_regulation")
+        given = {name: getattr(operating, name) for name in of_motor}
+        for name, value in {motor_torque: operating.motor_torque, **given}.items():
+            if value:
+                yield InputError(
+                    f"operating.{name}",
+                    f"{value:g} (SI)",
+                    'contradicts source = "speed": a prescribed rotation needs no motor',
+                    f'leave {name} out, or write source = "torque"',
+                )
+    elif operating.shaft_stiffness is None and operating.shaft_damping:
+        yield InputError(
+            "operating.shaft_damping",
+            f"{operating.shaft_damping:g} N*m*s/rad",
+            "a rigid shaft has no damping",
+            "add shaft_stiffness, or leave shaft_damping out",
+        )
+    elif operating.shaft_stiffness is not None and operating.drive_inertia == 0:
+        yield InputError(
+            "operating.drive_inertia",
+            "0 kg*m**2",
+            "a compliant shaft needs a motor with inertia at its end",
+            'add drive_inertia = "0.01 kg*m**2", or leave shaft_stiffness out',
+        )
+
+
+def broken_mesh_rules(mesh: Mesh) -> Iterator[InputError]:
+    """Go through what a table [mesh] lacks, or says twice, of its compliance and its error."""
+    yield from broken_stiffness_rules(mesh)
+    error = mesh.transmission_error
+    if error.harmonics and error.table is not None:
+        yield InputError(
+            "mesh.transmission_error.table",
+            rule="contradicts mesh.transmission_error.harmonics",
+            remedy="give the one or the other",
+        )
+
+
+def broken_flank_rules(key: str, torque: float, back_flanks: bool, mesh: Mesh) -> Iterator[InputError]:
+    """Refuse a load that no flank can carry, what it leaves without effect, and no load where one is needed.
+
+    `torque` (N m) on the driven gear is what stands at `key`; `back_flanks` says whether they can touch.
+    """
+    if torque <= 0 and not back_flanks:
+        yield InputError(
+            key,
+            f"{torque:g} N*m",
+            "must be greater than zero: without backlash only the driving flanks can carry load",
+            'write a torque such as "500 N*m", or add mesh.backlash',
+        )
+    for name in ("harmonics", "table"):
+        if torque < 0 and getattr(mesh.transmission_error, name):
+            yield InputError(
+                f"mesh.transmission_error.{name}",
+                rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
+                remedy="leave it out, or reverse the load",
+            )
+    if torque < 0 and mesh.deviation_sample is not None:
+        yield InputError(
+            "mesh.deviation_sample",
+            mesh.deviation_sample,
+            "is of the driving flanks, but under a load that drives the gear the back flanks carry",
+            "leave it out, or reverse the load",
+        )
+    if torque == 0 and back_flanks and mesh.compliance == "fem":
+        yield InputError(
+            key,
+            "0 N*m",
+            'contradicts compliance = "fem", which is taken at this load',
+            'write a torque such as "500 N*m", or use compliance = "energy"',
+        )

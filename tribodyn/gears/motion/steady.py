@@ -1,0 +1,185 @@
+"""Quantities of the last whole cycles of a run: of every mesh, and of the power through the train.
+
+Means are of the recorded samples and of integrated works; extremes of the dense motion, samples included.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.outputs import UNRECORDED
+from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.motion.extremes import WORKING, RunningExtremes
+from tribodyn.gears.prepare import PreparedGears
+from tribodyn.gears.tabulated import Tabulated
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.helix import overlap_ratio
+from tribodyn.mesh.by_compliance import compliance_remark
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.quasi_static import (
+    driving_gear,
+    efficiency,
+    power_put_in,
+    single_pair,
+)
+from tribodyn.post.cycles import Spectrum, amplitude_spectrum
+from tribodyn.train.structure import (
+    DAMPING,
+    FRICTION,
+    IN,
+    OUT,
+    SLIDING,
+    TrainLayout,
+    work_of,
+    works_of_meshes,
+)
+from tribodyn.tribology.closure import exceeded_limits, law_quantities
+from tribodyn.tribology.surface_state import fraction_in_range
+
+#: Mesh orders whose amplitudes of the transmission error are in the summary: 1 to this.
+HARMONICS = 5
+#: Orders up to which the spectrum is in it.
+LAST_ORDER = 20.0
+#: Share of the loss that friction may give to the vibration before it is said.
+FEEDS = 0.01
+#: What that means, by `friction.sliding`.
+ABOUT_FEEDING = {
+    "kinematic": 'which kinematic sliding makes of nothing: use friction.sliding = "dynamic"',
+    "dynamic": "taken from the drive: a self-excited vibration",
+}
+
+
+def mesh_quantities(
+    window: Mapping[str, np.ndarray],
+    cycle: MeshCycle,
+    extremes: RunningExtremes,
+    force: float,
+    frequency: float,
+    samples: int,
+    rate: float = 1.0,
+) -> dict[str, Any]:
+    """Quantities of a mesh over the last whole cycles of a run.
+
+    Those of loads and of single pairs are of the working flanks: the back flanks where the gear drives.
+
+    Parameters
+    ----------
+    window : datasets of the mesh over these cycles, the last sample not included
+    extremes : of the motion in them
+    force : mean force along the pitch tangent, N; < 0 presses the back flanks
+    frequency : of the mesh, Hz
+    samples : of a reference cycle, of which the mesh has `rate` cycles
+    """
+    error = window["transmission_error_rotational"]
+    load = window["normal_load"]
+    friction = np.abs(window["friction_force"])
+    slid, loaded = np.sum(np.abs(window["sliding_loss"])), np.sum(window["sliding_load"])
+    touching = load > 0.0
+    found = amplitude_spectrum(error, samples)
+    spectrum = Spectrum(found.orders / rate, found.amplitudes)
+    stiffness = np.sum(window["tangent_stiffness"], axis=1)
+    # a load that is reversed on the mean has driving flanks to work on where there is no backlash
+    sign = -1.0 if force < 0.0 and np.any(cycle.pair_side < 0) else 1.0
+    # the last slot of either side holds a pair that is on the path of contact all the time
+    newest = window["transmission_error_normal"][:, np.flatnonzero(cycle.pair_side * sign > 0)[-1]]
+    flanks = WORKING[sign]
+    keep = spectrum.orders <= LAST_ORDER + 1e-9
+    return {
+        "mesh_frequency": frequency,
+        "transmission_error_mean": float(np.mean(error)),
+        "transmission_error_rms": float(np.std(error)),
+        "transmission_error_peak_to_peak": extremes.spread("transmission_error"),
+        "transmission_error_harmonics": spectrum.harmonics(HARMONICS),
+        "transmission_error_normal_mean": float(np.nanmean(newest))
+        if np.any(np.isfinite(newest))
+        else float("nan"),
+        "transmission_error_normal_peak_to_peak": extremes.spread(f"{flanks}transmission_error_normal"),
+        "dynamic_factor": extremes.by_name[f"{flanks}mesh_force_max"].value / abs(force)
+        if force != 0.0
+        else float("nan"),
+        "friction_coefficient_mean": float(slid / loaded) if loaded > 0 else float("nan"),
+        "friction_force_mean": np.mean(friction, axis=0),
+        "mesh_stiffness_mean": float(np.mean(stiffness)),
+        "mesh_stiffness_peak_to_peak": float(np.ptp(stiffness)),
+        **extremes.where("film_parameter_min", cycle),
+        "closure_in_range_fraction": fraction_in_range(window["closure_in_range"][touching]),
+        "friction_in_range_fraction": fraction_in_range(window["friction_in_range"][touching]),
+        "contact_loss_fraction": float(np.mean(~np.any(touching, axis=1))),
+        "spectrum_frequencies": spectrum.orders[keep] * frequency,
+        "spectrum_amplitudes": spectrum.amplitudes[keep],
+        **({"axial_force_mean": float(np.mean(window["axial_force"]))} if cycle.slices > 1 else {}),
+    }
+
+
+def at_rest(case: LubricatedCase, made: Tabulated | PreparedGears[Any]) -> dict[str, Any]:
+    """Quantities of a mesh that do not depend on its motion, and the laws in use."""
+    cycle, assembly = made.cycle, made.assembly
+    return {
+        "contact_ratio": float(cycle.contact_ratio),
+        **of_the_face(cycle, assembly, made.slice_remark),
+        **({} if case.mesh.backlash is None else {"normal_backlash": case.mesh.backlash}),
+        "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
+        "compliance_remark": compliance_remark(assembly, case.materials, case.mesh) or None,
+        **law_quantities(case),
+    }
+
+
+def of_the_face(cycle: MeshCycle, assembly: Assembly, remark: str) -> dict[str, Any]:
+    """What helical teeth have besides; nothing of spur gears."""
+    if not assembly.drive.helix_angle:
+        return {}
+    overlap = float(overlap_ratio(assembly))
+    return {
+        "overlap_ratio": overlap,
+        "total_contact_ratio": float(cycle.contact_ratio) + overlap,
+        "slices": cycle.slices,
+        "slice_remark": remark or None,
+    }
+
+
+def limits_in(window: Mapping[str, np.ndarray], case: LubricatedCase) -> dict[str, Any]:
+    """Limits of the laws that a mesh exceeds over a window, which has the shares of `UNRECORDED`."""
+    touching = window["normal_load"] > 0.0
+    loss = np.abs(window["friction_force"] * window["sliding_speed"])[touching]
+    film_shares, friction_shares = (window[name][touching] for name in UNRECORDED)
+    return exceeded_limits(case, film_shares, friction_shares, loss)
+
+
+def power_quantities(work: np.ndarray, duration: float, layout: TrainLayout) -> dict[str, Any]:
+    """Mean powers and the efficiency; `work` is the change of the state over whole cycles of `duration`, s.
+
+    Its works are integrated, so that no mean power depends on the sampling.
+    """
+    power_in, power_out, power_damping = (
+        float(work[work_of(layout, which)]) / duration for which in (IN, OUT, DAMPING)
+    )
+    power_friction = float(np.sum(work[works_of_meshes(layout, FRICTION)])) / duration
+    return {
+        "efficiency": float(efficiency(power_in, power_out, power_friction)),
+        "power_damping_mean": power_damping,
+        "friction_work_on_vibration": friction_work_on_vibration(work, layout),
+        "driving_gear": driving_gear(power_in, power_out),
+        "power_in_mean": float(power_put_in(power_in, power_out)),
+        "power_friction_mean": power_friction,
+    }
+
+
+def friction_work_on_vibration(work: np.ndarray, layout: TrainLayout) -> float | None:
+    """Work of friction on the vibration, as a share of the loss that the rotation alone has; > 0: fed.
+
+    What friction takes of the moving bodies, Σ F_f v_rel, is what it would take of rotation alone, Σ F_f v_s,
+    less what it gives to the vibration. None without friction. `work` is the change of the state over whole
+    mesh cycles.
+    """
+    nominal, taken = (float(np.sum(work[works_of_meshes(layout, which)])) for which in (SLIDING, FRICTION))
+    return (nominal - taken) / abs(nominal) if nominal != 0.0 else None
+
+
+def warning_of(share: float | None, sliding: str) -> str | None:
+    """Warn where the share of `friction_work_on_vibration` is above `FEEDS`; `sliding`: the case's."""
+    if share is None or not share > FEEDS:
+        return None
+    return (
+        f"friction feeds the vibration with more than {100 * FEEDS:g} % of its loss, {ABOUT_FEEDING[sliding]}"
+    )

@@ -1,0 +1,286 @@
+"""Which numbers of a case of gears lie outside what is usual.
+
+Nothing is refused here: a number outside the field's usual range is more often a slip, a wrong unit or a
+digit too many, than a gear.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from functools import wraps
+from math import isfinite
+from typing import Any, NamedTuple, TypeVar
+
+from tribodyn.cases.results import CaseHead, CheckResult, TextTable
+from tribodyn.gears.case import GearCase
+from tribodyn.gears.check import with_rounding
+from tribodyn.gears.duty import HERTZ, duty_lines, nominal_duty
+from tribodyn.gears.rating.bearings import bearing_part, bearing_rows, shafts_of_pair
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.drive import SIDES, body_of
+from tribodyn.geometry.families import family
+from tribodyn.tribology.oil import T_40, T_100, ZERO_CELSIUS, LubricantData
+
+AnyCase = TypeVar("AnyCase", bound=CaseHead)
+
+
+class UsualRange(NamedTuple):
+    """What is usual of a number: its ends in a unit, where they are from, and what lies beyond them."""
+
+    what: str
+    low: float
+    high: float
+    unit: str
+    source: str
+    beyond: str
+
+    @property
+    def ends(self) -> str:
+        """The range in words."""
+        if not isfinite(self.high):
+            return f"at least {self.low:g} {self.unit}".rstrip()
+        first = f"{self.low:g} to" if self.low else "at most"
+        return f"{first} {self.high:g} {self.unit}".rstrip()
+
+    def sentence(self, number: float) -> str:
+        """What to say of a number outside."""
+        given = f"{number:.4g} {self.unit}".rstrip()
+        return f"{self.what}: {given}; usual is {self.ends} ({self.source}). {self.beyond}"
+
+
+_SHEETS = "data sheets of gear oils"
+#: By the names of `_numbers`, in whose units the ends are.
+USUAL = {
+    "module": UsualRange("Module", 0.5, 70.0, "mm", "ISO 1328-1", "No tolerances are standardised beyond."),
+    "face_width": UsualRange(
+        "Face width over the pinion's pitch diameter",
+        0.0,
+        2.0,
+        "",
+        "AGMA 2001-D04",
+        "A wider pinion bends and twists, for which only a misalignment stands here.",
+    ),
+    "rim": UsualRange(
+        "Rim between bore and root over the tooth's height",
+        0.5,
+        math.inf,
+        "",
+        "ISO 6336-3",
+        "A thinner rim bends and breaks; the models take a body that holds its teeth.",
+    ),
+    "gear_ratio": UsualRange("Gear ratio", 0.1, 10.0, "", "practice of single stages", "Check the teeth."),
+    "contact_ratio": UsualRange(
+        "Contact ratio", 1.1, 2.5, "", "practice of spur gears", "Check tip diameters and centre distance."
+    ),
+    "pitch_line_speed": UsualRange(
+        "Pitch-line speed",
+        0.01,
+        60.0,
+        "m/s",
+        "practice of spur gears",
+        "Faster gears are helical; slower ones run without a film. Check the speed and its unit.",
+    ),
+    "specific_load": UsualRange(
+        "Tangential load of a pair over face width and module, F_t/(b m)",
+        0.0,
+        150.0,
+        "N/mm²",
+        "ISO 6336-3 and -5: about 4 times that at the root, case-hardened steel endures some 900 N/mm²",
+        "The teeth would break. Check torque or power.",
+    ),
+    "hertz_pressure": UsualRange(
+        HERTZ,
+        0.0,
+        2000.0,
+        "MPa",
+        "ISO 14635-1: 1841 MPa in FZG load stage 12",
+        "The flanks would yield or pit. Check torque or power.",
+    ),
+    "roughness": UsualRange(
+        "Mean roughness Ra of the flanks",
+        0.03,
+        6.3,
+        "um",
+        "superfinished to hobbed flanks",
+        "Film and asperity contact have no meaning there. Check the unit.",
+    ),
+    "roughness_over_module": UsualRange(
+        "Composite roughness over the module",
+        0.0,
+        0.01,
+        "",
+        "superfinished to hobbed flanks",
+        "Such flanks are not those of the tooth's shape.",
+    ),
+    "mesh_damping": UsualRange(
+        "Damping ratio of the mesh",
+        0.01,
+        0.2,
+        "",
+        "0.03 to 0.17 measured: Kasuba & Evans 1981",
+        "With more the gears hardly vibrate, with less resonances are sharper than any that were measured.",
+    ),
+    "bearing_damping": UsualRange(
+        "Damping ratio of a bearing",
+        0.001,
+        0.3,
+        "",
+        "lightly damped structures",
+        "With more the shafts hardly vibrate.",
+    ),
+    "bearing_stiffness": UsualRange(
+        "Stiffness of a bearing", 1.0, 1e4, "N/um", "rolling bearings on their shafts", "Check the unit."
+    ),
+    "viscosity_40": UsualRange(
+        "Kinematic viscosity at 40 °C", 5.0, 1650.0, "mm²/s", "ISO 3448, VG 5 to 1500", "Check the unit."
+    ),
+    "viscosity_slope": UsualRange(
+        "Slope of the viscosity over temperature (ASTM D341) from 40 to 100 °C",
+        1.8,
+        4.5,
+        "",
+        f"{_SHEETS}: 2 of polyglycols to 3.8 of mineral oils",
+        "A smaller slope means that the oil hardly thins. Check both viscosities.",
+    ),
+    "inlet_viscosity": UsualRange(
+        "Dynamic viscosity at the inlet",
+        1.0,
+        3000.0,
+        "mPa s",
+        f"{_SHEETS}, −10 to 130 °C",
+        "Check the unit and the oil's temperature.",
+    ),
+    "pressure_viscosity": UsualRange(
+        "Pressure-viscosity coefficient",
+        5.0,
+        45.0,
+        "1/GPa",
+        "Jones et al. 1975: esters to traction fluids",
+        "Check the unit.",
+    ),
+    "oil_density": UsualRange("Density of the oil", 750.0, 1250.0, "kg/m³", _SHEETS, "Check the unit."),
+    "oil_temperature": UsualRange(
+        "Oil temperature", -30.0, 130.0, "°C", _SHEETS, "Oils age fast above, and do not flow below."
+    ),
+    "youngs_modulus": UsualRange(
+        "Young's modulus", 60.0, 250.0, "GPa", "bronze to steel", "The models are those of metal gears."
+    ),
+    "material_density": UsualRange(
+        "Density of a gear's material", 2500.0, 9000.0, "kg/m³", "aluminium to bronze", "Check the unit."
+    ),
+    "friction_coefficient": UsualRange(
+        "Friction coefficient",
+        0.005,
+        0.2,
+        "",
+        "full film to boundary lubrication",
+        "Dry steel has 0.3 and more.",
+    ),
+    "relief": UsualRange(
+        "Relief or crowning over the module",
+        0.0,
+        0.04,
+        "",
+        "practice: 10 to 20 um per mm of module at most",
+        "More removes the contact where it acts. Check the unit.",
+    ),
+    "backlash": UsualRange(
+        "Backlash over the module", 0.0, 0.3, "", "DIN 3967: below 0.2 modules", "Check the unit."
+    ),
+}
+
+
+def checks_gears(check: Callable[[AnyCase], CheckResult]) -> Callable[[AnyCase], CheckResult]:
+    """A study's `check` that also says the duty of a pair of gears, what is unusual and what is rounded."""
+
+    @wraps(check)
+    def completed(case: AnyCase) -> CheckResult:
+        return with_duty(with_rounding(check(case), case.toml), case)
+
+    return completed
+
+
+def with_duty(checked: CheckResult, case: CaseHead) -> CheckResult:
+    """What `check` says, with the duty first and what is unusual; of a `GearCase`, others as they are."""
+    if not isinstance(case, GearCase):  # of another package's study
+        return checked
+    duty = nominal_duty(case, assemble(family(case.family), case.drive))
+    lines = duty_lines(duty)
+    rows = [(name, f"{_four_digits(value)} {unit}".strip()) for name, (value, unit) in lines.items()]
+    table = TextTable("Duty", ("quantity", "value"), rows)
+    unusual = unusual_values(case)
+    held = bearing_part(shafts_of_pair(case), getattr(case, "lubricant", None))
+    data = {"duty": lines, "unusual": unusual, **held} | checked.data
+    tables = [table]
+    if held:
+        tables.append(TextTable("Bearings", *bearing_rows(held["bearings"])))
+    return checked._replace(data=data, tables=(*tables, *checked.tables), warnings=tuple(unusual))
+
+
+def _four_digits(value: float) -> str:
+    return f"{value:#.4g}".removesuffix(".")
+
+
+def unusual_values(case: GearCase) -> list[str]:
+    """Say of each number of a case that lies outside the field's usual range what is usual, in a sentence."""
+    said: dict[str, None] = {}  # of both gears, or both bearings, once
+    outside: set[str] = set()
+    for name, number in _numbers(case):
+        usual = USUAL[name]
+        twice = name == "roughness_over_module" and "roughness" in outside
+        if isfinite(number) and not twice and not usual.low <= number <= usual.high:
+            outside.add(name)
+            said[usual.sentence(number)] = None
+    return list(said)
+
+
+def _numbers(case: Any) -> Iterator[tuple[str, float]]:
+    """Go through what is looked at: name in `USUAL`, value in its unit; not what is not given, or zero."""
+    drive, mesh = case.drive, case.mesh
+    assembly = assemble(family(case.family), drive)
+    duty, module = nominal_duty(case, assembly), float(drive.module)
+    yield "module", module * 1e3
+    yield "face_width", float(assembly.common_width) / abs(2.0 * float(assembly.path.pinion_pitch_radius))
+    yield "gear_ratio", abs(float(drive.gear.teeth) / float(drive.pinion.teeth))
+    yield "contact_ratio", duty.contact_ratio
+    for side in SIDES:
+        body = body_of(drive, side)
+        rim = float(assembly.tooth(side).root_radius) - float(body.bore_radius)
+        yield "rim", rim / (module * float(body.addendum + body.dedendum))
+        flank = getattr(mesh.modifications, side)
+        ends = flank.tip.amount, flank.root.amount, flank.lead.start, flank.lead.end, flank.lead.crowning
+        yield "relief", max(ends) / module
+    if duty.pitch_line_speed:
+        yield "pitch_line_speed", duty.pitch_line_speed
+    pairs = max(1, math.floor(duty.contact_ratio))  # that share the load everywhere
+    yield "specific_load", duty.line_load / (module * 1e3) / pairs
+    yield "hertz_pressure", duty.hertz_pressure
+    yield "roughness", case.mean_roughness * 1e6
+    yield "roughness_over_module", case.roughness / module
+    yield "backlash", (mesh.backlash or 0.0) / module
+    for table in (mesh, getattr(case, "settings", None)):
+        if ratio := getattr(table, "damping_ratio", 0.0):
+            yield "mesh_damping", ratio
+    for material in case.materials:
+        yield "youngs_modulus", material.youngs_modulus * 1e-9
+        yield "material_density", material.density
+    for bearing in getattr(case, "bearings", ()):
+        for axis in ("x", "y"):
+            yield "bearing_stiffness", getattr(bearing, f"stiffness_{axis}") * 1e-6
+            if ratio := getattr(bearing, f"damping_ratio_{axis}"):
+                yield "bearing_damping", ratio
+    if friction := getattr(case, "friction", None):
+        yield "friction_coefficient", float(friction.values.get("coefficient") or math.nan)
+    if oil := getattr(case, "lubricant", None):
+        yield from _of_oil(oil)
+
+
+def _of_oil(oil: LubricantData) -> Iterator[tuple[str, float]]:
+    if (sheet := oil.sheet) is not None:
+        thick, thin = (math.log10(1e6 * float(v) + 0.7) for v in (sheet.viscosity_40, sheet.viscosity_100))
+        yield "viscosity_40", 1e6 * float(sheet.viscosity_40)
+        slope = (math.log10(thick) - math.log10(thin)) / math.log10(T_100 / T_40)
+        yield "viscosity_slope", slope
+        yield "oil_temperature", float(oil.temperature) - ZERO_CELSIUS
+    yield "inlet_viscosity", 1e3 * oil.inlet_viscosity
+    yield "pressure_viscosity", 1e9 * oil.pressure_viscosity
+    yield "oil_density", oil.density

@@ -1,0 +1,277 @@
+"""What scenarios of gears have in common: keys of their tables, rules, and the fields of a case."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import fields
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field
+
+from tribodyn.compliance.foundation import Support
+from tribodyn.dynamics.data import OperatingData
+from tribodyn.errors import InputError
+from tribodyn.gears.by_standard import quality_of
+from tribodyn.gears.of_gearbox import Opened, with_pair
+from tribodyn.gears.supports import displaced, has_supports, supports_of
+from tribodyn.geometry.drive import SIDES
+from tribodyn.input.fields import Slices, head_of
+from tribodyn.input.quantity import Switch, model_file
+from tribodyn.input.tables.bearings import Bearings, broken_bearing_rules
+from tribodyn.input.tables.drive_data import masses_of, teeth_of
+from tribodyn.input.tables.drive_rules import (
+    Face,
+    broken_drive_rules,
+    broken_face_rules,
+    broken_part_rules,
+    broken_slice_rules,
+    modifications_of,
+    slices_of,
+)
+from tribodyn.input.tables.duty import SpectrumScenario, duty_of, unnamed_duty
+from tribodyn.input.tables.internal_gear import broken_internal_runs, internal_refused
+from tribodyn.input.tables.laws import FilmTable, film_of, law_values
+from tribodyn.input.tables.losses import (
+    LossesTable,
+    TemperatureTable,
+    broken_loss_rules,
+    broken_temperature_rules,
+    losses_of,
+    temperature_of,
+)
+from tribodyn.input.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
+from tribodyn.input.tables.model_files import DriveTable, GearboxTable, MisalignmentTable
+from tribodyn.input.tables.own_teeth import broken_own_teeth, teeth_alike
+from tribodyn.input.tables.quality import (
+    DeviationSample,
+    broken_sample_rules,
+    error_with_sample,
+    grade_of,
+    tolerances_of,
+    with_sample,
+)
+from tribodyn.input.tables.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
+from tribodyn.mesh.table import MeshData
+from tribodyn.tribology.law import AUTO, FilmData, FrictionData
+
+Oil = Annotated[Lubricant, model_file("lubricants")]
+TemperatureKeys = Annotated[TemperatureTable | None, Field(description="bulk temperature of the teeth")]
+LossKeys = Annotated[LossesTable | None, Field(description="load-independent losses")]
+ShaftKeys = Annotated[DrawnShafts | None, Field(description="shafts as drawn, on their bearings")]
+#: Of studies of the teeth alone, which read matrices of it.
+MatrixKeys = Annotated[
+    Bearings | None, model_file("bearings"), Field(description="matrices of shafts and bearings")
+]
+FilmKeys = Annotated[FilmTable | None, Field(description="which law gives the film")]
+FaceSlices = Annotated[
+    Slices | None,
+    BeforeValidator(lambda value: None if value == "auto" else value),
+    Field(
+        description='of the face; "auto", the default: of helical gears as many as 1 % of the transmission '
+        "error needs, else 21 where anything varies along the face, or 1"
+    ),
+]
+SliceCoupling = Annotated[Switch, Field(description="slices of one tooth hold each other")]
+FoundationCoupling = Annotated[Switch, Field(description="pairs that share a body share its foundation")]
+GearBodySupport = Annotated[
+    Support,
+    Field(
+        description="what a gear body's deflection counts from: the body's own mean motion, "
+        "or its bore, which is held"
+    ),
+]
+SampleNumber = Annotated[
+    DeviationSample | None,
+    Field(description="number of the sample of deviations drawn from the quality; default: none"),
+]
+
+#: Where a table [mesh] has no keys of misalignment, and neither does the drive's quality add any.
+_ALIGNED = MisalignmentTable(from_quality=0.0)
+
+
+class GearScenario(SpectrumScenario):
+    """A scenario of gears; each kind adds its tables."""
+
+    kind: Any
+    gearbox: GearboxTable | None = Field(
+        None, description="a mesh of a train, with its duty, in place of drive, and of other tables left out"
+    )
+    drive: Annotated[DriveTable, model_file("drives")]
+
+    @classmethod
+    def completed(cls, data: dict[str, Any], referring: Path, opened: Opened) -> dict[str, Any]:
+        """A scenario's data with the pair of gears of its `gearbox`, if any; see `of_gearbox.with_pair`."""
+        return with_pair(data, cls, referring, opened) if "gearbox" in data else data
+
+
+def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:
+    """Return the fields of a `GearCase` for a scenario that has passed schema and rules."""
+    drive = scenario.drive
+    gears = drive.pinion, drive.gear
+    duty = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth)
+    return {
+        **head_of(scenario, toml, sha256),
+        **teeth_of(drive),
+        "masses": masses_of(drive),
+        "operating": OperatingData("speed", *duty),
+        "mesh": mesh_of(scenario),
+        "supports": supports_of(scenario),
+        "quality": quality_of(
+            [grade_of(drive, gear) for gear in gears], tolerances_of(drive), drive.quality_edition
+        ),
+    }
+
+
+def oil_fields(scenario: Any) -> dict[str, Any]:
+    """Return the further fields of a `LubricatedCase`; tables that the kind does not have count as absent.
+
+    Where nothing is said of film and friction, the film law is the one nearest at the duty.
+    """
+    friction, film, found = getattr(scenario, "friction", None), getattr(scenario, "film", None), {}
+    if friction is not None:
+        own = {name: getattr(friction, name) for name in type(friction).model_fields if name != "law"}
+        found["friction"] = FrictionData(friction.law, law_values(friction), **own)
+    return found | {
+        "lubricant": lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
+        "film": FilmData(AUTO) if film is None and friction is None else film_of(film),
+        "temperature": temperature_of(getattr(scenario, "temperature", None)),
+        "losses": losses_of(getattr(scenario, "losses", None)),
+    }
+
+
+def mesh_of(
+    scenario: Any, *, every_tooth: bool = False, tilting: bool = False, error: Any = None, **own: Any
+) -> MeshData:
+    """Return what a scenario says of its mesh, by finite elements where it names no compliance.
+
+    Its table [mesh] may lack any key. `every_tooth` is for studies that know teeth that differ, `tilting` for
+    those whose helical gears tilt on their bearings by themselves; to `error`, a pair's transmission error
+    over roll angle (rad, m), a sample of deviations adds; `own` are fields of `MeshData` that are not plain
+    keys of the table. Drawn shafts add their misalignment to that of the scenario.
+    """
+    drive, mesh = scenario.drive, scenario.mesh
+    modifications = modifications_of(drive, getattr(mesh, "misalignment", _ALIGNED))
+    if _tilts_load_the_face(scenario):
+        own_tilts = tilting and bool(drive.helix_angle)
+        modifications = displaced(modifications, supports_of(scenario), own_tilts=own_tilts)
+    sample, slices = getattr(mesh, "deviation_sample", None), getattr(mesh, "slices", None)
+    if getattr(mesh, "compliance", "fem") == "fem":
+        modifications = with_sample(drive, modifications, sample, every_tooth=every_tooth, slices=slices)
+    else:
+        error = error_with_sample(drive, error, sample)
+    helical = bool(drive.helix_angle) and getattr(mesh, "compliance", "fem") == "fem"
+    given = {field.name for field in fields(MeshData)} & set(type(mesh).model_fields)
+    values = {"compliance": "fem", "damping_ratio": 0.0} | {name: getattr(mesh, name) for name in given}
+    values |= {"modifications": modifications, "slices": slices_of(slices, modifications, helical)}
+    return MeshData(**values | {"error_table": error} | own)
+
+
+def _tilts_load_the_face(scenario: Any) -> bool:
+    """Whether the load along the face follows the tilts of the gears; internal pairs are even along it."""
+    drive = scenario.drive
+    if drive.has_ring:
+        return False
+    return getattr(scenario.mesh, "compliance", "fem") == "fem" or bool(drive.helix_angle)
+
+
+#: Compliances that are given -> the key that gives them, and an example.
+_GIVEN = {
+    "constant": ("stiffness", '"2.8e8 N/m"'),
+    "table": ("table", '"stiffness.csv", columns roll_angle and stiffness'),
+}
+
+
+def broken_stiffness_rules(mesh: Any, choices: Iterable[str] = tuple(_GIVEN)) -> Iterator[InputError]:
+    """Go through what a table [mesh] lacks, or says twice, of a compliance that is given."""
+    for choice in choices:
+        name, example = _GIVEN[choice]
+        given = getattr(mesh, name) is not None
+        if mesh.compliance == choice and not given:
+            rule = f'missing: compliance = "{choice}" needs it'
+            yield InputError(f"mesh.{name}", rule=rule, remedy=f"add {name} = {example}")
+        if mesh.compliance != choice and given:
+            rule = f'contradicts compliance = "{mesh.compliance}"'
+            remedy = f'leave {name} out, or write compliance = "{choice}"'
+            yield InputError(f"mesh.{name}", rule=rule, remedy=remedy)
+
+
+def _broken_internal_face(scenario: Any) -> Iterator[InputError]:
+    """Refuse what varies along the face of an internal pair, whose teeth are not cut into slices."""
+    modifications = modifications_of(scenario.drive, getattr(scenario.mesh, "misalignment", _ALIGNED))
+    given = getattr(scenario.mesh, "slices", None)
+    if slices_of(given, modifications) > 1:
+        rule = (
+            "internal pairs are even along the face: no slices, and nothing modified or misaligned along it"
+        )
+        remedy = "leave out slices, misalignment, and the crowning and end relief of both gears"
+        yield InputError("mesh.slices", given, rule, remedy)
+
+
+def _broken_supports(scenario: Any) -> Iterator[InputError]:
+    """Go through the broken rules of shafts and bearings, where the kind has such tables."""
+    shafts, bearings = getattr(scenario, "shaft", None), getattr(scenario, "bearings", None)
+    if isinstance(bearings, Bearings):
+        yield from broken_bearing_rules(bearings, drawn_sides(shafts))
+    if isinstance(shafts, DrawnShafts):
+        yield from broken_shaft_rules(shafts, bearings)
+
+
+def broken_support_keys(scenario: Any) -> Iterator[InputError]:
+    """Refuse bearings and shafts of which a study of the teeth alone reads nothing."""
+    bearings = scenario.bearings
+    if bearings is not None and not any(getattr(getattr(bearings, side), "matrix", None) for side in SIDES):
+        rule = "has no effect: of bearings the teeth alone know the tilts, by a matrix"
+        remedy = "leave it out, or give [bearings.pinion] a matrix"
+        yield InputError("bearings", None, rule, remedy)
+    elif has_supports(scenario) and not _tilts_load_the_face(scenario):
+        teeth, remedy = "teeth of an internal pair", "leave it out"
+        if not scenario.drive.has_ring:
+            teeth = f'spur teeth with compliance = "{scenario.mesh.compliance}"'
+            remedy = 'write mesh.compliance = "fem", or leave it out'
+        key = "bearings" if bearings is not None else "shaft"
+        yield InputError(key, None, f"has no effect: {teeth} are loaded evenly along the face", remedy)
+
+
+def broken_gear_rules(
+    scenario: Any,
+    *,
+    every_duty: bool = False,
+    oil: bool = True,
+    internal: bool = False,
+    every_tooth: bool = False,
+) -> Iterator[InputError]:
+    """Go through the broken rules of drive, duty, oil, temperatures, losses and mesh.
+
+    Tables and keys that the scenario's kind does not have count as absent. `every_duty` says whether the
+    study runs all duties of a load spectrum at a time, `oil` whether the lubricant is looked at, `internal`
+    whether it knows internal gears, `every_tooth` whether teeth may differ.
+    """
+    drive, mesh, lubricant = scenario.drive, scenario.mesh, scenario.lubricant
+    if drive.has_ring:
+        if not internal:
+            yield internal_refused(drive)
+            return
+        yield from broken_internal_runs(scenario)
+        yield from _broken_internal_face(scenario)
+    yield from broken_drive_rules(drive)
+    if not every_duty:
+        yield from unnamed_duty(scenario)
+    if lubricant is not None:
+        if oil:
+            yield from broken_lubricant_rules(lubricant, scenario.operating.oil_temperature)
+        yield from broken_temperature_rules(getattr(scenario, "temperature", None), lubricant)
+    yield from broken_loss_rules(getattr(scenario, "losses", None))
+    yield from _broken_supports(scenario)
+    misalignment = getattr(mesh, "misalignment", _ALIGNED)
+    coupling = getattr(mesh, "slice_coupling", True)
+    face = Face(drive, misalignment, getattr(mesh, "slices", None), coupling, has_supports(scenario))
+    if (compliance := getattr(mesh, "compliance", None)) is None:
+        yield from broken_slice_rules(face)
+    else:
+        yield from broken_face_rules(face, compliance, every_tooth=every_tooth)
+    if every_tooth:
+        yield from broken_own_teeth(drive, mesh.tooth_sample)
+    else:
+        yield from teeth_alike(drive)
+    yield from broken_sample_rules(drive, getattr(mesh, "deviation_sample", None), misalignment)
+    if hasattr(mesh, "hertz"):
+        yield from broken_part_rules(mesh.hertz, mesh.foundation, mesh.compliance)

@@ -1,0 +1,91 @@
+"""What the geometry and elasticity of a pair of gears make of it: costly, and the same for every speed."""
+
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
+from functools import cache, lru_cache
+from typing import Any, NamedTuple
+
+from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.shared_tables import table_key
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
+from tribodyn.mesh.equilibrium import contacts, elastic, settled
+from tribodyn.mesh.quasi_static import friction_loss
+from tribodyn.train.schedule import Schedule, of_one_mesh
+from tribodyn.tribology.closure import closure_of
+
+
+class Tabulated(NamedTuple):
+    """A pair's tables."""
+
+    cycle: MeshCycle
+    table: Polynomials  # the same as the right-hand side reads it
+    schedule: Schedule  # when the set of contacting pairs changes
+    #: (mass kg, inertia kg m²); of pinion and gear alone
+    masses: tuple[tuple[float, float], tuple[float, float]]
+    assembly: Assembly
+    #: () -> the cycle of the driving flanks alone, in which a segment begins where friction turns; made at
+    #: the first call
+    split: Callable[[], MeshCycle]
+    slice_remark: str = ""  # why a helical pair has so many slices, where it was not told
+
+
+#: Tables kept in a process; a table is about 100 kB.
+TABLES_KEPT = 32
+
+
+@dataclass(frozen=True)
+class MadeOnce:
+    """A result that is made once: everything that it depends on, and how it is made."""
+
+    key: Hashable
+    make: Callable[[], Any] = field(compare=False)
+
+
+_kept = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
+
+
+def tables(case: LubricatedCase) -> Tabulated:
+    """Check the geometry and tabulate the mesh cycle; raises as `prepare` does.
+
+    The last tables of this process are kept: cases at another speed, with another oil, have the same.
+    """
+    return _kept(MadeOnce(table_key(case), lambda: _tabulated(case)))
+
+
+def _tabulated(case: LubricatedCase) -> Tabulated:
+    from tribodyn.geometry.body import body_masses
+    from tribodyn.mesh.by_compliance import mesh_cycle_of, with_slices
+
+    assembly = assembled(case)
+    back, torque = case.mesh.backlash is not None, case.operating.gear_torque
+    mesh, remark = with_slices(assembly, case.materials, case.mesh, torque)
+    cycle = mesh_cycle_of(assembly, case.materials, mesh, torque, back)
+    given = [(body.mass, body.inertia) for body in case.masses]
+    pinion, gear = body_masses(assembly, given, [material.density for material in case.materials])
+
+    @cache
+    def split() -> MeshCycle:
+        if assembly.drive.helix_angle and not back:
+            return cycle  # friction turns within slices, not at the ends of segments
+        turning = Assembly(assembly.family._replace(corner=True), assembly.drive)
+        return mesh_cycle_of(turning, case.materials, mesh, torque)
+
+    table = polynomials(cycle)
+    return Tabulated(cycle, table, of_one_mesh(table.boundary), (pinion, gear), assembly, split, remark)
+
+
+def quasi_static_loss(made: Tabulated) -> Callable[[LubricatedCase], float]:
+    """Return what gives the mean loss to tooth friction in slow rotation at the constant torque, W."""
+
+    def lost(case: LubricatedCase) -> float:
+        torque, speed = case.operating.gear_torque, case.operating.pinion_speed
+        if torque == 0.0:
+            return 0.0
+        cycle = made.split()
+        seen = contacts(cycle, torque, speed, closure_of(case))
+        found = settled(seen, elastic(cycle, torque))
+        return speed * float(friction_loss(cycle, found.normal_load, found.friction_coefficient))
+
+    return lost

@@ -1,0 +1,117 @@
+"""Temperatures of the meshes of a train: each by its own loss, in oil that all of them heat."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.prepare import CLOSE as CLOSE_TO
+from tribodyn.gears.prepare import Thermal, at_tooth_temperature
+from tribodyn.gears.tabulated import Tabulated, quasi_static_loss
+from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.families import family
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.tribology.losses import Loss
+
+#: Change of a mesh's loss, as a share of it, that is not worth another pass; passes at most.
+CLOSE, PASSES = 1e-3, 8
+
+Warm = tuple[LubricatedCase, Thermal | None]
+
+
+def at_tooth_temperatures(case: Gearbox, made: Sequence[Tabulated]) -> list[Warm]:
+    """The pair of every mesh with its oil at the temperature of its teeth, and the thermal state of each.
+
+    In a lumped network all meshes heat one oil and one housing; that heat and the losses settle together.
+    """
+    return _settled(case, [each.assembly for each in made], [quasi_static_loss(each) for each in made])
+
+
+def at_own_temperatures(
+    case: Gearbox, bulk: Sequence[float | None], losses: Sequence[float]
+) -> Gearbox | None:
+    """The case with every mesh at the temperature that the losses of its motion give; None: all are there.
+
+    `bulk` are the temperatures at which it was run, K; `losses` the mean losses to tooth friction, W. The
+    means of these and of those before are taken: the oil of several meshes would swing to and fro.
+    """
+    temperatures = [pair.temperature for pair in case.pairs]
+    before = [known and known.mesh_loss if len(temperatures) > 1 else None for known in temperatures]
+    losses = [
+        lost if known is None else 0.5 * (lost + known) for lost, known in zip(losses, before, strict=True)
+    ]
+    meshes = [
+        replace(mesh, pair=_knowing(mesh.pair, lost)) for mesh, lost in zip(case.meshes, losses, strict=True)
+    ]
+    again = replace(case, meshes=tuple(meshes))
+    to_be_settled = [known is not None and lost >= 0.0 for known, lost in zip(bulk, losses, strict=True)]
+    if not any(to_be_settled):
+        return None
+    assemblies = [assemble(family(pair.family), pair.drive) for pair in case.pairs]
+    warm = _settled(again, assemblies, [lambda _, lost=lost: lost for lost in losses])
+    for (_, thermal), known, wanted in zip(warm, bulk, to_be_settled, strict=True):
+        if not wanted or known is None or thermal is None or thermal.temperatures is None:
+            continue
+        if abs(thermal.temperatures.bulk - known) > CLOSE_TO:
+            return again
+    return None
+
+
+def _settled(
+    case: Gearbox, assemblies: Sequence[Assembly], lost: Sequence[Callable[[LubricatedCase], float]]
+) -> list[Warm]:
+    """The pairs at the temperatures of their teeth, by functions that give their losses to friction."""
+    shared = _shares_oil(case)
+    losses = [_loss(pair, loss) if shared else 0.0 for pair, loss in zip(case.pairs, lost, strict=True)]
+    idle: list[dict[str, Loss]] = [{} for _ in losses]
+    found: list[Warm] = []
+    for _ in range(PASSES):
+        heated = _heated(case, losses, idle) if shared else case.pairs
+        found = [
+            at_tooth_temperature(pair, assembly, loss)
+            for pair, assembly, loss in zip(heated, assemblies, lost, strict=True)
+        ]
+        if not shared:
+            break
+        before = [lost + _power(own) for lost, own in zip(losses, idle, strict=True)]
+        losses = [heat.mesh_loss if heat else 0.0 for _, heat in found]
+        idle = [heat.losses if heat else {} for _, heat in found]
+        now = [lost + _power(own) for lost, own in zip(losses, idle, strict=True)]
+        if all(abs(new - old) <= CLOSE * abs(new) for new, old in zip(now, before, strict=True)):
+            break
+    return found
+
+
+def _power(losses: Mapping[str, Loss]) -> float:
+    return sum(loss.power for loss in losses.values())
+
+
+def _shares_oil(case: Gearbox) -> bool:
+    temperature = case.meshes[0].pair.temperature
+    return temperature is not None and temperature.model == "network" and len(case.meshes) > 1
+
+
+def _loss(pair: LubricatedCase, quasi_static: Callable[[LubricatedCase], float]) -> float:
+    known = pair.temperature and pair.temperature.mesh_loss
+    return quasi_static(pair) if known is None else known
+
+
+def _knowing(pair: LubricatedCase, lost: float) -> LubricatedCase:
+    """The pair with the loss of its motion."""
+    return replace(pair, temperature=pair.temperature and replace(pair.temperature, mesh_loss=lost))
+
+
+def _heated(
+    case: Gearbox, losses: Sequence[float], idle: Sequence[Mapping[str, Loss]]
+) -> list[LubricatedCase]:
+    """The pairs with what the other meshes give to their oil and housing."""
+    found = []
+    for pair, lost, own in zip(case.pairs, losses, idle, strict=True):
+        known = pair.temperature
+        assert known is not None, "they share one oil"
+        bearings = [each["bearings"].power if "bearings" in each else 0.0 for each in idle]
+        of_others = sum(bearings) - (own["bearings"].power if "bearings" in own else 0.0)
+        in_housing = of_others if known.housing_ambient > 0.0 else 0.0
+        whole = sum(losses) - lost + sum(map(_power, idle)) - _power(own)
+        heat = {"other_heat": whole - in_housing, "other_housing_heat": in_housing}
+        found.append(replace(pair, temperature=replace(known, **heat)))
+    return found
