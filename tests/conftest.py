@@ -14,7 +14,7 @@ from tests.support.durations import Durations, add_options
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.relative import approx, assert_allclose
 from tests.support.short_studies import ShortRuns
-from tribodyn.numerics.cache import trusted_folder
+from tribodyn.numerics.files.cache import trusted_folder
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.protocol.load import load_scenario
 

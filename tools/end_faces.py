@@ -23,7 +23,7 @@ from tribodyn.compliance.fem.free_ends import openings
 from tribodyn.compliance.fem.strips import curved_basis, strip_stiffness
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.geometry.path import kinematics
-from tribodyn.validation.jia import ARC_MINUTE, PINION_TORQUE, elastic
+from tribodyn.validation.papers.jia import ARC_MINUTE, PINION_TORQUE, elastic
 
 BORE, DEPTH = 8e-3, 0.33
 # Half waves over the face.

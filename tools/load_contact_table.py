@@ -20,7 +20,7 @@ from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.validation.diez_ibarbia_study import load_contact
+from tribodyn.validation.papers.diez_ibarbia_study import load_contact
 
 DRIVES = (
     "diez-ibarbia-18-36",

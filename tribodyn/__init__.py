@@ -31,13 +31,12 @@ if TYPE_CHECKING:
     from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.families import Family
     from tribodyn.interface import standards as standards
-    from tribodyn.interface.check import check
     from tribodyn.interface.drive import GearPair, constraints, drive
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
     from tribodyn.interface.identify import Identified, identify
     from tribodyn.interface.line_contact import line_contact
     from tribodyn.interface.result import Run
-    from tribodyn.interface.run import run
+    from tribodyn.interface.run import check, run
     from tribodyn.interface.scenario import scenario
     from tribodyn.interface.sweep import Sweep, sweep
     from tribodyn.interface.sweep import open_result as open
@@ -108,7 +107,7 @@ _PLACES = {
     "Study": "tribodyn.studies.protocol.study",
     "Sweep": "tribodyn.interface.sweep",
     "WearLaw": "tribodyn.tribology.wear.law",
-    "check": "tribodyn.interface.check",
+    "check": "tribodyn.interface.run",
     "constraints": "tribodyn.interface.drive",
     "differentiable": "tribodyn.interface.gradient",
     "drive": "tribodyn.interface.drive",
@@ -134,7 +133,7 @@ def __getattr__(name: str) -> Any:
     if name == "standards":
         return import_module("tribodyn.interface.standards")
     if not name.startswith("_"):
-        from tribodyn.interface.of_studies import offered
+        from tribodyn.interface.study_functions import offered
 
         if found := offered(name):
             return found

@@ -19,7 +19,7 @@ import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.verbs import sets
-from tribodyn.numerics.cache import cache_folder
+from tribodyn.numerics.files.cache import cache_folder
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE

@@ -13,7 +13,7 @@ from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.march.reversal import SHARES, stops
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
-from tribodyn.studies.motion.pair.outputs import outputs
+from tribodyn.studies.motion.record import outputs
 
 SAMPLES = 100
 

@@ -7,7 +7,7 @@ import pytest
 
 from tests.support.soak_parameters import all_in_soak
 from tests.support.states import sampled
-from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
+from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.gears.motion.running import energy_residual
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import TransientSettings

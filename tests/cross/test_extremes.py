@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.support.states import recorded
-from tribodyn.dynamics.extremes import LOWEST
+from tribodyn.dynamics.recorded.extremes import LOWEST
 from tribodyn.gears.motion.extremes import RECORDED, RunningExtremes
-from tribodyn.gears.motion.sampled import sampled_with_extremes
+from tribodyn.gears.motion.samples import sampled_with_extremes
 from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium

@@ -9,8 +9,8 @@ from tribodyn.compliance.fem.gear_compliance import without_neighbours
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import roll_through
 from tribodyn.mesh.by_compliance import mesh_cycle_of
-from tribodyn.mesh.helical import slice_layout, tabulate_slices
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
+from tribodyn.mesh.slices.helical import slice_layout, tabulate_slices
 from tribodyn.mesh.table import MeshData
 
 SLICES = 15

@@ -5,7 +5,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.outputs import evaluated, mesh_outputs
+from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs
 from tribodyn.numerics.elementary import law
 from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march

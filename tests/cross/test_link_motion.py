@@ -13,7 +13,7 @@ from tests.support.spring_trains import Gears, prepared_springs, scenario_of, sp
 from tests.support.states import sampled
 from tests.support.train_matrices import Body, Mesh, Shaft, Train
 from tests.support.train_scenarios import case_of_table
-from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
+from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.solve.transient import TransientSettings

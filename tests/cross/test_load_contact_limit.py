@@ -22,8 +22,8 @@ from tribodyn.geometry.flanks.modification import (
 )
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.motion.pair.outputs import outputs
 from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.record import outputs
 from tribodyn.train.schedule import interval_of
 from tribodyn.tribology.law import FrictionData
 

@@ -13,8 +13,7 @@ from tests.support.planetary_springs import (
     PlanetarySet,
     planetary_springs,
 )
-from tribodyn.dynamics.modes import linearised, modes
-from tribodyn.dynamics.planetary_modes import MIXED, PLANET, ROTATIONAL, TRANSLATIONAL, mode_kinds
+from tribodyn.dynamics.modes import MIXED, PLANET, ROTATIONAL, TRANSLATIONAL, linearised, mode_kinds, modes
 from tribodyn.train.structure import shift_of, turn_of
 
 ALPHA = np.radians(24.6)

@@ -201,7 +201,7 @@ def test_a_floating_sun_makes_three_planets_share_alike(planets):
 
 def _loads(model, state):
     """Force of every mesh along its pitch tangent, N."""
-    from tribodyn.dynamics.outputs import evaluated, mesh_outputs
+    from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs
 
     samples = evaluated(np.array([0.0]), state[None], model)
     return np.array(

@@ -12,7 +12,7 @@ from tests.support.mesh_balance import mesh_actions, residuals
 from tests.support.states import sampled
 from tests.support.train_matrices import Mesh
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
+from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.solve.transient import TransientSettings
 
 #: Both turn clockwise, and the ring's axis lies below the pitch point like the planet's.

@@ -13,7 +13,7 @@ from tests.support.mesh_balance import forces_on_bodies, mesh_actions, residuals
 from tests.support.states import sampled
 from tests.support.train_matrices import Body, Mesh
 from tribodyn.dynamics import approach
-from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
+from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.solve.initial import accelerations
 from tribodyn.solve.transient import TransientSettings
 from tribodyn.studies.motion.prepare import prepare

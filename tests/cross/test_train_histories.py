@@ -19,7 +19,7 @@ from tests.support.two_stage_histories import (
     step_response,
     two_stage,
 )
-from tribodyn.dynamics.outputs import evaluated, mesh_outputs
+from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import TransientSettings
 

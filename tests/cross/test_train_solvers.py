@@ -7,9 +7,9 @@ import pytest
 
 from tests.support.states import sampled
 from tests.support.train_scenarios import prepared_train
-from tribodyn.dynamics.extremes import no_extremes, take_in
-from tribodyn.dynamics.outputs import at_extremes, evaluated, mesh_outputs, train_outputs
 from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.recorded.extremes import no_extremes, take_in
+from tribodyn.dynamics.recorded.outputs import at_extremes, evaluated, mesh_outputs, train_outputs
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.integrator import Status

@@ -16,7 +16,7 @@ SIZE = 60_000
 #: Forks the processes; by itself, because no threads of others may be there.
 WRITERS = """
 import os, sys
-from tribodyn.numerics.cache import keep, read_kept
+from tribodyn.numerics.files.cache import keep, read_kept
 
 processes, rounds, files, size = map(int, sys.argv[1:])
 children = []

@@ -14,8 +14,8 @@ from tests.support.killed_sweeps import differences
 from tests.support.record_samples import SWEEP_HEAD, block, gear_pair_writer, geometry, sweep_record
 from tests.support.soak_parameters import all_in_soak
 from tribodyn.errors import OutputError
-from tribodyn.numerics import cache
-from tribodyn.record import disk
+from tribodyn.numerics.files import cache
+from tribodyn.record.files import disk
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE

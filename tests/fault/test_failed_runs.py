@@ -11,7 +11,7 @@ from tribodyn.solve.integrator import Status
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.motion import run as simulate
-from tribodyn.studies.motion.pair.outputs import outputs
+from tribodyn.studies.motion.record import outputs
 from tribodyn.studies.protocol.load import load_scenario
 
 

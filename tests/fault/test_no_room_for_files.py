@@ -15,7 +15,7 @@ from tests.support.short_studies import SHORT, ShortRuns
 from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import complaint, ended, invoke, sets
 from tribodyn.errors import OutputError
-from tribodyn.numerics.output_files import MARKS, write_output
+from tribodyn.numerics.files.output_files import MARKS, write_output
 from tribodyn.record.reader import Record
 
 resource = pytest.importorskip("resource")

@@ -16,7 +16,7 @@ import pytest
 
 from tests.support.cheap_searches import SEARCH
 from tests.support.forked_verbs import ForkedVerbs
-from tribodyn.numerics.work import usable_cores
+from tribodyn.numerics.processes.work import usable_cores
 
 #: Found by Python at its start: takes away what other systems lack, and says in a file that it did.
 LESS = """
@@ -102,7 +102,7 @@ def test_a_scenario_a_sweep_and_a_search(tmp_path: Path, forked: ForkedVerbs):
     )
     assert ended.returncode == 0, ended.stderr
     processes = started.read_text(encoding="utf-8")
-    assert "tribodyn.record.lookout:serve" in processes
+    assert "tribodyn.record.files.guarded_read:serve" in processes
     if usable_cores() > 1:
         assert "tribodyn.cli.pictures:serve" in processes
         assert "tribodyn.studies.design.candidates.evaluation:serve" in processes

@@ -81,7 +81,7 @@ def planted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name in NAMES:
         (folder / f"{name}.py").write_text(text, encoding="utf-8")
     (folder / "tribodyn" / "numerics").mkdir(parents=True)
-    for part in ("__init__.py", "__main__.py", "numerics/__init__.py", "numerics/child.py"):
+    for part in ("__init__.py", "__main__.py", "numerics/__init__.py", "numerics/processes/child.py"):
         (folder / "tribodyn" / part).write_text(text, encoding="utf-8")
     written_template("assessment", folder).rename(folder / "drive.toml")
     (folder / "search.toml").write_text(SEARCH, encoding="utf-8")

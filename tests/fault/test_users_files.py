@@ -9,7 +9,7 @@ from tests.support.short_studies import ShortRuns
 from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import complaint, ended, invoke
 from tribodyn.errors import InputError
-from tribodyn.numerics.output_files import MARKS, check_output, write_output
+from tribodyn.numerics.files.output_files import MARKS, check_output, write_output
 
 PRECIOUS = b"precious"
 

@@ -21,7 +21,7 @@ from tests.support.wrong_records import changed, changes, drawn
 from tribodyn.errors import InputError
 from tribodyn.post.style import house_style
 from tribodyn.post.sweep_report import sweep_as_json
-from tribodyn.record import soundness
+from tribodyn.record.files import soundness
 from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
 from tribodyn.studies import pages as of

@@ -13,7 +13,7 @@ from tribodyn.studies.efficiency.published import exact, hoehn, path_contact, to
 from tribodyn.tribology.contact import NominalConditions
 from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
 from tribodyn.tribology.friction.niemann import niemann
-from tribodyn.validation.veciana_study import cycloid_contact
+from tribodyn.validation.papers.veciana_study import cycloid_contact
 
 teeth = st.integers(14, 60)
 ratios = st.floats(1.0, 5.0)

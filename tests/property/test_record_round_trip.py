@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as arrays
 
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.errors import harmless
-from tribodyn.record.opened import harmless_data
+from tribodyn.record.open_record import harmless_data
 from tribodyn.record.reader import Record
 
 NUMBERS = st.floats(allow_nan=True, allow_infinity=True)

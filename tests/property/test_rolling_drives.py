@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tribodyn.studies.rolling.engagement import RollingFriction, element_angles, engage
-from tribodyn.studies.rolling.geometry import (
+from tribodyn.studies.irefc.engagement import RollingFriction, element_angles, engage
+from tribodyn.studies.irefc.geometry import (
     RollingDrive,
     cam_outline,
     check_drive,

@@ -8,7 +8,7 @@ from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import involute
 from tribodyn.geometry.helix import base_helix_angle
-from tribodyn.mesh.helical import SliceLayout, slice_layout, tabulate_slices
+from tribodyn.mesh.slices.helical import SliceLayout, slice_layout, tabulate_slices
 from tribodyn.mesh.table import MeshData
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.numerics.cache import keep, read_kept
+from tribodyn.numerics.files.cache import keep, read_kept
 
 ROOT = Path(__file__).parents[2]
 FOLDER = "passed"

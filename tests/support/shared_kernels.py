@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from tribodyn.kernels.native import store
-from tribodyn.numerics.cache import cache_folder
+from tribodyn.numerics.files.cache import cache_folder
 
 SHORT: dict[str, Any] = {"solver.cycles": 1, "output.samples_per_cycle": 16}
 LAWS: dict[str, dict[str, Any]] = {

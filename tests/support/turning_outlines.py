@@ -11,7 +11,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import half_profile, tooth_outline
 from tribodyn.geometry.drive import Side, body_of
 from tribodyn.geometry.path import position
-from tribodyn.studies.motion.assembled import assemblies, phases
+from tribodyn.studies.motion.assembly import assemblies, phases
 from tribodyn.studies.motion.case import Gearbox
 
 #: Chords of the outlines' points leave less, m.

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from tribodyn.validation.diez_ibarbia_study import at_load, loss_factors, mean_friction, pair_of, peak
+from tribodyn.validation.papers.diez_ibarbia_study import at_load, loss_factors, mean_friction, pair_of, peak
 
 #: A separate prototype: (scenario, shift) -> Höhn's efficiency at OC1, and by the integral.
 PROTOTYPE = {

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from tribodyn.post.style import house_style
-from tribodyn.validation.diez_ibarbia_figures import FIGURES
-from tribodyn.validation.diez_ibarbia_study import (
+from tribodyn.validation.papers.diez_ibarbia_figures import FIGURES
+from tribodyn.validation.papers.diez_ibarbia_study import (
     CONDITIONS,
     at_load,
     course_at_load,

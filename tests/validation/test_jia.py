@@ -11,8 +11,8 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.post.style import house_style
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation import validate
-from tribodyn.validation.jia import geometry, published_limits
-from tribodyn.validation.jia_figures import FIGURES
+from tribodyn.validation.papers.jia import geometry, published_limits
+from tribodyn.validation.papers.jia_figures import FIGURES
 from tribodyn.validation.published import published
 from tribodyn.validation.rows import compare
 

@@ -6,7 +6,7 @@ import pytest
 from tribodyn.geometry.body import rack_outline
 from tribodyn.geometry.path import position
 from tribodyn.post.style import house_style
-from tribodyn.validation.jia_profiles import COEFFICIENTS, FIGURES, gears, half_tooth, rack_profile
+from tribodyn.validation.papers.jia_profiles import COEFFICIENTS, FIGURES, gears, half_tooth, rack_profile
 
 
 @pytest.mark.parametrize("k", COEFFICIENTS)

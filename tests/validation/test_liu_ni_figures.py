@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from tests.support import synthetic_record
 from tribodyn.record.reader import Record
-from tribodyn.validation.liu_ni_figures import FIGURES, MODELS, WITH_FRICTION, quasi_static_load
+from tribodyn.validation.papers.liu_ni_figures import FIGURES, MODELS, WITH_FRICTION, quasi_static_load
 from tribodyn.validation.published import published
 
 

@@ -9,8 +9,8 @@ import pytest
 
 import tribodyn as td
 from tribodyn.studies.efficiency.run import quantities_of
-from tribodyn.validation.veciana_figures import drive_of
-from tribodyn.validation.veciana_study import DriveUnderLaw
+from tribodyn.validation.papers.veciana_figures import drive_of
+from tribodyn.validation.papers.veciana_study import DriveUnderLaw
 
 #: A separate prototype of the restored equations: involute, cycloid at d_g = 0.1, 0.17, 0.4 d_1, crossover.
 PROTOTYPE = {

@@ -17,11 +17,11 @@ from pydantic.fields import FieldInfo
 from tools.by_schema.keys import Inside, SchemaKey
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.input import units
-from tribodyn.input.own_keys import example_of, key_schema
 from tribodyn.input.quantity import Column, Columns, CurveTable, InUnit, Names, Reference
 from tribodyn.input.resolve import resolve_table
 from tribodyn.input.schema import inner_tables
 from tribodyn.input.sources import shipped
+from tribodyn.input.specific_keys import example_of, key_schema
 from tribodyn.input.tables.laws import LawTable
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.studies.protocol.load import table_of

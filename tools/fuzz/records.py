@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from tests.support.short_studies import short_case
-from tribodyn.numerics.sources import computing_digest
+from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run

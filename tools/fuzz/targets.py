@@ -20,7 +20,7 @@ from tribodyn.grid.data_set import data_set_of
 from tribodyn.grid.grid import Grid
 from tribodyn.kernels.native.arguments import Compiled, Target
 from tribodyn.kernels.native.store import compiled_in, content_of
-from tribodyn.numerics.cache import arrays_kept_or_made, kept_or_made, trusted_folder
+from tribodyn.numerics.files.cache import arrays_kept_or_made, kept_or_made, trusted_folder
 from tribodyn.post.sweep_report import sweep_as_json
 from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES

@@ -11,7 +11,7 @@ import numpy as np
 from tools.marked_block import table as table_of
 from tools.soak.cases import SORTS
 from tools.soak.outcome import COMPLETE, FAULTY, REFUSED, STOPPED, Outcome
-from tribodyn.numerics.sources import computing_digest, digest_of
+from tribodyn.numerics.files.sources import computing_digest, digest_of
 
 #: Where outcomes are kept unless told otherwise.
 FOLDER = Path(__file__).parents[2] / ".soak"

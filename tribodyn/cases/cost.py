@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Variable
-from tribodyn.numerics.work import foretell
+from tribodyn.numerics.processes.work import foretell
 from tribodyn.record.schema import Layout
 from tribodyn.solve.methods import Runs, runs
 

@@ -25,7 +25,7 @@ class CaseHead:
     #: overrides applied); loading it gives this case again
     toml: str
     sha256: str  # digest of `toml`
-    #: of a record that is named after its scenario: the scenario's file, see `record.previous.Origin`
+    #: of a record that is named after its scenario: the scenario's file, see `record.files.previous.Origin`
     scenario_file: str = field(default="", kw_only=True, compare=False)
 
     def chosen(self) -> dict[str, tuple[str, str]]:
@@ -93,7 +93,7 @@ class CheckResult(NamedTuple):
 
 def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
     """Where a case's record goes; InputError, before any work, where it cannot be written there."""
-    from tribodyn.record.previous import Origin
+    from tribodyn.record.files.previous import Origin
     from tribodyn.record.writer import check_target
 
     path = Path(output) if output is not None else Path(f"{case.name}.h5")

@@ -17,7 +17,7 @@ class Verbs(TyperGroup):
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Names of all verbs."""
-        from tribodyn.cli.of_studies import study_verbs
+        from tribodyn.cli.study_verbs import study_verbs
 
         return [*super().list_commands(ctx), *(name for name, _ in study_verbs())]
 
@@ -25,7 +25,7 @@ class Verbs(TyperGroup):
         """Find a verb by its name; None: there is none."""
         if found := super().get_command(ctx, cmd_name):
             return found
-        from tribodyn.cli.of_studies import command_of, study_verbs
+        from tribodyn.cli.study_verbs import command_of, study_verbs
 
         for name, offered in study_verbs():
             if name == cmd_name:

@@ -8,7 +8,7 @@ import typer
 
 from tribodyn.cli.options import JsonOption, LargeOption, SetOption, overrides, scenarios_and_records
 from tribodyn.cli.plot import Format
-from tribodyn.numerics.output_files import make_folder
+from tribodyn.numerics.files.output_files import make_folder
 
 if TYPE_CHECKING:
     from tribodyn.studies.protocol.load import Loaded
@@ -128,7 +128,7 @@ def _run(loaded: "Loaded", folder: Path, force: bool, allow_large: bool) -> Path
     """Run a scenario into a folder; return its record."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
     from tribodyn.post.progress import progress_bar
-    from tribodyn.record.withheld import warnings
+    from tribodyn.record.withheld_efficiency import warnings
     from tribodyn.studies.protocol.run import run as run_case
 
     case, record = loaded.case, folder / f"{loaded.case.name}.h5"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tribodyn.cli.options import JsonOption, ReplaceOption, SetOption, drives, overrides
-from tribodyn.numerics.output_files import check_output, make_folder, write_output
+from tribodyn.numerics.files.output_files import check_output, make_folder, write_output
 
 if TYPE_CHECKING:
     from tribodyn.geometry.assembly import Assembly

@@ -15,9 +15,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, cast
 
-from tribodyn.numerics import child
-from tribodyn.numerics.output_files import check_output, make_folder
-from tribodyn.numerics.work import usable_cores
+from tribodyn.numerics.files.output_files import check_output, make_folder
+from tribodyn.numerics.processes import child
+from tribodyn.numerics.processes.work import usable_cores
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -156,7 +156,7 @@ def serve() -> None:
     import tribodyn.post.progress
     import tribodyn.studies.pages  # noqa: F401
     from tribodyn.post.figures.over_mesh import prepare_overview
-    from tribodyn.record.soundness import remember_own
+    from tribodyn.record.files.soundness import remember_own
 
     prepare_overview()
     line = sys.stdin.readline()

@@ -134,7 +134,7 @@ def print_json(data: Any) -> None:
 
 def write_json(path: Path, data: dict[str, Any], force: bool) -> None:
     """Write `data` into a file that says who made it; raises as `write_output`."""
-    from tribodyn.numerics.output_files import write_output
+    from tribodyn.numerics.files.output_files import write_output
 
     marked = {"generator": "tribodyn", **plain(data)}
     write_output(path, json.dumps(marked, indent=2, ensure_ascii=False) + "\n", force=force)

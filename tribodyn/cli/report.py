@@ -35,7 +35,7 @@ def report(
     from contextlib import ExitStack
 
     from tribodyn.cli.printing import print_files, print_json
-    from tribodyn.numerics.output_files import check_output
+    from tribodyn.numerics.files.output_files import check_output
     from tribodyn.post.page.pdf import print_page, require_browser
     from tribodyn.record.sweep_reader import open_any
     from tribodyn.studies.pages import write_report

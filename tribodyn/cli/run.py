@@ -84,11 +84,11 @@ def run_loaded(
     from tribodyn.cli.pictures import draw_pictures, drawer, overview_path
     from tribodyn.cli.printing import print_files, print_json, print_rich
     from tribodyn.errors import OutputError
-    from tribodyn.numerics.output_files import check_output
+    from tribodyn.numerics.files.output_files import check_output
     from tribodyn.post.progress import progress_bar
-    from tribodyn.record.previous import watched
+    from tribodyn.record.files.previous import watched
     from tribodyn.record.reader import Record
-    from tribodyn.record.withheld import warnings
+    from tribodyn.record.withheld_efficiency import warnings
     from tribodyn.studies.protocol.run import run as run_case
 
     require_one_way(resume=resume, force=force)

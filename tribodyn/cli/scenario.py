@@ -35,7 +35,7 @@ def init(
     """Write a commented scenario to run and to edit."""
     from tribodyn.cli.printing import command_name, quoted_path
     from tribodyn.errors import InputError
-    from tribodyn.numerics.output_files import write_output
+    from tribodyn.numerics.files.output_files import write_output
     from tribodyn.studies import DEFAULT, STUDIES
     from tribodyn.studies.protocol.load import filled
 

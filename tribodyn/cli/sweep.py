@@ -157,7 +157,7 @@ def sweep(
     from tribodyn.input.sources import file_name
     from tribodyn.post.progress import progress_bar
     from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
-    from tribodyn.record.previous import watched
+    from tribodyn.record.files.previous import watched
     from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.record.sweep_schema import DIRECTIONS
     from tribodyn.studies.pages import sweep_table

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from tribodyn.cli.options import JsonOption, ReplaceOption, papers
-from tribodyn.numerics.output_files import check_output, make_folder
+from tribodyn.numerics.files.output_files import check_output, make_folder
 
 EXAMPLES = (
     "\b\nExit status 4 if a value is outside its tolerance or a claim no longer holds. Examples:\n"

@@ -21,8 +21,8 @@ from tribodyn.derivatives.quantities import ALSO, QUANTITIES, Fixed, PairEvaluat
 from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.limits.limits import beyond
 from tribodyn.mesh.by_compliance import in_slices
-from tribodyn.mesh.fine_slices import fine_layout
-from tribodyn.mesh.helical import most_touching
+from tribodyn.mesh.slices.fine import fine_layout
+from tribodyn.mesh.slices.helical import most_touching
 from tribodyn.mesh.tabulate import pair_slots
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.closure import laws_of
@@ -113,7 +113,7 @@ class Differentiable:
     def _run(self, how: str, values: Any, *more: Any) -> Any:
         import jax
 
-        from tribodyn.numerics.cache import use_compilation_cache
+        from tribodyn.numerics.files.cache import use_compilation_cache
 
         use_compilation_cache()
         meshes = any("mesh" in quantity.needs for quantity in self._quantities)

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written, from_written
-from tribodyn.input.own_keys import si_unit
+from tribodyn.input.specific_keys import si_unit
 from tribodyn.input.units import Kind
 from tribodyn.input.vary import kind_at
 from tribodyn.numerics.elementary import namespace

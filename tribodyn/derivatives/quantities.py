@@ -18,8 +18,6 @@ from tribodyn.geometry.limits.limits import distances
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
-from tribodyn.mesh.fine_slices import tabulate_fine
-from tribodyn.mesh.helical import SliceLayout, between_nodes, mean_nodes
 from tribodyn.mesh.quasi_static import (
     QuasiStatic,
     by_pairs,
@@ -28,6 +26,8 @@ from tribodyn.mesh.quasi_static import (
     mean_efficiency,
     quasi_static,
 )
+from tribodyn.mesh.slices.fine import tabulate_fine
+from tribodyn.mesh.slices.helical import SliceLayout, between_nodes, mean_nodes
 from tribodyn.mesh.tabulate import tabulate
 from tribodyn.numerics.elementary import absolute, cos, namespace, smallest, sqrt
 from tribodyn.quantities.motion import LIMITS

@@ -25,7 +25,7 @@ from tribodyn.geometry.body import (
 )
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
 from tribodyn.geometry.helix import hand_of, lead
-from tribodyn.numerics.output_files import MARKS, write_output
+from tribodyn.numerics.files.output_files import MARKS, write_output
 
 #: Layer -> (AutoCAD colour index, line type).
 LAYERS = {

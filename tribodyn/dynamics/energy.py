@@ -5,8 +5,8 @@ from tribodyn.dynamics.contact_energy import mesh_energy
 from tribodyn.dynamics.contact_forces import elastic_loads
 from tribodyn.dynamics.frame import frame_energy
 from tribodyn.dynamics.loads import link_energy
+from tribodyn.dynamics.mesh_motion import latest_teeth, locate, motion_of
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
-from tribodyn.dynamics.places import latest_teeth, locate, motion_of
 from tribodyn.numerics.elementary import by_chain_rule, independent, law, maximum, skippable, sqrt, truncate
 from tribodyn.train.structure import shift_of, slip_of, speed_of
 

@@ -25,8 +25,8 @@ from tribodyn.dynamics.contact_energy import parametric_torque
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.frame import add_frame_forces, carried_along
 from tribodyn.dynamics.loads import link_forces, load_torque
+from tribodyn.dynamics.mesh_motion import motion_of, on_body, place_in_mesh
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
-from tribodyn.dynamics.places import motion_of, on_body, place_in_mesh
 from tribodyn.numerics.elementary import by_chain_rule, independent, law, plain
 from tribodyn.train.structure import (
     AXIAL,

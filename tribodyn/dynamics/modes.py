@@ -193,3 +193,28 @@ def _mean_of_slices(model: Model, m: int, cycle: MeshCycle, torque: float) -> Fl
     matrix = np.einsum("sni,snik,snil->snkl", stiffness, normal, normal)
     inside = (matrix[:, 1:] + matrix[:, :-1]).mean(axis=1) / 2.0
     return np.tensordot(np.diff(cycle.boundary), inside, axes=1)
+
+
+ROTATIONAL, TRANSLATIONAL, PLANET, MIXED = "rotational", "translational", "planet", "mixed"
+#: Share of a mode's kinetic energy below which a motion is none: rounding leaves 1e-20, or where modes of two
+#: kinds are all but equally fast its size over the distance of the frequencies, squared.
+NO_MOTION = 1e-9
+
+
+def mode_kinds(found: Modes, model: Model, central: Sequence[int]) -> tuple[str, ...]:
+    """Kind of every mode; `central` are the bodies sun, ring and carrier. `MIXED`: planets are not alike."""
+    layout, bodies = model.layout, model.bodies
+    turning, shifting = np.zeros((2, len(found.frequency)))
+    for body in central:
+        turning += float(bodies.inertia[body]) * found.shape[:, turn_of(body, layout)] ** 2
+        if body < layout.planar:
+            moved = found.shape[:, shift_of(body) : shift_of(body) + 2]
+            shifting += float(bodies.mass[body]) * np.sum(moved**2, axis=1)
+    names = {
+        (True, False): ROTATIONAL,
+        (False, True): TRANSLATIONAL,
+        (False, False): PLANET,
+        (True, True): MIXED,
+    }
+    shares = zip(turning > NO_MOTION, shifting > NO_MOTION, strict=True)
+    return tuple(names[bool(turns), bool(shifts)] for turns, shifts in shares)

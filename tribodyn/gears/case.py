@@ -15,7 +15,7 @@ from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.limits import plain_distances
-from tribodyn.input.tables.drive_data import RoundedDistance, rounded_distance_of
+from tribodyn.input.tables.gears.drive_data import RoundedDistance, rounded_distance_of
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.quantities.catalogue import quantities

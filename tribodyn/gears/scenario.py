@@ -11,14 +11,14 @@ from tribodyn.compliance.foundation import Support
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
 from tribodyn.gears.by_standard import quality_of
-from tribodyn.gears.of_gearbox import Opened, with_pair
+from tribodyn.gears.mesh_of_gearbox import Opened, with_pair
 from tribodyn.gears.supports import displaced, has_supports, supports_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.fields import Slices, head_of
 from tribodyn.input.quantity import Switch, model_file
-from tribodyn.input.tables.bearings import Bearings, broken_bearing_rules
-from tribodyn.input.tables.drive_data import masses_of, teeth_of
-from tribodyn.input.tables.drive_rules import (
+from tribodyn.input.tables.duty import SpectrumScenario, duty_of, unnamed_duty
+from tribodyn.input.tables.gears.drive_data import masses_of, teeth_of
+from tribodyn.input.tables.gears.drive_rules import (
     Face,
     broken_drive_rules,
     broken_face_rules,
@@ -27,8 +27,17 @@ from tribodyn.input.tables.drive_rules import (
     modifications_of,
     slices_of,
 )
-from tribodyn.input.tables.duty import SpectrumScenario, duty_of, unnamed_duty
-from tribodyn.input.tables.internal_gear import broken_internal_runs, internal_refused
+from tribodyn.input.tables.gears.internal_gear import broken_internal_runs, internal_refused
+from tribodyn.input.tables.gears.model_files import DriveTable, GearboxTable, MisalignmentTable
+from tribodyn.input.tables.gears.quality import (
+    DeviationSample,
+    broken_sample_rules,
+    error_with_sample,
+    grade_of,
+    tolerances_of,
+    with_sample,
+)
+from tribodyn.input.tables.gears.single_teeth import broken_own_teeth, teeth_alike
 from tribodyn.input.tables.laws import FilmTable, film_of, law_values
 from tribodyn.input.tables.losses import (
     LossesTable,
@@ -38,18 +47,9 @@ from tribodyn.input.tables.losses import (
     losses_of,
     temperature_of,
 )
-from tribodyn.input.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
-from tribodyn.input.tables.model_files import DriveTable, GearboxTable, MisalignmentTable
-from tribodyn.input.tables.own_teeth import broken_own_teeth, teeth_alike
-from tribodyn.input.tables.quality import (
-    DeviationSample,
-    broken_sample_rules,
-    error_with_sample,
-    grade_of,
-    tolerances_of,
-    with_sample,
-)
-from tribodyn.input.tables.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
+from tribodyn.input.tables.oil.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
+from tribodyn.input.tables.supports.bearings import Bearings, broken_bearing_rules
+from tribodyn.input.tables.supports.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
 from tribodyn.mesh.table import MeshData
 from tribodyn.tribology.law import AUTO, FilmData, FrictionData
 

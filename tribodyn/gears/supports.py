@@ -14,12 +14,18 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.flanks.modification import Misalignment, Modifications
 from tribodyn.geometry.helix import pitch_slope
-from tribodyn.input.tables.bearings import Bearing, Bearings, bearing_of
-from tribodyn.input.tables.drive_data import assembled_on_path
 from tribodyn.input.tables.duty import duty_of
-from tribodyn.input.tables.model_files import DriveTable
-from tribodyn.input.tables.shafts import SPRINGS, BearingOfShaft, DrawnShaft, DrawnShafts, drawn_sides
-from tribodyn.input.tables.support_matrix import matrix_of
+from tribodyn.input.tables.gears.drive_data import assembled_on_path
+from tribodyn.input.tables.gears.model_files import DriveTable
+from tribodyn.input.tables.supports.bearings import Bearing, Bearings, bearing_of
+from tribodyn.input.tables.supports.shafts import (
+    SPRINGS,
+    BearingOfShaft,
+    DrawnShaft,
+    DrawnShafts,
+    drawn_sides,
+)
+from tribodyn.input.tables.supports.support_matrix import matrix_of
 from tribodyn.numerics.remembered import remembered
 from tribodyn.train.links.beam import ShaftMetal, ShaftSection
 from tribodyn.train.links.rolling_bearing import BallRow, BearingState, RollerRow

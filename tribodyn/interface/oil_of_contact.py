@@ -3,7 +3,7 @@
 from typing import Any
 
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.input.tables.lubricant import read_lubricant
+from tribodyn.input.tables.oil.lubricant import read_lubricant
 from tribodyn.tribology.ehl.fluid import Fluid
 from tribodyn.tribology.ehl.problem import positive
 from tribodyn.tribology.high_pressure import ContactViscosity

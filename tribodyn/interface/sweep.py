@@ -18,7 +18,7 @@ from tribodyn.interface.arguments import checked
 from tribodyn.interface.result import Run
 from tribodyn.interface.run import open_run
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
-from tribodyn.numerics.output_files import write_output
+from tribodyn.numerics.files.output_files import write_output
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.record import trust
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep

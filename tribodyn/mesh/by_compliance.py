@@ -8,8 +8,8 @@ from tribodyn.compliance.foundation import outside_fitted_range
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.fine_slices import tabulate_integrated
-from tribodyn.mesh.slice_number import slices_needed, too_few
+from tribodyn.mesh.slices.fine import tabulate_integrated
+from tribodyn.mesh.slices.number import slices_needed, too_few
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 

@@ -25,7 +25,7 @@ from tribodyn.geometry.drive import MaterialData
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import back_flanks, uneven_teeth
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.loaded_slices import tabulate_slices
+from tribodyn.mesh.slices.loaded import tabulate_slices
 from tribodyn.mesh.table import (
     Elasticity,
     MeshData,

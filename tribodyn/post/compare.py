@@ -13,7 +13,7 @@ from tribodyn.errors import InputError
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import Record
-from tribodyn.record.withheld import reasons, warnings
+from tribodyn.record.withheld_efficiency import reasons, warnings
 
 #: The share of the power that is lost, beside the efficiency whose difference it shows better.
 LOSS = QUANTITIES["loss_fraction"]

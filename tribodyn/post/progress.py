@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import Any
 
-from tribodyn.numerics.work import foretold, listened, watched
+from tribodyn.numerics.processes.work import foretold, listened, watched
 
 PATIENCE = 1.0  # s
 #: The same between two pictures of the bar in a notebook.

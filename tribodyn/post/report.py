@@ -13,7 +13,7 @@ from tribodyn.post.verdict import meaning
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
-from tribodyn.record.withheld import reasons, warnings
+from tribodyn.record.withheld_efficiency import reasons, warnings
 
 #: How a sentence on exceeded limits of a law begins: it is shown in another colour.
 EXCEEDED = "Limits of the"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from tribodyn.errors import InputError, unknown_name
-from tribodyn.numerics.output_files import WRITTEN, check_output, make_folder, write_output
+from tribodyn.numerics.files.output_files import WRITTEN, check_output, make_folder, write_output
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import SensorSignal, read_sensed
 from tribodyn.signals.sound import LEVEL, SOUND_RATES, Hearable, hearable, wav

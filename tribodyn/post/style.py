@@ -19,7 +19,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.layout_engine import ConstrainedLayoutEngine, LayoutEngine
 
 from tribodyn.errors import InputError, cut, harmless
-from tribodyn.numerics.output_files import MARKS, check_output, write_output
+from tribodyn.numerics.files.output_files import MARKS, check_output, write_output
 
 #: Okabe & Ito (2008), the colours that stay apart for every kind of colour vision; yellow is left out, too
 #: pale for a line on white.

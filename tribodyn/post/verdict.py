@@ -16,7 +16,7 @@ from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
-from tribodyn.record.withheld import warnings
+from tribodyn.record.withheld_efficiency import warnings
 
 #: What the table of solved contacts and the kernels of its law take: 51 to 228 s were measured.
 SOLVED = "one to four minutes of one core the first time"

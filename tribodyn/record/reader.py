@@ -10,11 +10,11 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record import schema, trust
+from tribodyn.record.files.soundness import UNREADABLE
 from tribodyn.record.layout import counted
-from tribodyn.record.opened import OpenRecord, attributes, stored_name, summary_of_today, todays_name
-from tribodyn.record.soundness import UNREADABLE
+from tribodyn.record.open_record import OpenRecord, attributes, stored_name, summary_of_today, todays_name
 from tribodyn.record.sweep_schema import SWEEP
-from tribodyn.record.withheld import withheld
+from tribodyn.record.withheld_efficiency import withheld
 
 #: Group of a record of a train that has a group for every mesh; the same in its summary.
 MESHES = "meshes"
@@ -87,7 +87,7 @@ class Record(OpenRecord):
     def summary(self) -> dict[str, Any]:
         """Results of the run; names that hold `/` become nested dictionaries.
 
-        A quantity that is withheld is None, see `record.withheld`.
+        A quantity that is withheld is None, see `record.withheld_efficiency`.
         """
         nested: dict[str, Any] = {}
         for name, value in self._attributes["summary"].items():

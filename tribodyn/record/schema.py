@@ -9,8 +9,8 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.numerics.parameter import Variable
-from tribodyn.numerics.sources import computing_digest
 
 FORMAT = "tribodyn-record"
 #: Attributes that every record's root has.

@@ -16,7 +16,7 @@ from tribodyn.errors import harmless
 from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.layout import attach, describe, scale
-from tribodyn.record.opened import attributes
+from tribodyn.record.open_record import attributes
 from tribodyn.record.reader import Record
 from tribodyn.signals.lines import SORTS, SignalLine
 

@@ -11,10 +11,10 @@ import numpy as np
 
 from tribodyn.errors import InputError, harmless
 from tribodyn.record import schema
-from tribodyn.record.opened import OpenRecord, attributes, harmless_data, open_file
+from tribodyn.record.open_record import OpenRecord, attributes, harmless_data, open_file
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING, VariedKey
-from tribodyn.record.withheld import warnings_in
+from tribodyn.record.withheld_efficiency import warnings_in
 
 
 class SweepRecord(OpenRecord):

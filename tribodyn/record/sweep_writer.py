@@ -16,11 +16,14 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.numerics.output_files import replacing, unwritable
+from tribodyn.numerics.files.output_files import replacing, unwritable
+from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.numerics.parameter import Variable
-from tribodyn.numerics.sources import computing_digest
-from tribodyn.record import disk, layout, sweep_schema
-from tribodyn.record.previous import Origin, keep_previous, refuse_existing
+from tribodyn.record import layout, sweep_schema
+from tribodyn.record.files import disk
+from tribodyn.record.files.previous import Origin, keep_previous, refuse_existing
+from tribodyn.record.files.soundness import UNREADABLE, check_sound, remember_own
+from tribodyn.record.files.writing_lock import locked, scratch_path
 from tribodyn.record.schema import (
     COMPLETE,
     FAILED,
@@ -30,11 +33,9 @@ from tribodyn.record.schema import (
     partial_path,
     require_same_code,
 )
-from tribodyn.record.soundness import UNREADABLE, check_sound, remember_own
 from tribodyn.record.sweep_schema import CASE, SWEEP, Listed, SweepLayout, VariedKey
-from tribodyn.record.withheld import cases_withheld
+from tribodyn.record.withheld_efficiency import cases_withheld
 from tribodyn.record.writer import check_target, conclude
-from tribodyn.record.writing_lock import locked, scratch_path
 
 #: What the root says of a sweep that is not complete.
 NOTE = "the sweep is going on, or was stopped: cases whose status is 0 are still to be done"

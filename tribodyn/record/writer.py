@@ -18,14 +18,15 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError, OutputError
-from tribodyn.numerics.output_files import replacing, unwritable
-from tribodyn.record import disk, trust
+from tribodyn.numerics.files.output_files import replacing, unwritable
+from tribodyn.record import trust
+from tribodyn.record.files import disk
+from tribodyn.record.files.previous import Origin, keep_previous, refuse_existing
+from tribodyn.record.files.soundness import remember_own
+from tribodyn.record.files.writing_lock import locked, refuse_if_written, scratch_path
 from tribodyn.record.layout import Head, create, encode, write_summary, write_trimmed
-from tribodyn.record.previous import Origin, keep_previous, refuse_existing
 from tribodyn.record.schema import COMPLETE, FAILED, STATUS_NOTES, partial_path
-from tribodyn.record.soundness import remember_own
-from tribodyn.record.withheld import samples_withheld
-from tribodyn.record.writing_lock import locked, refuse_if_written, scratch_path
+from tribodyn.record.withheld_efficiency import samples_withheld
 
 Beside = Callable[[h5py.File], None]
 """Adds groups to a record as it ends."""

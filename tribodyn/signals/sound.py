@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.numerics.output_files import MARKS
+from tribodyn.numerics.files.output_files import MARKS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.signals.resampling import REACH, at_places
 

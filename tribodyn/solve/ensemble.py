@@ -9,10 +9,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import extremes_of, put_extremes, take_in
 from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.recorded.extremes import extremes_of, put_extremes, take_in
+from tribodyn.numerics.processes.work import in_threads, usable_cores
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.work import in_threads, usable_cores
 from tribodyn.solve.choice import choose
 from tribodyn.solve.integrator import MAX_STEPS, Ensemble, March, Status, nothing_yet, put
 from tribodyn.solve.methods import AUTO, EXPLICIT, Runs, runs

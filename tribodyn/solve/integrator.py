@@ -5,7 +5,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import Extremes, no_extremes, put_extremes
+from tribodyn.dynamics.recorded.extremes import Extremes, no_extremes, put_extremes
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.train.structure import TrainLayout
 

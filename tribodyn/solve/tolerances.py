@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.mesh_motion import motion_of
 from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
-from tribodyn.dynamics.places import motion_of
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection

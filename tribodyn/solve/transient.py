@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import Extremes, no_extremes, take_in
 from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.recorded.extremes import Extremes, no_extremes, take_in
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.choice import choose
 from tribodyn.solve.integrator import REASONS, IntegratedCycles, Integrator, Status

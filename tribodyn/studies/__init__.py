@@ -16,7 +16,7 @@ STUDIES: Registry[Study] = Registry(
         "load-contact": "tribodyn.studies.load_contact:STUDY",
         "wear": "tribodyn.studies.wear:STUDY",
         "ehl": "tribodyn.studies.ehl:STUDY",
-        "irefc": "tribodyn.studies.rolling:STUDY",
+        "irefc": "tribodyn.studies.irefc:STUDY",
         "backlash-oscillator": "tribodyn.studies.backlash_oscillator:STUDY",
         "design": "tribodyn.studies.design:STUDY",
         "assessment": "tribodyn.studies.assessment:PAIR",

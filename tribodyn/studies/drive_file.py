@@ -25,11 +25,11 @@ from tribodyn.input.messages import Origins, explain
 from tribodyn.input.quantity import Table
 from tribodyn.input.resolve import OVERRIDES, resolve_table, unresolved_keys
 from tribodyn.input.sources import find_drive_or_scenario, read_toml
-from tribodyn.input.tables.drive_data import drive_of, masses_of, materials_of, rounded_distance_of
-from tribodyn.input.tables.drive_rules import broken_drive_rules
-from tribodyn.input.tables.model_files import DriveTable
-from tribodyn.input.tables.quality import tolerance_lines
-from tribodyn.input.tables.tooth_data import THICKNESS_KEYS, gauge_of
+from tribodyn.input.tables.gears.drive_data import drive_of, masses_of, materials_of, rounded_distance_of
+from tribodyn.input.tables.gears.drive_rules import broken_drive_rules
+from tribodyn.input.tables.gears.model_files import DriveTable
+from tribodyn.input.tables.gears.quality import tolerance_lines
+from tribodyn.input.tables.gears.tooth_data import THICKNESS_KEYS, gauge_of
 from tribodyn.standards.allowances import centre_distance_allowance
 from tribodyn.studies.protocol.load import load
 

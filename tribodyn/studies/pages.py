@@ -6,7 +6,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal
 
 from tribodyn.errors import InputError, SimulationError, near_name
-from tribodyn.numerics.output_files import check_output, write_output
+from tribodyn.numerics.files.output_files import check_output, write_output
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import SENSORS
 from tribodyn.record.sweep_reader import SweepRecord
@@ -183,7 +183,7 @@ def report(
     record, one without samples, and records that share no quantities.
     """
     from tribodyn.post.page.page import PageContent, page
-    from tribodyn.post.page.sensed import SensedSection, sensed_section
+    from tribodyn.post.page.sensors import SensedSection, sensed_section
 
     if not records:
         raise InputError("records", None, "there is nothing to report on", "name at least one record")
@@ -222,7 +222,7 @@ def _pictures_of_sensors(record: Record) -> "list[tuple[str, str, Figure]]":
     """Pictures of what a record's sensors gave: name, what it shows, figure."""
     if SENSORS not in record.groups:
         return []
-    from tribodyn.post.figures.sensed import DRAWINGS
+    from tribodyn.post.figures.sensors import DRAWINGS
 
     known = drawable([record])
     return [(name, known[name].about, figure(name, [record])) for name in DRAWINGS if name in known]

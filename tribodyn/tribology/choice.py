@@ -24,10 +24,10 @@ from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.helix import curvature_share, pitch_slope, speed_share
 from tribodyn.geometry.path import kinematics
-from tribodyn.numerics.cache import arrays_kept_or_made
+from tribodyn.numerics.files.cache import arrays_kept_or_made
+from tribodyn.numerics.files.sources import digest_of
 from tribodyn.numerics.registry import Registry
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.sources import digest_of
 from tribodyn.tribology.closure import LEAST_SLIDING, Lubricated, closure, is_open, law_input
 from tribodyn.tribology.contact import LocalContact, local_contact
 from tribodyn.tribology.ehl.of_case import Contact, contact_of

@@ -37,38 +37,38 @@ class Paper(NamedTuple):
 #: By the name on the command line.
 PAPERS = {
     "liu-ni-2022": Paper(
-        "tribodyn.validation.liu_ni",
+        "tribodyn.validation.papers.liu_ni",
         "Liu & Ni, Mechanics & Industry 23:10 (2022): CRC drive and involute",
         "as published, with kinematic sliding, transmission errors by (6); beside it the default, dynamic "
         "sliding, and other readings",
-        "tribodyn.validation.liu_ni_figures",
+        "tribodyn.validation.papers.liu_ni_figures",
     ),
     "efremenkov-2024": Paper(
-        "tribodyn.validation.efremenkov",
+        "tribodyn.validation.papers.efremenkov",
         "Efremenkov et al., Mathematics 12:873 (2024): gear with rolling elements",
         "as published: the paper's own equations with their errors; beside it corrected speeds, with which "
         "the gear loses nearly all its power",
-        "tribodyn.validation.efremenkov_figures",
+        "tribodyn.validation.papers.efremenkov_figures",
     ),
     "veciana-2024": Paper(
-        "tribodyn.validation.veciana",
+        "tribodyn.validation.papers.veciana",
         "Veciana et al., Machines 12:943 (2024): efficiency of cycloidal gears",
         "with the mixed law as printed (reading A) and the paper's rolling speeds; beside it reading B",
-        "tribodyn.validation.veciana_figures",
+        "tribodyn.validation.papers.veciana_figures",
     ),
     "diez-ibarbia": Paper(
-        "tribodyn.validation.diez_ibarbia",
+        "tribodyn.validation.papers.diez_ibarbia",
         "Diez-Ibarbia et al.: efficiency of spur gears over the profile shift",
         "with load contact by finite elements; rows without a published number stand beside another "
         "implementation of the equations",
-        "tribodyn.validation.diez_ibarbia_figures",
+        "tribodyn.validation.papers.diez_ibarbia_figures",
     ),
     "jia-2022": Paper(
-        "tribodyn.validation.jia",
+        "tribodyn.validation.papers.jia",
         "Jia et al., Mathematics 10:4290 (2022): gears with a parabolic path of contact",
         "with maximum line loads for contact stresses, misalignment in the plane of action, limits with the "
         "paper's sin(beta); beside it Hertz pressures and the actual tips",
-        "tribodyn.validation.jia_figures",
+        "tribodyn.validation.papers.jia_figures",
     ),
     "helical-report-2017": Paper(
         "tribodyn.validation.books.helical_report_2017",

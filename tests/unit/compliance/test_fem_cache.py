@@ -8,7 +8,7 @@ import pytest
 from tests.support.twelve_teeth import GEAR, few_cells
 from tribodyn.compliance.fem.cache import _digest, cached_gear_compliance
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
-from tribodyn.numerics.cache import cache_folder
+from tribodyn.numerics.files.cache import cache_folder
 
 
 def solve(poisson_ratio: float = 0.3, bore: float = 8e-3, width: float | None = None) -> GearCompliance:

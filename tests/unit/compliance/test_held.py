@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.compliance.sharing.held import HeldFlanks
+from tribodyn.compliance.sharing.held_flanks import HeldFlanks
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, extended_rolls, flexibility
 from tribodyn.compliance.sharing.loaded_contact import face_shift, reach
 from tribodyn.geometry.families import family

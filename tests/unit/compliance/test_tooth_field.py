@@ -8,7 +8,7 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import slice_contacts
 from tribodyn.compliance.sharing.tooth_field import tooth_field
 from tribodyn.geometry.drive import SIDES
-from tribodyn.validation.jia import elastic
+from tribodyn.validation.papers.jia import elastic
 
 SLICES = 5
 #: A pair just before the pitch point, between two others that carry as well.

@@ -21,6 +21,7 @@ from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.energy import engagement, stored_energy, strain_energy
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.loads import load_torque
+from tribodyn.dynamics.mesh_motion import locate
 from tribodyn.dynamics.parameters import (
     CLASSICAL,
     DRIVE_SPEED,
@@ -28,7 +29,6 @@ from tribodyn.dynamics.parameters import (
     ENERGY_CONSISTENT,
     SLIDING_DYNAMIC,
 )
-from tribodyn.dynamics.places import locate
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import contacts_of, engage

@@ -176,8 +176,8 @@ def test_roughness_of_each_gear_is_combined():
     }
     case = load("involute-shifted-23-47", {key: value for key, value in given.items() if value}).case
     assert (case.roughness, case.mean_roughness) == (3e-7, pytest.approx(0.6e-6))
-    from tribodyn.input.tables.drive_data import roughness_of
-    from tribodyn.input.tables.model_files import DriveTable
+    from tribodyn.input.tables.gears.drive_data import roughness_of
+    from tribodyn.input.tables.gears.model_files import DriveTable
 
     written = dict(load_drive(PAIR, {"drive.gear.mean_roughness": "0.4 um"}).table)
     table = DriveTable.model_validate(written)

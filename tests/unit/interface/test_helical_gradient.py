@@ -13,8 +13,8 @@ from tribodyn.derivatives.quantities import PairEvaluation, quantity_of
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.mesh.equilibrium import contacts, elastic, settled
-from tribodyn.mesh.fine_slices import tabulate_integrated
 from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.slices.fine import tabulate_integrated
 from tribodyn.studies import study_of
 from tribodyn.tribology.closure import closure_of, surfaces_of
 

@@ -11,7 +11,7 @@ import pytest
 
 from tribodyn.kernels.native import compiler, kernel, packed, store
 from tribodyn.numerics import elementary
-from tribodyn.numerics.cache import read_kept
+from tribodyn.numerics.files.cache import read_kept
 from tribodyn.numerics.static import RuntimeIndices
 
 

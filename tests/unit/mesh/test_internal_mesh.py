@@ -21,7 +21,7 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.studies.drive_file import DriveModel, load_drive
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
-from tribodyn.studies.efficiency.places import places
+from tribodyn.studies.efficiency.mesh_positions import places
 from tribodyn.studies.efficiency.run import prepare
 from tribodyn.studies.protocol.load import load_scenario
 

@@ -10,7 +10,7 @@ import pytest
 
 from tests.support.soak_parameters import all_in_soak
 from tribodyn.errors import InputError
-from tribodyn.numerics.work import foretold
+from tribodyn.numerics.processes.work import foretold
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario
 

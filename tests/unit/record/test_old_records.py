@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 import tribodyn as td
 from tests.support import synthetic_record
 from tribodyn.cli.app import app
-from tribodyn.record.opened import summary_of_today
+from tribodyn.record.open_record import summary_of_today
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import open_any
 from tribodyn.studies import study_of

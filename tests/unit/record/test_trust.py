@@ -34,7 +34,7 @@ from tribodyn.record.trust import (
     reasons,
     verdict,
 )
-from tribodyn.record.withheld import remarked, remarks, warned, warnings
+from tribodyn.record.withheld_efficiency import remarked, remarks, warned, warnings
 from tribodyn.studies.pages import summary_json, summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tests.support.states import PAIR
-from tribodyn.dynamics.extremes import no_extremes
+from tribodyn.dynamics.recorded.extremes import no_extremes
 from tribodyn.solve.integrator import nothing_yet, put
 from tribodyn.train.schedule import of_one_mesh, sample_phases
 

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from tests.support.record_samples import block, gear_pair_writer
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
-from tribodyn.numerics.sources import computing_digest
+from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
 from tribodyn.studies.pages import names, study_of_record

@@ -20,11 +20,11 @@ from tribodyn.compliance.fem.gear_compliance import (
     wave_numbers,
 )
 from tribodyn.geometry.body import tooth_outline
-from tribodyn.numerics.blas_threads import one_blas_thread
-from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.elementary import sense
-from tribodyn.numerics.sources import digest_of
-from tribodyn.numerics.work import part
+from tribodyn.numerics.files.cache import arrays_kept_or_made
+from tribodyn.numerics.files.sources import digest_of
+from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.work import part
 
 Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)
 

@@ -20,10 +20,10 @@ from tribodyn.compliance.energy import LoadedTooth
 from tribodyn.compliance.fem.crack_mesh import CrackedMesh, cracked_mesh
 from tribodyn.compliance.fem.strips import plane_stiffness
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.numerics.blas_threads import one_blas_thread
-from tribodyn.numerics.cache import arrays_kept_or_made
+from tribodyn.numerics.files.cache import arrays_kept_or_made
+from tribodyn.numerics.files.sources import digest_of
+from tribodyn.numerics.processes.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.sources import digest_of
 
 #: Places of the load along the flank, between which a spline interpolates.
 _PLACES = 14

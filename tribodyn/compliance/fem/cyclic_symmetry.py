@@ -17,8 +17,8 @@ from scipy.sparse.linalg import splu
 
 from tribodyn.compliance.fem.inertia_relief import Inertia, relieved
 from tribodyn.compliance.fem.ring_mesh import signed_polar
+from tribodyn.numerics.processes.work import steps
 from tribodyn.numerics.shapes import Array, Complex, Float
-from tribodyn.numerics.work import steps
 
 _SIDES = 4  # right-hand sides solved at a time
 

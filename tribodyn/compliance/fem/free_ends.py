@@ -45,8 +45,8 @@ from tribodyn.compliance.fem.strips import (
     strip_stiffness,
     value_and_gradient,
 )
+from tribodyn.numerics.processes.work import part, steps
 from tribodyn.numerics.shapes import Array, Complex, Float
-from tribodyn.numerics.work import part, steps
 
 # Beyond the largest wave number the sum goes on by its power law to this many times that.
 _TAIL = 8.0

@@ -27,8 +27,8 @@ from tribodyn.compliance.fem.strips import (
 from tribodyn.errors import InputError
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import Tooth, flank_point
+from tribodyn.numerics.processes.work import steps
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.work import steps
 
 # Cells among which a point is sought, and Newton's steps in each: the cells are nearly parallelograms.
 _NEAREST = 9

@@ -32,10 +32,10 @@ from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry,
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
 from tribodyn.geometry.helix import pitch_slope, roll_shift
 from tribodyn.geometry.pitch_point import pitch_point
-from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.elementary import sense
+from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.work import steps
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.numerics.work import steps
 from tribodyn.tribology.contact import averaged_radius
 
 #: Depth of the local region, in modules, and refinement of the mesh: together within 0.1 % of their limits

@@ -23,9 +23,9 @@ from tribodyn.compliance.sharing.slices import modes, wave_numbers
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.numerics.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.work import steps
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.work import steps
 
 #: Stresses of a point: σ_x, σ_y, σ_z, τ_xy (like cos kz), τ_xz, τ_yz (like sin kz).
 _EVEN, _ODD = 4, 2

@@ -12,7 +12,7 @@ from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS
 from tribodyn.compliance.sharing.face_root_stress import root_stress_fields
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, half_width
 from tribodyn.compliance.sharing.loaded_contact import slice_contacts
-from tribodyn.numerics.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.gears.motion.sampled import Sampled
+from tribodyn.gears.motion.samples import Sampled
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.writer import RecordWriter
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.gears.motion.sampled import Sampled
+from tribodyn.gears.motion.samples import Sampled
 from tribodyn.post.cycles import CHANGING, amplitude_spectrum
 
 #: Mesh cycles of the slowest mesh in a row at least: orders are told to a half.

@@ -5,8 +5,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.gears.case import TRIBOLOGY
 from tribodyn.gears.motion.recorded import pair_numbers
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.quantities.catalogue import QUANTITIES
 
 #: Summary name -> record name and sign of what is largest there, over the whole run and over its last cycles.
 RECORDED = {
@@ -93,3 +95,27 @@ class RunningExtremes:
 def mesh_force(block: Mapping[str, np.ndarray], slots: np.ndarray) -> np.ndarray:
     """Force of a side's flanks along the pitch tangent (n,), N: the mesh moment over the pitch radius."""
     return np.sum(block["tangent_load"][:, slots], axis=1)
+
+
+#: Relative difference between the extremes of the whole run and those of its last cycles that is said.
+DIFFERENT = 0.005
+
+
+def on_extremes(summary: Mapping[str, Any]) -> list[str]:
+    """Say which extremes of the whole run, or of its last mesh cycles, are not those of the table."""
+    described = summary.get("extremes")
+    if not described:  # a record of 0.1.0, or of a run that stopped at once
+        return []
+    said = []
+    for part, words in (("run", "Over the whole run"), ("last_cycles", "Over the last mesh cycles")):
+        others = []
+        for quantity in (QUANTITIES["normal_load_max"], *TRIBOLOGY):
+            known, value = described.get(part, {}).get(quantity.name), summary.get(quantity.name)
+            if known is None or value is None or not abs(known["value"] - value) > DIFFERENT * abs(value):
+                continue
+            name = quantity.title[0].lower() + quantity.title[1:]
+            at = f" at t = {known['time']:.4g} s" if part == "run" and "time" in known else ""
+            others.append(f"{name} {quantity.with_unit(known['value'])}" + at)
+        if others:
+            said.append(f"{words}: {', '.join(others)}.")
+    return said

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.gears.motion.course import RunCourse
 from tribodyn.gears.motion.extremes import RunningExtremes
 from tribodyn.gears.motion.recorded import pair_numbers
-from tribodyn.gears.motion.sampled import Sampled
+from tribodyn.gears.motion.samples import Sampled
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.record.trust import Judge, heat_of

@@ -30,11 +30,11 @@ from tribodyn.input.quantity import (
     csv_file,
     written,
 )
-from tribodyn.input.tables.bearings import Stiffness
-from tribodyn.input.tables.drive_data import backlash_of
+from tribodyn.input.tables.gears.drive_data import backlash_of
+from tribodyn.input.tables.gears.model_files import MisalignmentTable
+from tribodyn.input.tables.gears.single_teeth import ToothSampleNumber
 from tribodyn.input.tables.laws import FrictionTable
-from tribodyn.input.tables.model_files import MisalignmentTable
-from tribodyn.input.tables.own_teeth import ToothSampleNumber
+from tribodyn.input.tables.supports.bearings import Stiffness
 from tribodyn.mesh.table import MeshData
 from tribodyn.solve.methods import AUTO, SOLVERS, SolverData
 

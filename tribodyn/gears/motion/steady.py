@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.outputs import UNRECORDED
+from tribodyn.dynamics.recorded.outputs import UNRECORDED
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.motion.extremes import WORKING, RunningExtremes
 from tribodyn.gears.prepare import PreparedGears

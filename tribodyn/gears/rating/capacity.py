@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from tribodyn.cases.assessed import Meshing
+from tribodyn.cases.assessment_part import Meshing
 from tribodyn.gears.case import OiledCase
 from tribodyn.gears.rating.iso_names import common_names, flank_names, other_root_names, root_names
 from tribodyn.gears.rating.margins import flanks_of

@@ -4,17 +4,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tribodyn.dynamics.outputs import Evaluated
-from tribodyn.dynamics.sensed import force_on_bearing, output_torque, torque_of_link, velocity
-from tribodyn.gears.motion.sampled import Sampled
+from tribodyn.dynamics.recorded.outputs import Evaluated
+from tribodyn.gears.motion.samples import Sampled
 from tribodyn.gears.sensing.sensor_places import DRIVE, OUTPUT, Placed, Sensible
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.sensors import Sensed, SensorSignal
 from tribodyn.sensing.data import DIRECTIONS, KINDS, HousingData
-from tribodyn.sensing.electronics import as_measured
-from tribodyn.sensing.housing import housing_acceleration
-from tribodyn.sensing.passing import heard
 from tribodyn.sensing.sampler import Sampler
+from tribodyn.sensing.sensed_motion import force_on_bearing, output_torque, torque_of_link, velocity
+from tribodyn.sensing.signal_path import as_measured, heard, housing_acceleration
 from tribodyn.signals.lines import SignalLine
 from tribodyn.train.structure import turned
 

@@ -5,14 +5,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.outputs import Evaluated, evaluated
 from tribodyn.dynamics.parameters import Model
-from tribodyn.dynamics.sensed import time_of
-from tribodyn.gears.motion.sampled import Sampled, sampled
+from tribodyn.dynamics.recorded.outputs import Evaluated, evaluated
+from tribodyn.gears.motion.samples import Sampled, sampled
 from tribodyn.gears.sensing.listening import Listener
+from tribodyn.numerics.processes.work import in_threads, usable_cores
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.work import in_threads, usable_cores
 from tribodyn.record.sensors import Sensed
+from tribodyn.sensing.sensed_motion import time_of
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.integrator import REASONS, Status

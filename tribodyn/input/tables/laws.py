@@ -6,8 +6,8 @@ from pydantic import Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.input.own_keys import Owner, key_schema, own_key_errors, own_values
 from tribodyn.input.quantity import Table, Text, broken
+from tribodyn.input.specific_keys import Owner, key_schema, own_key_errors, own_values
 from tribodyn.numerics.registry import Registry
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics import elementary
-from tribodyn.numerics.sources import code_of
+from tribodyn.numerics.files.sources import code_of
 from tribodyn.numerics.static import Indices, RuntimeIndices, StaticInt
 
 _serial = count()

@@ -13,8 +13,8 @@ from tribodyn.mesh.teeth.fields import (
     ToothFields,
     sound,
 )
+from tribodyn.mesh.teeth.flank_positions import places_of
 from tribodyn.mesh.teeth.lookup import CHANNELS, GAP, Teeth, ToothTable
-from tribodyn.mesh.teeth.places import places_of
 from tribodyn.numerics.shapes import Array, Float
 
 #: Cubics that never overshoot, see `mesh.cycle.slopes`.

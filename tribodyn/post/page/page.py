@@ -26,14 +26,14 @@ from tribodyn.post.page.data import (
 )
 from tribodyn.post.page.mechanism import Mechanism, mechanism_data
 from tribodyn.post.page.rolling_teeth import LOAD, rolling_teeth
-from tribodyn.post.page.sensed import SensedSection
+from tribodyn.post.page.sensors import SensedSection
 from tribodyn.post.report import EXCEEDED
 from tribodyn.post.style import inline
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.record.withheld import reasons, warnings
+from tribodyn.record.withheld_efficiency import reasons, warnings
 
 #: Figures that are shown at first where a study names none.
 FIGURES = 4

@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tribodyn.errors import InputError, OutputError
-from tribodyn.numerics.child import installed_program, run_program
-from tribodyn.numerics.output_files import MARKS, write_output
+from tribodyn.numerics.files.output_files import MARKS, write_output
+from tribodyn.numerics.processes.child import installed_program, run_program
 
 if TYPE_CHECKING:
     import subprocess

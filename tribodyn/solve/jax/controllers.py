@@ -10,8 +10,8 @@ import jax.numpy as jnp
 
 from tribodyn.dynamics.approach import FRICTION_FORCE, TURNED
 from tribodyn.dynamics.contact_forces import contact_forces
+from tribodyn.dynamics.mesh_motion import motion_of, place_in_mesh
 from tribodyn.dynamics.parameters import Model, Options
-from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.solve.march.step_control import (
     MOST_TRIES,
     begin_turning,

@@ -14,9 +14,9 @@ import jax.numpy as jnp
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model, Options
-from tribodyn.numerics.cache import use_compilation_cache
+from tribodyn.numerics.files.cache import use_compilation_cache
+from tribodyn.numerics.processes.work import in_threads
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.numerics.work import in_threads
 from tribodyn.solve.integrator import Ensemble, March, Status, nothing_yet
 from tribodyn.solve.jax import integrator
 from tribodyn.solve.lanes.batch import SHARED, by_shape

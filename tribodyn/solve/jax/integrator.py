@@ -21,7 +21,7 @@ import numpy as np
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, Model, Options
 from tribodyn.errors import InputError
-from tribodyn.numerics.cache import use_compilation_cache
+from tribodyn.numerics.files.cache import use_compilation_cache
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import IntegratedCycles, Status
 from tribodyn.solve.jax.controllers import GROWN, LimitedSteps, TurningSteps

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import Extremes
 from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.dynamics.recorded.extremes import Extremes
 from tribodyn.kernels.lanes.fields import Extent, Field, SubRecord
 from tribodyn.kernels.lanes.tables import LaneRecord
 from tribodyn.kernels.lanes.vectors import WIDTH

@@ -6,8 +6,8 @@ period begins.
 No lane's arithmetic reads another lane, so a case's bits are the same whatever the other lanes hold.
 """
 
-from tribodyn.dynamics.extremes import Extremes
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC
+from tribodyn.dynamics.recorded.extremes import Extremes
 from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, any_of

@@ -7,7 +7,7 @@ The rows are in three groups: step control, counters, flags.
 
 from typing import NamedTuple
 
-from tribodyn.dynamics.extremes import LOWEST
+from tribodyn.dynamics.recorded.extremes import LOWEST
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, count
 from tribodyn.kernels.native.parts import part

@@ -1,8 +1,9 @@
 """Extremes of a motion between its samples, sought step by step while it is integrated.
 
-Every accepted step is measured at its end (`dynamics.extremes.measure`), where the method knows the contacts
-already. Where a measure is so near its extreme so far that it may pass it inside the step, it is measured in
-the middle too, and where the parabola through the three values is highest, on the method's dense output.
+Every accepted step is measured at its end (`dynamics.recorded.extremes.measure`), where the method knows
+the contacts already. Where a measure is so near its extreme so far that it may pass it inside the step, it
+is measured in the middle too, and where the parabola through the three values is highest, on the method's
+dense output.
 Both sides of every boundary between intervals are measured.
 
 The same code seeks in one case and in many side by side: `lanes` says which of these take part, and is True
@@ -14,7 +15,8 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from tribodyn.dynamics.contact_forces import normal_contacts
-from tribodyn.dynamics.extremes import (
+from tribodyn.dynamics.mesh_motion import motion_of, place_in_mesh
+from tribodyn.dynamics.recorded.extremes import (
     END,
     EXTREME,
     EXTREMES,
@@ -36,7 +38,6 @@ from tribodyn.dynamics.extremes import (
     no_extremes,
     vertex,
 )
-from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, opposite, where
 from tribodyn.numerics.shapes import Array, Float

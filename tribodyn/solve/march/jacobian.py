@@ -14,8 +14,8 @@ from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_veloc
 from tribodyn.dynamics.equations import resultants
 from tribodyn.dynamics.frame import carried_along
 from tribodyn.dynamics.loads import load_torque
+from tribodyn.dynamics.mesh_motion import motion_of, on_body, place_in_mesh
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
-from tribodyn.dynamics.places import motion_of, on_body, place_in_mesh
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, by_chain_rule, independent, law
 from tribodyn.numerics.shapes import Array, Float

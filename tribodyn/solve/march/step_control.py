@@ -13,7 +13,7 @@ then is left to the error control, which takes steps by the force.
 
 from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.contact_forces import reversals_per_velocity
-from tribodyn.dynamics.places import motion_of, place_in_mesh
+from tribodyn.dynamics.mesh_motion import motion_of, place_in_mesh
 from tribodyn.numerics.elementary import absolute, anywhere, independent, law, maximum, minimum, plain, where
 from tribodyn.solve.integrator import Status
 from tribodyn.train.structure import driven_arm, driver_arm, rolling_ratio, shifted, turn_of, turned

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT, Model
+from tribodyn.numerics.processes.work import usable_cores
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.numerics.work import usable_cores
 from tribodyn.solve.choice import choose
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.integrator import MAX_STEPS, REASONS, Ensemble, Status, nothing_yet, put

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import Extremes, extremes_of
 from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
+from tribodyn.dynamics.recorded.extremes import Extremes, extremes_of
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_equilibrium

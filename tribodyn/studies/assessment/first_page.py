@@ -6,7 +6,7 @@ from html import escape
 from importlib import resources
 from typing import Any, NamedTuple
 
-from tribodyn.cases.assessed import TaskResult
+from tribodyn.cases.assessment_part import TaskResult
 from tribodyn.gears.rating.bearings import bearing_rows
 from tribodyn.gears.rating.limits import LIMITS, on_limits, written_limit
 from tribodyn.post.page.assembled import document

@@ -10,7 +10,7 @@ import numpy as np
 import tomli_w
 
 from tribodyn.errors import printable
-from tribodyn.numerics.output_files import MARKS, check_output, write_output
+from tribodyn.numerics.files.output_files import MARKS, check_output, write_output
 from tribodyn.studies.design.candidates.archive import Archive, Candidate
 from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.candidates.sources import BASE, standing

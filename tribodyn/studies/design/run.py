@@ -11,9 +11,9 @@ import numpy as np
 
 from tribodyn.cases.results import target, writer
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.numerics.sources import computing_digest
-from tribodyn.numerics.work import usable_cores
-from tribodyn.record.previous import Origin, keep_previous
+from tribodyn.numerics.files.sources import computing_digest
+from tribodyn.numerics.processes.work import usable_cores
+from tribodyn.record.files.previous import Origin, keep_previous
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import RecordWriter, check_target

@@ -11,7 +11,7 @@ from pydantic import Field, create_model
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
-from tribodyn.input.tables.drive_data import with_axes_held
+from tribodyn.input.tables.gears.drive_data import with_axes_held
 from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.design.candidates.sources import BASE, NAME, Source, sources_of
 from tribodyn.studies.design.case import DesignCase, RobustTable, SearchOptions, flat

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.cases.assessed import Contribution, Findings, Request, Task, TaskResult, of_teeth
+from tribodyn.cases.assessment_part import Contribution, Findings, Request, Task, TaskResult, of_teeth
 from tribodyn.studies.efficiency import STUDY
 
 _TASK, _SAMPLES = "efficiency-", "efficiency-samples"

@@ -24,7 +24,7 @@ from tribodyn.geometry.path import Path, contact_limits, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.equilibrium import Contacts, settled
 from tribodyn.numerics.elementary import sense
-from tribodyn.studies.efficiency.places import Array, from_pitch_point
+from tribodyn.studies.efficiency.mesh_positions import Array, from_pitch_point
 from tribodyn.tribology.law import Closure
 
 #: Nodes on either side of the pitch point: the efficiency is then known to 1e-7 for every family and law.

@@ -43,7 +43,7 @@ from tribodyn.studies.efficiency.along_path import (
     record_arrays,
     samples,
 )
-from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing
+from tribodyn.studies.efficiency.mesh_positions import SHARINGS, Places, Sharing
 from tribodyn.studies.efficiency.published import by_loss_factor, path_contact, rotations, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
 from tribodyn.studies.efficiency.slices import deflections, judged

@@ -4,12 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.faces import over_faces
+from tribodyn.dynamics.recorded.faces import over_faces
 from tribodyn.errors import InputError
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts
 from tribodyn.mesh.quasi_static import normal_arms
-from tribodyn.studies.efficiency.places import Array, Places, Sharing
+from tribodyn.studies.efficiency.mesh_positions import Array, Places, Sharing
 
 #: Share of its width over which a slice must touch so that its pressure and film are looked at: the line
 #: load of a narrower rest, which holds up the edge of the face alone, is one of the discretisation.

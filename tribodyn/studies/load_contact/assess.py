@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.cases.assessed import (
+from tribodyn.cases.assessment_part import (
     Contribution,
     Findings,
     ReportCurve,

@@ -28,7 +28,7 @@ from tribodyn.gears.scenario import (
 from tribodyn.input import units
 from tribodyn.input.quantity import Count, InUnit, NotNegative, Table, written
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
-from tribodyn.input.tables.model_files import MisalignmentTable
+from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.studies.load_contact.case import LoadContactCase
 
 Load = Annotated[float, InUnit(units.positive(units.TORQUE))]

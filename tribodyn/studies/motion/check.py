@@ -17,7 +17,7 @@ from tribodyn.gears.rating.bearings import (
     bearing_rows,
 )
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.described.mesh_groups import together
+from tribodyn.studies.motion.drivetrain.mesh_groups import together
 from tribodyn.studies.motion.frequencies import (
     distinct_meshes,
     mesh_frequencies,
@@ -28,8 +28,8 @@ from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
-from tribodyn.studies.motion.sensed import listener_of
-from tribodyn.studies.motion.train.whole import shafts as shafts_of
+from tribodyn.studies.motion.sensors import listener_of
+from tribodyn.studies.motion.train.assessable import shafts as shafts_of
 from tribodyn.train.flow import flow
 
 #: Share of a mode's energy below which a body is left out of a table.

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post import style
 from tribodyn.post.cycles import last_cycles
-from tribodyn.post.figures import by_revolution, over_face, over_mesh, sensed, spectrum
+from tribodyn.post.figures import by_revolution, over_face, over_mesh, sensors, spectrum
 from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.over_face import helical
 from tribodyn.post.figures.panel import (
@@ -24,7 +24,7 @@ from tribodyn.post.figures.panel import (
 )
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
-from tribodyn.studies.motion.described.carried import body_labels, mesh_labels, sets_of
+from tribodyn.studies.motion.drivetrain.carried_sets import body_labels, mesh_labels, sets_of
 from tribodyn.studies.motion.pictures.curves import draw_curves
 from tribodyn.studies.motion.pictures.modes_figure import modes_figure
 from tribodyn.studies.motion.pictures.planet_figures import (
@@ -305,7 +305,7 @@ _OF_ANY: dict[str, Drawing] = {
         lambda record: "body" in record and "mode_shares" in record.summary,
         ("modes", "{path} does not say which bodies move in its modes", "run it again"),
     ),
-    **sensed.DRAWINGS,
+    **sensors.DRAWINGS,
 }
 DRAWINGS: dict[str, Drawing] = {
     **{

@@ -14,7 +14,7 @@ from tribodyn.signals.lines import (
     lines_of_pair,
     set_frequencies,
 )
-from tribodyn.studies.motion.described.mesh_groups import together
+from tribodyn.studies.motion.drivetrain.mesh_groups import together
 from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.planetary import CARRIER, RING, SUN
 

@@ -16,7 +16,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.twist import static_twist
-from tribodyn.studies.motion.assembled import (
+from tribodyn.studies.motion.assembly import (
     BodyInertia,
     body_inertias,
     engagements,

@@ -9,20 +9,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.outputs import holding_links
+from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.recorded.outputs import IN_SPACE_NAMES, evaluated, holding_links
 from tribodyn.gears.motion import by_revolution
 from tribodyn.gears.motion.recorded import OF_SLICES, PAIR, gears_layout, scales_of
 from tribodyn.gears.motion.recorded import SAMPLES as OF_A_PAIR
 from tribodyn.gears.motion.running import MeshOfRun, mesh_pairs
-from tribodyn.gears.motion.sampled import Sampled
+from tribodyn.gears.motion.samples import Sampled, sampled
 from tribodyn.geometry.body import GEOMETRY, geometry_arrays
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.record_arrays import as_arrays, described
 from tribodyn.numerics.parameter import Variable
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.pair.outputs import recorded
 from tribodyn.studies.motion.prepare import PreparedGearbox, geometry_of
 
 _TIME, _BODY, _MESH, _PAIRS = ("time",), ("time", "body"), ("time", "mesh"), ("time", "mesh", "pair")
@@ -228,3 +229,41 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
 def usual_layout(case: Gearbox) -> Layout:
     """Of a record of a case whose meshes are not known yet, without slices."""
     return Layout(TIME, SAMPLES) if case.named else gears_layout(1)
+
+
+#: Bodies of a pair of gears, and its only mesh.
+PINION, GEAR, MESH = 0, 1, 0
+
+
+def outputs(
+    cycles: Float[Array, " sample"],
+    states: Float[Array, "sample state"],
+    model: Model,
+    interval: Int[Array, " sample"] | None = None,
+) -> dict[str, np.ndarray]:
+    """All datasets of a pair's record at samples (n,), by name: (n,), (n, pairs) or (n, dof), SI.
+
+    Arguments as of `dynamics.recorded.outputs.evaluated`.
+    """
+    return recorded(sampled(evaluated(cycles, states, model, interval)))
+
+
+def recorded(found: Sampled) -> dict[str, np.ndarray]:
+    """Datasets of a pair's record, by name, from those of the train of two bodies that it is."""
+    whole = found.whole
+
+    def dof(x: str, y: str, angle: str) -> np.ndarray:
+        columns = [whole[name][:, body] for body in (PINION, GEAR) for name in (x, y)]
+        end = "_rate" if x.endswith("_rate") else ""
+        further = [whole[name + end].T for name in IN_SPACE_NAMES]
+        in_space = [row for rows in zip(*further, strict=True) for row in rows]
+        return np.stack([*columns, whole[angle][:, PINION], whole[angle][:, GEAR], *in_space], axis=-1)
+
+    named = {
+        "pinion_angle": whole["reference_angle"],
+        "displacement": dof("x", "y", "angle"),
+        "velocity": dof("x_rate", "y_rate", "speed"),
+    }
+    known = OF_A_PAIR | (OF_SLICES if "line_load" in found.meshes[MESH] else {})
+    every = named | found.meshes[MESH] | {name: v for name, v in whole.items() if v.ndim == 1}
+    return {name: values for name, values in every.items() if name in known or name == "time"}

@@ -5,16 +5,16 @@ from typing import Any
 
 from tribodyn.cases.results import TextTable
 from tribodyn.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
-from tribodyn.gears.motion.extremes_text import on_extremes
-from tribodyn.gears.sensing.tables import sensor_tables
+from tribodyn.gears.motion.extremes import on_extremes
+from tribodyn.gears.sensing.signal_quantities import sensor_tables
 from tribodyn.post import verdict as of_any
 from tribodyn.post.page.mechanism import Mechanism
 from tribodyn.post.report import on_closures, on_energy, on_methods
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
-from tribodyn.record.withheld import reasons
-from tribodyn.studies.motion.described.mesh_groups import between, groups_of, together
+from tribodyn.record.withheld_efficiency import reasons
+from tribodyn.studies.motion.drivetrain.mesh_groups import between, groups_of, together
 from tribodyn.studies.motion.pictures.rolling_train import rolling_train
 from tribodyn.studies.motion.planetary.results import STAGES
 

@@ -12,21 +12,21 @@ from tribodyn.cases.results import target, writer
 from tribodyn.dynamics.modes import modes
 from tribodyn.errors import SimulationError
 from tribodyn.gears.check import oil_data
-from tribodyn.gears.motion.marched import record_motion, run_until_warm
+from tribodyn.gears.motion.march import record_motion, run_until_warm
 from tribodyn.gears.motion.running import RunStatistics
 from tribodyn.gears.motion.steady import limits_in, warning_of
-from tribodyn.gears.sensing.numbers import signal_quantities
+from tribodyn.gears.sensing.signal_quantities import signal_quantities
 from tribodyn.record.reader import MESHES
 from tribodyn.record.sensors import write_sensed
 from tribodyn.record.trust import judge_tribology
-from tribodyn.record.withheld import remarked
+from tribodyn.record.withheld_efficiency import remarked
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.results import STAGES, stage_quantities, worst_stage
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.motion.record import record_of
-from tribodyn.studies.motion.sensed import listener_of
+from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.summary import (
     concluded,
     mesh_at_rest,

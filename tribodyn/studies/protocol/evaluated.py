@@ -12,7 +12,7 @@ from tribodyn.quantities.motion import LIMITS
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, number
-from tribodyn.record.withheld import remarked, remarks, warned
+from tribodyn.record.withheld_efficiency import remarked, remarks, warned
 from tribodyn.studies.protocol.scratch import within
 from tribodyn.studies.protocol.study import Study
 from tribodyn.studies.sweeping.batch import Chunk

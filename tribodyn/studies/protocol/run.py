@@ -11,7 +11,7 @@ from typing import Any, cast
 import tomli_w
 
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.input.own_keys import in_toml
+from tribodyn.input.specific_keys import in_toml
 from tribodyn.numerics.registry import FROM_PYTHON
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.study import CaseHead, Progress, RunResult

@@ -27,7 +27,7 @@ from tribodyn.errors import InputError
 from tribodyn.numerics.registry import cannot_be_loaded
 
 if TYPE_CHECKING:
-    from tribodyn.cases.assessed import Contribution, WholeDrive
+    from tribodyn.cases.assessment_part import Contribution, WholeDrive
     from tribodyn.input.quantity import Table
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.quantities.quantity import Quantity, Reported
@@ -71,9 +71,9 @@ class Study:
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case or scenario)
-    assess        ``ROLE``, the part that it plays in an assessment of a drive (optional): `cases.assessed`
+    assess        ``ROLE``, its part in an assessment of a drive (optional): `cases.assessment_part`
     whole         ``WHOLE``, its meshes as pairs of gears (optional): it can be assessed mesh by mesh, see
-                  `cases.assessed`
+                  `cases.assessment_part`
     derivatives   ``DIFFERENTIABLE``, what makes quantities of a case a function of its numbers (optional:
                   that of a pair of gears), called as `derivatives.differentiable.Differentiable`
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
@@ -168,7 +168,7 @@ class Study:
     ) -> RunResult:
         """Run a case and write its record; arguments, result and errors as of `protocol.run.run`.
 
-        An efficiency in the summary that cannot be is None, see `record.withheld`.
+        An efficiency in the summary that cannot be is None, see `record.withheld_efficiency`.
         """
         if resume and not self.resumes:
             raise InputError("--resume", None, f"{self.about}: such a run cannot go on", "omit it")
@@ -184,16 +184,17 @@ class Study:
                 for note in getattr(error.__context__, "__notes__", nothing):
                     error.add_note(note)
             raise
-        from tribodyn.record.withheld import withheld
+        from tribodyn.record.withheld_efficiency import withheld
 
         return result._replace(summary=withheld(result.summary))
 
     def quantities_of(self, case: Any) -> dict[str, Any]:
         """Work out the quantities of a case without a record, those of `swept` among them.
 
-        An efficiency that cannot be is None, see `record.withheld`. Raises InputError or SimulationError.
+        An efficiency that cannot be is None, see `record.withheld_efficiency`. Raises InputError or
+        SimulationError.
         """
-        from tribodyn.record.withheld import withheld
+        from tribodyn.record.withheld_efficiency import withheld
 
         return withheld(self._part("run", "quantities_of")(case))
 

@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 import tomli_w
 
-from tribodyn.cases.assessed import Task, TaskResult
+from tribodyn.cases.assessment_part import Task, TaskResult
 from tribodyn.cases.results import target, writer
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.numerics.output_files import write_output
-from tribodyn.numerics.sources import computing_digest
-from tribodyn.numerics.work import announce
+from tribodyn.numerics.files.output_files import write_output
+from tribodyn.numerics.files.sources import computing_digest
+from tribodyn.numerics.processes.work import announce
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import COMPLETE, Layout
 from tribodyn.studies.protocol.evaluated import evaluated

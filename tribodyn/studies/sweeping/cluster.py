@@ -6,7 +6,7 @@ from contextlib import ExitStack, contextmanager
 from typing import Any
 
 from tribodyn.errors import InputError, cut
-from tribodyn.numerics.child import isolated_environment
+from tribodyn.numerics.processes.child import isolated_environment
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from tribodyn.compliance.sharing.load_sharing import SharedLoad, half_width
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.wear.case import WearCase
-from tribodyn.studies.wear.places import WearPlaces
+from tribodyn.studies.wear.pressed_positions import WearPlaces
 from tribodyn.tribology.closure import closure_of
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction

@@ -24,11 +24,11 @@ from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.kernels.native.arguments import function_layout
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
-from tribodyn.mesh.teeth.places import flank_places
+from tribodyn.mesh.teeth.flank_positions import flank_places
+from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.numerics.registry import FROM_PYTHON
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.sources import computing_digest
-from tribodyn.record.previous import Origin, keep_previous
+from tribodyn.record.files.previous import Origin, keep_previous
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import check_target
@@ -36,7 +36,7 @@ from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.studies.wear.case import BODIES, WearCase, layout_of, recorded_at
 from tribodyn.studies.wear.outcome import row_of, state_of, summary_of
 from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, passage
-from tribodyn.studies.wear.places import places_of
+from tribodyn.studies.wear.pressed_positions import places_of
 from tribodyn.studies.wear.steps import march, unworn
 from tribodyn.studies.wear.worn_files import check_profiles, write_profiles
 from tribodyn.tribology.closure import laws_of

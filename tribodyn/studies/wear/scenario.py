@@ -27,12 +27,12 @@ from tribodyn.gears.scenario import (
 )
 from tribodyn.geometry.flanks.modification import uneven_teeth
 from tribodyn.input.quantity import Positive, Table, Text, written
-from tribodyn.input.tables.drive_rules import modifications_of
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
-from tribodyn.input.tables.internal_gear import driving_internal
+from tribodyn.input.tables.gears.drive_rules import modifications_of
+from tribodyn.input.tables.gears.internal_gear import driving_internal
+from tribodyn.input.tables.gears.model_files import MisalignmentTable
+from tribodyn.input.tables.gears.single_teeth import ToothSampleNumber, own_teeth_of
 from tribodyn.input.tables.laws import FrictionTable, LawTable, law_values
-from tribodyn.input.tables.model_files import MisalignmentTable
-from tribodyn.input.tables.own_teeth import ToothSampleNumber, own_teeth_of
 from tribodyn.mesh.teeth.deviations import PitchErrors
 from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.studies.wear.case import ALIKE, EACH, WearCase

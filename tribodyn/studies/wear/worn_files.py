@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.numerics.output_files import WRITTEN, check_output, write_output
+from tribodyn.numerics.files.output_files import WRITTEN, check_output, write_output
 from tribodyn.studies.wear.case import BODIES
 from tribodyn.studies.wear.passage import Wearing
 

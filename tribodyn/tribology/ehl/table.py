@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.numerics import child
-from tribodyn.numerics.cache import arrays_kept_or_made
+from tribodyn.numerics.files.cache import arrays_kept_or_made
+from tribodyn.numerics.files.sources import digest_of
+from tribodyn.numerics.processes import child
+from tribodyn.numerics.processes.work import foretell, part, steps, usable_cores
 from tribodyn.numerics.shapes import Array
-from tribodyn.numerics.sources import digest_of
-from tribodyn.numerics.work import foretell, part, steps, usable_cores
 from tribodyn.tribology.contact import DUTY_LOADS, DutyRange, hertz_half_width
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, most_of_film

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from tribodyn import InputError
-from tribodyn.input.tables.drive_rules import broken_drive_rules
+from tribodyn.input.tables.gears.drive_rules import broken_drive_rules
 from tribodyn_example.specific_sliding.scenario import Scenario
 
 

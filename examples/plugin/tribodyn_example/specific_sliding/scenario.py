@@ -9,8 +9,8 @@ from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.input import units
 from tribodyn.input.fields import Name
 from tribodyn.input.quantity import InUnit, Table, Text, model_file, written
-from tribodyn.input.tables.drive_data import drive_of, materials_of
-from tribodyn.input.tables.model_files import DriveTable
+from tribodyn.input.tables.gears.drive_data import drive_of, materials_of
+from tribodyn.input.tables.gears.model_files import DriveTable
 from tribodyn.studies.protocol.study import CaseHead
 
 

@@ -13,10 +13,10 @@ from tribodyn.geometry.limits.checks import check
 from tribodyn.post.page.rolling_teeth import turning_teeth
 from tribodyn.record.reader import Record
 from tribodyn.studies import study_of
+from tribodyn.studies.irefc.geometry import cam_outline, crown_outline
 from tribodyn.studies.pages import write_report
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.studies.rolling.geometry import cam_outline, crown_outline
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tribodyn.cases.assessed import Meshing
+from tribodyn.cases.assessment_part import Meshing
 from tribodyn.compliance.iso6336 import blank_factor
 from tribodyn.errors import InputError
 from tribodyn.gears.prepare import assembled

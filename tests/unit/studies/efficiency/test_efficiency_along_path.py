@@ -13,13 +13,13 @@ from tribodyn.mesh.equilibrium import contacts
 from tribodyn.mesh.quasi_static import mean_efficiency
 from tribodyn.record.reader import Record
 from tribodyn.studies.efficiency.along_path import MeshDuty, cycle_efficiency, engage
-from tribodyn.studies.efficiency.places import SHARINGS, places
+from tribodyn.studies.efficiency.mesh_positions import SHARINGS, places
 from tribodyn.studies.efficiency.published import exact, path_contact, tip_contact_ratios, torque_ratio
 from tribodyn.studies.efficiency.run import PreparedEfficiency, efficiencies
 from tribodyn.studies.efficiency.run import prepare as prepare_study
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.validation.veciana_study import cycloid_contact
+from tribodyn.validation.papers.veciana_study import cycloid_contact
 
 DRIVES = ("efficiency-crc-23-47", "efficiency-involute-18-36", "efficiency-cycloidal-23-47")
 

@@ -1,4 +1,4 @@
-from tribodyn.cases.assessed import Request
+from tribodyn.cases.assessment_part import Request
 from tribodyn.studies.efficiency.assess import tasks
 
 

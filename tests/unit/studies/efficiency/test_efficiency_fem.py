@@ -8,11 +8,11 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.flanks.modification import UNMODIFIED
 from tribodyn.record.reader import Record
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
-from tribodyn.studies.efficiency.places import places
+from tribodyn.studies.efficiency.mesh_positions import places
 from tribodyn.studies.efficiency.run import efficiencies, prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.validation.diez_ibarbia_study import load_contact
+from tribodyn.validation.papers.diez_ibarbia_study import load_contact
 
 INVOLUTE = "efficiency-involute-18-36"
 FEM = {"mesh.compliance": "fem"}

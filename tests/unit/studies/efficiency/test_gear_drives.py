@@ -7,14 +7,14 @@ from tests.support.closures import LOCAL_LAWS, VECIANA, coulomb, of_case, under
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
-from tribodyn.studies.efficiency.places import SHARINGS, places
+from tribodyn.studies.efficiency.mesh_positions import SHARINGS, places
 from tribodyn.studies.efficiency.published import torque_ratio
 from tribodyn.studies.efficiency.run import efficiencies, prepare, quantities_of
-from tribodyn.studies.motion.pair.outputs import outputs
+from tribodyn.studies.motion.record import outputs
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.train.schedule import interval_of
-from tribodyn.validation.veciana_study import involute_contact
+from tribodyn.validation.papers.veciana_study import involute_contact
 
 TEETH, RADIUS, RATIO, ANGLE = 27.0, 27e-3, 2.0, np.radians(20.0)
 DRIVES = ("efficiency-crc-23-47", "efficiency-cycloidal-23-47")

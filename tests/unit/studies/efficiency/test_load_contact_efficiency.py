@@ -12,7 +12,7 @@ from tribodyn.geometry.flanks.modification import (
     Modifications,
     Relief,
 )
-from tribodyn.validation.diez_ibarbia_study import drive, elastic, load_contact
+from tribodyn.validation.papers.diez_ibarbia_study import drive, elastic, load_contact
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 from tribodyn.geometry.drive import tip_radius
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.studies.efficiency.published import exact, hoehn, tip_contact_ratios
-from tribodyn.validation.diez_ibarbia_study import SHIFTS, drive, shifted
+from tribodyn.validation.papers.diez_ibarbia_study import SHIFTS, drive, shifted
 
 
 @pytest.mark.parametrize("tips", [(0.8, 0.8), (0.5, 0.6), (1.0, 1.0), (0.55, 0.97), (1.0, 0.2)])

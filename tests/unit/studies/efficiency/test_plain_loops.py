@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 from tests.support.closures import of_case
 from tribodyn.mesh.equilibrium import contacts
 from tribodyn.studies.efficiency.along_path import record_arrays, samples
-from tribodyn.studies.efficiency.places import places
+from tribodyn.studies.efficiency.mesh_positions import places
 from tribodyn.studies.efficiency.published import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.run import (
     PreparedEfficiency,

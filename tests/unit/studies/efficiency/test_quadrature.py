@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.studies.efficiency.places import from_pitch_point, piecewise
+from tribodyn.studies.efficiency.mesh_positions import from_pitch_point, piecewise
 
 
 def test_pieces_are_crowded_towards_the_pitch_points():

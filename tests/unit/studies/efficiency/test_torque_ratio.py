@@ -7,9 +7,9 @@ import pytest
 
 from tests.support.closures import LOCAL_LAWS, MIXED, VECIANA, coulomb, under
 from tribodyn.geometry.families.involute import InvolutePath
-from tribodyn.studies.efficiency.places import piecewise
+from tribodyn.studies.efficiency.mesh_positions import piecewise
 from tribodyn.studies.efficiency.published import path_contact, rotations, torque_ratio
-from tribodyn.validation.veciana_study import cycloid_contact, involute_contact
+from tribodyn.validation.papers.veciana_study import cycloid_contact, involute_contact
 
 TEETH, RADIUS, RATIO, ANGLE = 27.0, 27e-3, 2.0, math.radians(20)
 DUTY = (200.0, 400.0, 0.04)  # N m, rad/s, m

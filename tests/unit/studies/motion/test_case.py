@@ -11,11 +11,7 @@ from tests.support.turning_outlines import assert_teeth_touch
 from tribodyn.errors import InputError
 from tribodyn.geometry.body import body_masses
 from tribodyn.input.sources import find_scenario, read_toml
-from tribodyn.studies.motion.assembled import (
-    assemblies,
-    body_inertias,
-    link_damping,
-)
+from tribodyn.studies.motion.assembly import assemblies, body_inertias, link_damping
 from tribodyn.studies.motion.case import HOUSING, refuse_long_period
 from tribodyn.studies.protocol.load import load_data, load_scenario
 

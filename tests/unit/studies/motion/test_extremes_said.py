@@ -1,4 +1,4 @@
-from tribodyn.gears.motion.extremes_text import on_extremes
+from tribodyn.gears.motion.extremes import on_extremes
 
 
 def summary(run, last):

@@ -15,9 +15,8 @@ from tribodyn.geometry.body import geometry_arrays
 from tribodyn.post.figures.panel import View
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.check import check
-from tribodyn.studies.motion.described.carried import body_labels, mesh_labels, sets_of
-from tribodyn.studies.motion.described.mesh_groups import between, together
-from tribodyn.studies.motion.described.places import (
+from tribodyn.studies.motion.drivetrain.carried_sets import body_labels, mesh_labels, sets_of
+from tribodyn.studies.motion.drivetrain.gear_positions import (
     contacts,
     gear_outlines,
     gear_poses,
@@ -26,6 +25,7 @@ from tribodyn.studies.motion.described.places import (
     reaches,
     shifts,
 )
+from tribodyn.studies.motion.drivetrain.mesh_groups import between, together
 from tribodyn.studies.motion.figures import DRAWINGS, displacements, mesh_forces
 from tribodyn.studies.motion.pictures.planet_figures import planet_loads
 from tribodyn.studies.motion.prepare import geometry_of, prepare

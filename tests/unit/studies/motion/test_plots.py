@@ -16,7 +16,7 @@ from tests.support.synthetic_record import PITCH_ANGLE, approach_and_recess
 from tribodyn.errors import InputError
 from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.post.cycles import key_points, last_cycles, pair_curve
-from tribodyn.post.figures import sensed
+from tribodyn.post.figures import sensors
 from tribodyn.post.figures.path_of_contact import gears_in_mesh, key_positions
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
@@ -200,7 +200,7 @@ def failed_record(path: Path, samples: int) -> Path:
 
 HELICAL = {"line-load", "in-space"}
 #: Figures of what a run has where its scenario asks for it.
-ASKED = {"revolutions", *sensed.DRAWINGS}
+ASKED = {"revolutions", *sensors.DRAWINGS}
 
 
 @pytest.mark.parametrize(

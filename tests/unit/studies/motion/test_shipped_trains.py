@@ -5,7 +5,7 @@ import pytest
 from tests.support.train_scenarios import train_case
 from tests.support.turning_outlines import assert_teeth_touch
 from tribodyn.input.sources import find_scenario
-from tribodyn.studies.motion.assembled import assemblies
+from tribodyn.studies.motion.assembly import assemblies
 
 PERIODS = {
     "idler-train": 1,

@@ -12,7 +12,7 @@ from tests.support.turning_outlines import assert_teeth_touch
 from tribodyn.errors import InputError
 from tribodyn.gears.prepare import assembled
 from tribodyn.geometry.body import body_masses
-from tribodyn.studies.motion.assembled import assemblies, body_inertias, table_numbers
+from tribodyn.studies.motion.assembly import assemblies, body_inertias, table_numbers
 from tribodyn.studies.protocol.load import load_scenario
 
 

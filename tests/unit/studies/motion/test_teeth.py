@@ -14,7 +14,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family
-from tribodyn.studies.motion.described.teeth import check_same_teeth, engagement
+from tribodyn.studies.motion.drivetrain.teeth import check_same_teeth, engagement
 from tribodyn.train.phases import Phases, ToothedShaft, nominal_phases
 
 ALPHA = 20 * pi / 180

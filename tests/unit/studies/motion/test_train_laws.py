@@ -15,8 +15,8 @@ import tomli_w
 from tests.support.states import PAIR, TURN_G, VX_P, VY_P, X_P, Y_P, random_place, random_state
 from tests.support.train_scenarios import REDUCER, train_case
 from tribodyn.dynamics.approach import DISTANCE
-from tribodyn.dynamics.outputs import evaluated, mesh_outputs
 from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.studies.motion.prepare import prepare as prepare_pair

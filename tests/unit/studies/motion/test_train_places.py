@@ -11,7 +11,7 @@ from tests.support.train_scenarios import REDUCER, train_case
 from tribodyn.post.cycles import last_cycles, mesh_rates, pair_curve, shown_cycles
 from tribodyn.post.page.data import series_of
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.described.places import contacts, gear_outlines, poses
+from tribodyn.studies.motion.drivetrain.gear_positions import contacts, gear_outlines, poses
 from tribodyn.studies.motion.report import mechanism
 from tribodyn.studies.motion.run import run
 

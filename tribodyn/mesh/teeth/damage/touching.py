@@ -8,7 +8,7 @@ under a load on a part of the face (`coupled_slices`), and by the contact's own 
 import numpy as np
 
 from tribodyn.compliance.energy import hertz_linear, tooth_compliance, under_uneven_load
-from tribodyn.mesh.coupled_slices import BODIES_LENGTH, TEETH_LENGTH, spread
+from tribodyn.mesh.slices.coupled import BODIES_LENGTH, TEETH_LENGTH, spread
 from tribodyn.mesh.teeth.damage.gear import CLEAR, DamagedGear
 from tribodyn.mesh.teeth.damage.patch import smooth
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields

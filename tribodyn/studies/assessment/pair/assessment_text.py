@@ -4,7 +4,7 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from tribodyn.cases.assessed import TaskResult
+from tribodyn.cases.assessment_part import TaskResult
 from tribodyn.gears.rating.bearings import bearing_remarks, shafts_of_pair
 from tribodyn.gears.rating.rating_text import factors_said, life_said
 from tribodyn.gears.rating.strength import metal_remarks

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.cases.assessed import ReportCurve
+from tribodyn.cases.assessment_part import ReportCurve
 from tribodyn.gears.rating.standard import ZERO_CELSIUS
 from tribodyn.post.figures.drawing import Drawing, single
 from tribodyn.post.figures.panel import View

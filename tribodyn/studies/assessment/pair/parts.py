@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.cases.assessed import Contribution, Findings, Request, Task, TaskResult
+from tribodyn.cases.assessment_part import Contribution, Findings, Request, Task, TaskResult
 from tribodyn.gears.by_standard import base_pitch_deviation, running_in_of
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import reference_radius

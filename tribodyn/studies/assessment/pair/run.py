@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.cases.assessed import TaskResult
+from tribodyn.cases.assessment_part import TaskResult
 from tribodyn.cases.results import TextTable
 from tribodyn.gears.check import sheet_tables, with_oil
 from tribodyn.gears.plausibility import checks_gears

@@ -52,7 +52,7 @@ class LoadedTeeth(NamedTuple):
 def loaded_teeth(
     case: AssessmentCase, assembly: Assembly, along: Mapping[str, Any], motion: Mapping[str, Any]
 ) -> LoadedTeeth | None:
-    """Stresses from the loads of a pair `along` its path and in `motion`, see `cases.assessed.Findings`.
+    """Stresses from the loads of a pair `along` its path and in `motion`, see `Findings`.
 
     In motion loads lie on the faces as in slow rotation, see `_in_motion`. None where there are none.
     """

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.cases import cost
-from tribodyn.cases.assessed import WholeDrive
+from tribodyn.cases.assessment_part import WholeDrive
 from tribodyn.gears.rating.settings import AtLeastOne, RatingTable
 from tribodyn.input.quantity import Positive, Text
 from tribodyn.numerics.parameter import Variable

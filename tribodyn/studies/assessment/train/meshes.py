@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from tribodyn.cases.assessed import MeshAtDuty
+from tribodyn.cases.assessment_part import MeshAtDuty
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.capacity import as_life, capacity_of, life_bins, required, shorter_life
 from tribodyn.gears.rating.limits import SAFETIES, least, worst

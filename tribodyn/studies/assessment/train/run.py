@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.cases.assessed import Task, TaskResult
+from tribodyn.cases.assessment_part import Task, TaskResult
 from tribodyn.gears.rating.bearings import bearing_part, bearing_remarks
 from tribodyn.gears.rating.limits import SAFETIES, judged, not_judged, with_unlimited
 from tribodyn.gears.rating.rating_text import factors_said, life_said, numbered, ring_said

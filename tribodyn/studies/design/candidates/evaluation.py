@@ -21,7 +21,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.limits import LIMITS, plain_distances
 from tribodyn.input.resolve import resolve_table
 from tribodyn.input.tables.duty import LOADS, SPEEDS
-from tribodyn.numerics import child
+from tribodyn.numerics.processes import child
 from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.sources import own
 from tribodyn.studies.protocol.evaluated import evaluated

@@ -16,13 +16,13 @@ from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.gears.motion.extremes import RunningExtremes
 from tribodyn.gears.motion.running import add_extremes, judge_run
-from tribodyn.gears.motion.sampled import sampled_with_extremes
+from tribodyn.gears.motion.samples import sampled_with_extremes
 from tribodyn.gears.motion.steady import warning_of
 from tribodyn.gears.prepare import MOST_MOTIONS
 from tribodyn.gears.tabulated import TABLES_KEPT, MadeOnce
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, Judge, judge_tribology, number
-from tribodyn.record.withheld import remarked, remarks, warned
+from tribodyn.record.withheld_efficiency import remarked, remarks, warned
 from tribodyn.solve.branch.gear_pairs import UnstableRange
 from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.solve.right_hand_side import engage_next

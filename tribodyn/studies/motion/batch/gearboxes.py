@@ -9,7 +9,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.gears.motion.extremes import RunningExtremes
-from tribodyn.gears.motion.sampled import Sampled
+from tribodyn.gears.motion.samples import Sampled
 from tribodyn.gears.shared_tables import table_key
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names

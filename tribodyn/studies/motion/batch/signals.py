@@ -20,7 +20,7 @@ from tribodyn.gears.sensing.sensor_signals import BLOCK, Heard, listen
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.sensors import Sensed
 from tribodyn.record.sweep_schema import CASE, DONE, FAILED, OF_EVERY_SWEEP, SweepLayout
-from tribodyn.record.withheld import remarked, warned
+from tribodyn.record.withheld_efficiency import remarked, warned
 from tribodyn.sensing.data import KINDS
 from tribodyn.studies.motion.batch.gearboxes import MOST_STATES, keys_of_tables, pace_of
 from tribodyn.studies.motion.batch.stretch import (
@@ -33,7 +33,7 @@ from tribodyn.studies.motion.batch.stretch import (
 )
 from tribodyn.studies.motion.estimate import drivers_of, marching_of
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.motion.sensed import listener_of
+from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.sweeping.batch import Chunk
 from tribodyn.studies.sweeping.signals import SignalRequest
 

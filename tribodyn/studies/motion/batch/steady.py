@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import Extremes, extremes_of
 from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.recorded.extremes import Extremes, extremes_of
 from tribodyn.errors import InputError
 from tribodyn.solve.branch.arclength import BranchEnd
 from tribodyn.solve.branch.continuation import Leg

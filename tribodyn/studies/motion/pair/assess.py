@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.cases.assessed import Contribution, Findings, ReportCurve, Request, Task, TaskResult
+from tribodyn.cases.assessment_part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion import PAIR as STUDY
 

@@ -12,9 +12,9 @@ from tribodyn.gears.motion.settings import (
     broken_source_rules,
 )
 from tribodyn.gears.scenario import broken_gear_rules
-from tribodyn.input.tables.drive_data import gives_backlash
 from tribodyn.input.tables.duty import broken_duty_rules, duty_of
-from tribodyn.input.tables.internal_gear import driving_internal
+from tribodyn.input.tables.gears.drive_data import gives_backlash
+from tribodyn.input.tables.gears.internal_gear import driving_internal
 from tribodyn.input.tables.sensors import broken_sensor_rules
 from tribodyn.studies.motion.pair.scenario import Scenario, gears_of_pair
 

@@ -36,11 +36,11 @@ from tribodyn.gears.supports import bearings_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input import fields
 from tribodyn.input.quantity import csv_file, model_file, written
-from tribodyn.input.tables.bearings import Bearings
-from tribodyn.input.tables.damage import Damages, GearPlace, damage_of
 from tribodyn.input.tables.duty import DutyTable, OiledOperatingTable, duty_of
-from tribodyn.input.tables.own_teeth import own_teeth_of, with_own_teeth
+from tribodyn.input.tables.gears.damage import Damages, GearPlace, damage_of
+from tribodyn.input.tables.gears.single_teeth import own_teeth_of, with_own_teeth
 from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
+from tribodyn.input.tables.supports.bearings import Bearings
 from tribodyn.studies.motion.pair.case import Case
 
 

@@ -17,7 +17,7 @@ from tribodyn.post.figures.panel import (
 )
 from tribodyn.post.figures.scale import scale
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.described.carried import mesh_names
+from tribodyn.studies.motion.drivetrain.carried_sets import mesh_names
 
 
 def draw_curves(

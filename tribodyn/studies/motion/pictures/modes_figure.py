@@ -12,8 +12,8 @@ from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.figures.spectrum import apart, mode_frequencies
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, literal, mark_panel, new_figure, write_beside
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.described.carried import body_labels, mesh_names, sets_of
-from tribodyn.studies.motion.described.mesh_groups import together
+from tribodyn.studies.motion.drivetrain.carried_sets import body_labels, mesh_names, sets_of
+from tribodyn.studies.motion.drivetrain.mesh_groups import together
 
 #: Harmonics of the mesh frequencies, the speeds shown over the mean one, and room below and above.
 HARMONICS, SPEEDS, ROOM = 3, (0.25, 1.6), (0.8, 1.3)

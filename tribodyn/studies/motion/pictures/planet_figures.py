@@ -10,7 +10,7 @@ from tribodyn.post.cycles import last_cycles
 from tribodyn.post.figures.panel import MOST_CYCLES_DRAWN, Trace, View, record_title
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.described.carried import CarriedSet, sets_of
+from tribodyn.studies.motion.drivetrain.carried_sets import CarriedSet, sets_of
 from tribodyn.studies.motion.pictures.curves import draw_curves
 
 LOAD = Trace("normal_load", "Load of every planet", "$F_n$", "N", from_zero=True)

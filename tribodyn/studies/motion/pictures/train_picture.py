@@ -14,8 +14,8 @@ from tribodyn.post.figures.gears_in_mesh import GEAR_FILL, MILLIMETRE, PINION_FI
 from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.described.carried import mesh_labels, sets_of
-from tribodyn.studies.motion.described.places import (
+from tribodyn.studies.motion.drivetrain.carried_sets import mesh_labels, sets_of
+from tribodyn.studies.motion.drivetrain.gear_positions import (
     GearOutline,
     axes_of,
     contacts,

@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.studies.motion.case import HOUSING, Gearbox, SetData
-from tribodyn.studies.motion.described.mesh_groups import together
+from tribodyn.studies.motion.drivetrain.mesh_groups import together
 from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.structure import TURN
 

@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.modes import Modes
-from tribodyn.dynamics.planetary_modes import mode_kinds
+from tribodyn.dynamics.modes import Modes, mode_kinds
 from tribodyn.studies.motion.case import Gearbox, SetData
 from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.planetary import RING, SUN

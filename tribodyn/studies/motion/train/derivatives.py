@@ -21,8 +21,8 @@ from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.drive import SIDES
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.described.duty import torques_of
-from tribodyn.studies.motion.described.placed_train import Moving, ends_of, key_in_train, moving
+from tribodyn.studies.motion.drivetrain.duty import torques_of
+from tribodyn.studies.motion.drivetrain.placed_train import Moving, ends_of, key_in_train, moving
 
 #: Quantities of the whole train, of the friction losses of all meshes.
 TOTALS = {

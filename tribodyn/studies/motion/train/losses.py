@@ -19,8 +19,8 @@ from tribodyn.input.tables.losses import (
     broken_formulas,
     drag_of,
 )
-from tribodyn.studies.motion.described.placed_train import Moving
-from tribodyn.studies.motion.described.tables import PartName
+from tribodyn.studies.motion.drivetrain.placed_train import Moving
+from tribodyn.studies.motion.drivetrain.tables import PartName
 from tribodyn.tribology.losses import LossData
 
 

@@ -4,10 +4,10 @@ from typing import Any, NamedTuple
 
 from tribodyn.gears.motion.settings import Friction, Mesh
 from tribodyn.gears.supports import GearSupports
-from tribodyn.input.tables.model_files import DriveTable
-from tribodyn.studies.motion.described.duty_tables import TrainOperating
-from tribodyn.studies.motion.described.placed_train import Moving
-from tribodyn.studies.motion.described.structure import mesh_table
+from tribodyn.input.tables.gears.model_files import DriveTable
+from tribodyn.studies.motion.drivetrain.duty_tables import TrainOperating
+from tribodyn.studies.motion.drivetrain.placed_train import Moving
+from tribodyn.studies.motion.drivetrain.structure import mesh_table
 
 
 class PairView(NamedTuple):

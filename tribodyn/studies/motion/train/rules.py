@@ -13,18 +13,18 @@ from tribodyn.gears.motion.settings import (
     broken_source_rules,
 )
 from tribodyn.gears.scenario import broken_gear_rules
-from tribodyn.input.tables.bearings import broken_bearing
-from tribodyn.input.tables.drive_data import gives_backlash
 from tribodyn.input.tables.duty import unnamed_duty
+from tribodyn.input.tables.gears.drive_data import gives_backlash
 from tribodyn.input.tables.sensors import broken_sensor_rules
-from tribodyn.studies.motion.described.duty import broken_duty_rules, duty_of
-from tribodyn.studies.motion.described.names import broken_names, broken_sort
-from tribodyn.studies.motion.described.placed_train import Moving, drawn, in_terms_of_train, moving
-from tribodyn.studies.motion.described.tables import PlanetaryStage
+from tribodyn.input.tables.supports.bearings import broken_bearing
+from tribodyn.studies.motion.drivetrain.duty import broken_duty_rules, duty_of
+from tribodyn.studies.motion.drivetrain.names import broken_names, broken_sort
+from tribodyn.studies.motion.drivetrain.placed_train import Moving, drawn, in_terms_of_train, moving
+from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
 from tribodyn.studies.motion.train.losses import broken_losses
-from tribodyn.studies.motion.train.own_teeth import gears_of_train
 from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
 from tribodyn.studies.motion.train.scenario import Scenario
+from tribodyn.studies.motion.train.single_teeth import gears_of_train
 from tribodyn.studies.motion.train.supports import broken_drawn_shafts
 from tribodyn.train.links.linear import LAW as LINEAR_LINK
 

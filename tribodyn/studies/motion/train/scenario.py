@@ -23,21 +23,16 @@ from tribodyn.gears.supports import GearSupport
 from tribodyn.geometry.drive import SIDES, BodyMass
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Count, csv_tables, model_file, written
-from tribodyn.input.tables.bearings import Bearing, bearing_of
-from tribodyn.input.tables.damage import Damages
-from tribodyn.input.tables.drive_data import masses_of, materials_of, teeth_of
 from tribodyn.input.tables.duty import MOST_DUTIES
+from tribodyn.input.tables.gears.damage import Damages
+from tribodyn.input.tables.gears.drive_data import masses_of, materials_of, teeth_of
+from tribodyn.input.tables.gears.material import MaterialReference
+from tribodyn.input.tables.gears.model_files import DriveTable, Grade, QualityEdition, Roughness
+from tribodyn.input.tables.gears.quality import grade_of, tolerances_of
+from tribodyn.input.tables.gears.single_teeth import with_own_teeth
 from tribodyn.input.tables.laws import law_values
-from tribodyn.input.tables.material import MaterialReference
-from tribodyn.input.tables.model_files import (
-    DriveTable,
-    Grade,
-    QualityEdition,
-    Roughness,
-)
-from tribodyn.input.tables.own_teeth import with_own_teeth
-from tribodyn.input.tables.quality import grade_of, tolerances_of
 from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
+from tribodyn.input.tables.supports.bearings import Bearing, bearing_of
 from tribodyn.studies.motion.case import (
     HOUSING,
     BodyData,
@@ -47,11 +42,11 @@ from tribodyn.studies.motion.case import (
     SourceData,
     TrainMesh,
 )
-from tribodyn.studies.motion.described.duty import TrainDuty, duty_of, motor_torque
-from tribodyn.studies.motion.described.duty_tables import LoadTable, TrainOperating, TrainSpectrumDuty
-from tribodyn.studies.motion.described.placed_train import Drawn, Moving, drawn, moving
-from tribodyn.studies.motion.described.structure import bearings_by_body
-from tribodyn.studies.motion.described.tables import (
+from tribodyn.studies.motion.drivetrain.duty import TrainDuty, duty_of, motor_torque
+from tribodyn.studies.motion.drivetrain.duty_tables import LoadTable, TrainOperating, TrainSpectrumDuty
+from tribodyn.studies.motion.drivetrain.placed_train import Drawn, Moving, drawn, moving
+from tribodyn.studies.motion.drivetrain.structure import bearings_by_body
+from tribodyn.studies.motion.drivetrain.tables import (
     MOST_PARTS,
     AnyStage,
     BareBody,
@@ -62,10 +57,10 @@ from tribodyn.studies.motion.described.tables import (
     TrainBearings,
     TrainGear,
 )
-from tribodyn.studies.motion.planetary.linked import links_of_set, set_data
+from tribodyn.studies.motion.planetary.links import links_of_set, set_data
 from tribodyn.studies.motion.train.losses import TrainLossesTable, losses_of_meshes
-from tribodyn.studies.motion.train.own_teeth import own_teeth
 from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
+from tribodyn.studies.motion.train.single_teeth import own_teeth
 from tribodyn.studies.motion.train.supports import supports_of_bodies, supports_of_mesh
 from tribodyn.train.links import LINK_LAWS
 

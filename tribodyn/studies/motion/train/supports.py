@@ -19,12 +19,12 @@ from tribodyn.gears.supports import (
     mean_loads,
     misalignment_of,
 )
-from tribodyn.input.tables.bearings import bearing_of
-from tribodyn.input.tables.shafts import broken_shaft
+from tribodyn.input.tables.supports.bearings import bearing_of
+from tribodyn.input.tables.supports.shafts import broken_shaft
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.motion.described.placed_train import Drawn, Moving
-from tribodyn.studies.motion.described.structure import bearings_by_body
-from tribodyn.studies.motion.described.tables import Shaft
+from tribodyn.studies.motion.drivetrain.placed_train import Drawn, Moving
+from tribodyn.studies.motion.drivetrain.structure import bearings_by_body
+from tribodyn.studies.motion.drivetrain.tables import Shaft
 from tribodyn.train.positions import frame_of
 
 _NOTHING = (0.0,) * 5

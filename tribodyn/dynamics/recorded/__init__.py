@@ -1,0 +1,1 @@
+"""What is recorded of a motion: datasets, their extremes, sums over the face."""

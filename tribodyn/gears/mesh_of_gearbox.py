@@ -1,0 +1,82 @@
+"""A mesh of a gearbox in place of a drive: its pair of gears, at the duty that the gearbox gives it."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
+
+from tribodyn.errors import InputError, quoted
+from tribodyn.input.quantity import Table
+from tribodyn.input.sources import SCENARIOS, find_model
+from tribodyn.input.tables.duty import LOADS, SPEEDS
+from tribodyn.input.tables.gears.model_files import GearboxTable
+
+#: A scenario's file -> its study, and what makes its case.
+Opened = Callable[[Path], tuple[Any, Callable[[], Any]]]
+
+
+class _Asked(Table):
+    """The part of a scenario that is read before the rest."""
+
+    gearbox: GearboxTable
+
+
+def with_pair(
+    data: Mapping[str, Any], schema: type[BaseModel], referring: Path, opened: Opened
+) -> dict[str, Any]:
+    """A scenario's data with its `gearbox` replaced by the tables that the pair of gears of its mesh has.
+
+    What the data say themselves holds. `referring` is the file, `opened` opens a scenario.
+    InputError where there is no such gearbox or mesh, and ValidationError of pydantic where `gearbox` is
+    no such table.
+    """
+    asked = _Asked.model_validate({"gearbox": data["gearbox"]}).gearbox
+    name = asked.scenario
+    if isinstance(drive := data.get("drive"), Mapping) and "family" in drive:
+        rule = "contradicts drive, which is a pair of gears too"
+        raise InputError("gearbox", None, rule, "leave the one or the other out")
+    path = find_model(name, SCENARIOS, "gearbox.scenario", referring)
+    study, case = opened(path)
+    whole = study.whole()
+    if whole is None:
+        rule = f"is no gearbox of several meshes, but {study.about}"
+        raise InputError("gearbox.scenario", quoted(name), rule, "name its drive: drive = …")
+    try:
+        tables = whole.pair(case(), asked.mesh)
+    except InputError as error:
+        raise InputError(f"gearbox.{error.key}", error.value, error.rule, error.remedy) from None
+    return _put({key: value for key, value in data.items() if key != "gearbox"}, tables, schema)
+
+
+def _put(data: dict[str, Any], tables: Mapping[str, Any], schema: type[BaseModel]) -> dict[str, Any]:
+    """The data over the tables, of which those keys are taken that the schema has."""
+    found = dict(data)
+    for name, table in tables.items():
+        if name not in schema.model_fields:
+            continue
+        own = data.get(name)
+        if not isinstance(table, Mapping) or not (own is None or isinstance(own, Mapping)):
+            found.setdefault(name, table)
+            continue
+        given = dict(own or {})
+        taken = {key: value for key, value in table.items() if _has(schema, name, key)}
+        for group in (SPEEDS, LOADS):
+            if name == "operating" and set(group) & set(given):
+                taken = {key: value for key, value in taken.items() if key not in group}
+        if "law" in given:  # and its own keys
+            taken = {}
+        found[name] = taken | given
+    return found
+
+
+def _has(schema: type[BaseModel], name: str, key: str) -> bool:
+    """Whether the schema's table of a name knows a key; of a drive or an oil, and of laws, all."""
+    annotation = schema.model_fields[name].annotation
+    kinds = [annotation, *getattr(annotation, "__args__", ())]
+    tables = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
+    if not tables or name in ("drive", "lubricant"):
+        return True
+    known = {field for table in tables for field in table.model_fields}
+    laws = name in ("film", "friction") and key not in ("sliding", "reversal_width")  # of motions alone
+    return laws or key in known

@@ -1,0 +1,99 @@
+"""Indicators of a run's signals: for its summary, and as tables of its record's sensors."""
+
+from collections.abc import Iterator, Mapping
+from math import isfinite
+from typing import Any
+
+from tribodyn.cases.results import TextTable
+from tribodyn.quantities.signals import OF_SHAFT, OF_SIGNAL
+from tribodyn.record.reader import Record
+from tribodyn.record.sensors import Sensed, SensorSignal
+from tribodyn.signals.indicators import of_average, of_signal
+from tribodyn.signals.lines import MESH, SHAFT, SignalLine
+from tribodyn.signals.synchronous import synchronous_average
+
+#: In a summary: signals by name; in one of them shafts by name.
+SENSORS, SHAFTS = "sensors", "shafts"
+#: Turns of a shaft from which its average is worth a number.
+FEWEST_TURNS = 2
+
+
+def signal_quantities(sensed: Sensed) -> dict[str, Any]:
+    """Numbers of every signal, and of its average over the turns of every shaft that turned often enough."""
+    if not sensed.signals:
+        return {}
+    return {
+        SENSORS: {
+            signal.name: {n: v for n, v in of_signal(signal.values).items() if isfinite(v)}
+            | _of_shafts(signal, sensed.lines)
+            for signal in sensed.signals
+            if len(signal.values) > 1
+        }
+    }
+
+
+def _of_shafts(signal: SensorSignal, lines: tuple[SignalLine, ...]) -> dict[str, Any]:
+    found = {}
+    for shaft, teeth in toothed_shafts(lines):
+        if turns_of(signal, shaft) >= FEWEST_TURNS:
+            average = synchronous_average(signal.values, signal.turns * shaft.order)
+            known = of_average(average.values, teeth) | {"turns": average.turns}
+            found[shaft.name] = {name: value for name, value in known.items() if isfinite(value)}
+    return {SHAFTS: found} if found else {}
+
+
+def toothed_shafts(lines: tuple[SignalLine, ...]) -> list[tuple[SignalLine, list[int]]]:
+    """Shafts with the orders of the meshes of their gears, where these are whole."""
+    meshes = [line for line in lines if line.sort == MESH]
+    found = []
+    for shaft in lines:
+        if shaft.sort == SHAFT:
+            teeth = sorted({shaft.teeth_of(mesh) for mesh in meshes} - {0})
+            if teeth:
+                found.append((shaft, teeth))
+    return found
+
+
+def turns_of(signal: SensorSignal, shaft: SignalLine) -> float:
+    """Revolutions of a shaft in a signal."""
+    return float(signal.turns[-1] - signal.turns[0]) * shaft.order if len(signal.turns) > 1 else 0.0
+
+
+def sensor_tables(record: Record) -> list[TextTable]:
+    """Tables of the sensors of a record; none where it has none."""
+    known = record.summary.get(SENSORS)
+    if not isinstance(known, Mapping):
+        return []
+    signals = {name: own for name, own in known.items() if isinstance(own, Mapping)}
+    kinds = {str(table.get("name")): str(table.get("kind")) for table in record.scenario.get(SENSOR, ())}
+    ordered = [name for name in kinds if name in signals] or list(signals)
+    rows = [
+        [name, kinds.get(name, ""), *(_written(signals[name], quantity) for quantity in OF_SIGNAL)]
+        for name in ordered
+    ]
+    head = ("sensor", "kind", *(quantity.label for quantity in OF_SIGNAL))
+    tables = [TextTable("Sensors, in SI units", head, rows)]
+    shafts = [
+        [name, shaft, *(_written(own, quantity) for quantity in OF_SHAFT)]
+        for name in ordered
+        for shaft, own in _shafts(signals[name])
+    ]
+    if shafts:
+        head = ("sensor", "shaft", *(quantity.label for quantity in OF_SHAFT))
+        tables.append(TextTable("Averages over the turns of the shafts", head, shafts))
+    return tables
+
+
+#: List of the sensors in a scenario.
+SENSOR = "sensor"
+
+
+def _shafts(signal: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    found = signal.get(SHAFTS)
+    if isinstance(found, Mapping):
+        yield from ((str(name), own) for name, own in found.items() if isinstance(own, Mapping))
+
+
+def _written(own: Mapping[str, Any], quantity: Any) -> str:
+    value = own.get(quantity.name)
+    return "–" if value is None else quantity.written(value)

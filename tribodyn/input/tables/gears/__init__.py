@@ -1,0 +1,1 @@
+"""Gears in a scenario: teeth, blanks, quality, material, single teeth and their damage."""

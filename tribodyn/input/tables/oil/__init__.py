@@ -1,0 +1,1 @@
+"""The lubricant in a scenario, and how it thickens under pressure."""

@@ -1,0 +1,219 @@
+"""A lubricant by its data sheet or by the numbers that the laws read: its numbers, and its rules."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, cast
+
+from pydantic import Field, ValidationError
+
+from tribodyn.errors import InputError, quoted
+from tribodyn.input import quantity, units
+from tribodyn.input.messages import explain
+from tribodyn.input.sources import find_model, read_toml
+from tribodyn.input.tables.gears.material import Described
+from tribodyn.input.tables.oil.viscosity_law import ViscosityLaw, broken_viscosity_rules, measured_of
+from tribodyn.tribology import oil
+
+KinematicViscosity = Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY))]
+
+
+class Lubricant(Described):
+    """A lubricant (`models/lubricants/`): by its data sheet, or by the numbers that the laws read."""
+
+    type: oil.OilType | None = Field(None, description="base oil; needed with a data sheet")
+    viscosity_40: KinematicViscosity | None = Field(None, description="kinematic, at 40 °C")
+    viscosity_100: (
+        Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
+    ) = Field(None, description="kinematic, at 100 °C")
+    density_15: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = (
+        Field(None, description="at 15 °C")
+    )
+    asperity_friction: quantity.NotNegative | None = Field(None, description="f_c; default: by type")
+    limiting_shear_coefficient: quantity.Positive | None = Field(None, description="Λ_lim; default: by type")
+    inlet_viscosity: Annotated[float, quantity.InUnit(units.positive(units.VISCOSITY))] | None = Field(
+        None, description="dynamic; without a data sheet"
+    )
+    pressure_viscosity: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE_VISCOSITY))] | None = (
+        Field(None, description="default: by type and viscosity")
+    )
+    viscosity_pressure_index: quantity.Positive | None = Field(
+        None, description="z of Roelands' law; default: from pressure_viscosity and viscosity"
+    )
+    temperature_viscosity: Annotated[float, quantity.InUnit(units.not_negative(units.PER_KELVIN))] | None = (
+        Field(None, description="default: slope of the viscosity over temperature")
+    )
+    density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
+        None, description="at the oil's temperature; default: from density_15"
+    )
+    load_exponent: quantity.NotNegative | None = Field(
+        None,
+        description="d of Niemann's lubricant factor; default: 0 with a type, else 0.0651, mineral oil 75W90 "
+        "(Diez-Ibarbia et al.)",
+    )
+    lubricant_factor: quantity.Positive | None = Field(
+        None, description="X_L of Niemann and of ISO/TR 15144-1; default: by type, else 1"
+    )
+    schlenk_factor: quantity.Positive | None = Field(
+        None, description="X_L of Schlenk; default: by type, else that of mineral oil"
+    )
+    fzg_scuffing_stage: Annotated[int, Field(strict=True, ge=1, le=14)] | None = Field(
+        None, description="failure load stage of the FZG scuffing test A/8.3/90"
+    )
+    fzg_micropitting_stage: Annotated[int, Field(strict=True, ge=5, le=11)] | None = Field(
+        None, description="failure load stage of the FZG micropitting test C-GF/8.3"
+    )
+    fzg_micropitting_temperature: Annotated[float, quantity.InUnit(units.TEMPERATURE_KIND, "90 degC")] = (
+        quantity.written("90 degC", description="oil temperature of that test")
+    )
+    viscosity_law: ViscosityLaw | None = Field(
+        None, description="how viscosity rises with pressure in the solved contact; default: by type"
+    )
+
+
+#: What is taken for an oil: densities at 15 °C, kg/m³, and the kinematic viscosity at 40 °C at most, m²/s.
+DENSITIES, THICKEST = (650.0, 1300.0), 0.1
+_SHEET = ("viscosity_40", "viscosity_100", "density_15")
+#: What the laws read, with an example; the last two follow from the type.
+_DIRECT = {
+    "inlet_viscosity": '"0.35 Pa*s"',
+    "pressure_viscosity": '"25 1/GPa"',
+    "viscosity_pressure_index": "0.57",
+    "temperature_viscosity": '"0.045 1/K"',
+    "density": '"870 kg/m**3"',
+    "asperity_friction": "0.11",
+    "limiting_shear_coefficient": "0.05",
+}
+_EXAMPLES = {"viscosity_40": '"220 mm**2/s"', "viscosity_100": '"19 mm**2/s"', "density_15": '"0.89 g/cm**3"'}
+
+
+def lubricant_of(lubricant: Lubricant, oil_temperature: float | None = None) -> oil.LubricantData:
+    """Return the lubricant's numbers, at the oil's temperature (K) where a data sheet gives them.
+
+    Rules as in `broken_lubricant_rules`.
+    """
+    given = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
+    stages = oil.FzgStages(
+        lubricant.fzg_scuffing_stage, lubricant.fzg_micropitting_stage, lubricant.fzg_micropitting_temperature
+    )
+    if (sheet := sheet_of(lubricant)) is not None and oil_temperature is not None:
+        return oil.lubricant_from(sheet, oil_temperature, stages)
+    typical = oil.by_type(lubricant.type) if lubricant.type else {}
+    numbers: dict[str, Any] = {name: number.value for name, number in typical.items()} | given
+    return oil.LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
+
+
+def read_lubricant(name: str, oil_temperature: float) -> oil.LubricantData:
+    """Return the numbers at a temperature, K, of a shipped lubricant, or of a file (.toml); InputError."""
+    path = find_model(name, "lubricants", "lubricant", Path("scenario"))
+    try:
+        table = Lubricant.model_validate(read_toml(path))
+    except ValidationError as error:
+        raise explain(error, Lubricant)[0] from None
+    if table.viscosity_40 is None:
+        rule = "is known at one temperature only"
+        raise InputError("lubricant", quoted(name), rule, "give viscosity and pressure_viscosity instead")
+    for broken in broken_lubricant_rules(table, oil_temperature):
+        raise broken
+    return lubricant_of(table, oil_temperature)
+
+
+def sheet_of(lubricant: Lubricant) -> oil.OilSheet | None:
+    """Return the data sheet of a lubricant; None where it is given by the numbers that the laws read."""
+    if lubricant.type is None or lubricant.viscosity_40 is None:
+        return None
+    given = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
+    viscosity_100, density_15 = cast(float, lubricant.viscosity_100), cast(float, lubricant.density_15)
+    law = lubricant.viscosity_law
+    roelands = law is not None and law.model == "roelands"
+    return oil.OilSheet(
+        *(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given),
+        measured_of(law),
+        roelands,
+    )
+
+
+def broken_lubricant_rules(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
+    """Go through the rules that a lubricant breaks by itself or at the oil's temperature (K)."""
+    yield from broken_viscosity_rules(lubricant)
+    if all(getattr(lubricant, name) is None for name in _SHEET):
+        yield from _direct(lubricant, oil_temperature)
+        return
+    broken = list(_sheet(lubricant))
+    yield from broken
+    if oil_temperature is None:
+        yield InputError(
+            "operating.oil_temperature",
+            rule="missing: the lubricant is given by its data sheet",
+            remedy='add oil_temperature = "80 degC" to [operating]',
+        )
+    elif not broken:
+        yield from _temperature(lubricant, oil_temperature)
+
+
+def _direct(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
+    known = oil.by_type(lubricant.type) if lubricant.type else {}
+    for name, example in _DIRECT.items():
+        if getattr(lubricant, name) is None and name not in known:
+            remedy = f"add {name} = {example}"
+            if name == "inlet_viscosity":
+                remedy += ", or the data sheet: type, viscosity_40, viscosity_100 and density_15"
+            yield InputError(f"lubricant.{name}", rule="missing", remedy=remedy)
+    if oil_temperature is not None:
+        given = f"{oil_temperature - oil.ZERO_CELSIUS:.6g} degC"
+        rule = "contradicts a lubricant whose inlet_viscosity is given at one temperature"
+        remedy = "leave it out, or give the data sheet: type, viscosity_40, viscosity_100 and density_15"
+        yield InputError("operating.oil_temperature", given, rule, remedy)
+
+
+def _sheet(lubricant: Lubricant) -> Iterator[InputError]:
+    if lubricant.type is None:
+        rule = "missing: pressure-viscosity, limiting shear and lubricant factor go by it"
+        yield InputError(
+            "lubricant.type", rule=rule, remedy=f"write one of {', '.join(map(quoted, oil.OIL_TYPES))}"
+        )
+    for name in _SHEET:
+        if getattr(lubricant, name) is None:
+            rule = "missing: a data sheet needs viscosity_40, viscosity_100 and density_15"
+            yield InputError(f"lubricant.{name}", rule=rule, remedy=f"add {name} = {_EXAMPLES[name]}")
+    if lubricant.inlet_viscosity is not None:
+        given = f"{lubricant.inlet_viscosity:g} Pa*s"
+        rule = (
+            "contradicts viscosity_40 and viscosity_100, from which it follows at operating.oil_temperature"
+        )
+        remedy = "leave it out, or leave out viscosity_40, viscosity_100 and density_15"
+        yield InputError("lubricant.inlet_viscosity", given, rule, remedy)
+    density = lubricant.density_15
+    if density is not None and not DENSITIES[0] <= density <= DENSITIES[1]:
+        given, rule = f"{density:g} kg/m**3", f"oils have {DENSITIES[0]:g} to {DENSITIES[1]:g} kg/m**3"
+        yield InputError("lubricant.density_15", given, rule, f"check the unit: {_EXAMPLES['density_15']}")
+    at_40, at_100 = lubricant.viscosity_40, lubricant.viscosity_100
+    if at_40 is not None and at_40 > THICKEST:
+        given, rule = f"{1e6 * at_40:g} mm**2/s", f"more than {1e6 * THICKEST:g} mm**2/s, which is no oil"
+        yield InputError(
+            "lubricant.viscosity_40", given, rule, f"check the unit: {_EXAMPLES['viscosity_40']}"
+        )
+    if at_40 is None or at_100 is None:
+        return
+    given = f"{1e6 * at_100:g} mm**2/s"
+    if at_100 >= at_40:
+        rule = f"must be below viscosity_40, {1e6 * at_40:g} mm**2/s: oil gets thinner as it warms up"
+        yield InputError("lubricant.viscosity_100", given, rule, "swap the two, or check the data sheet")
+    elif at_100 < oil.MINIMUM_VISCOSITY:
+        rule = f"ASTM D341 holds from {1e6 * oil.MINIMUM_VISCOSITY:g} mm**2/s on"
+        remedy = "give inlet_viscosity and the other numbers that the laws read instead of the data sheet"
+        yield InputError("lubricant.viscosity_100", given, rule, remedy)
+
+
+def _temperature(lubricant: Lubricant, temperature: float) -> Iterator[InputError]:
+    low, high = (round(limit - oil.ZERO_CELSIUS) for limit in oil.TEMPERATURE_RANGE)
+    key, given = "operating.oil_temperature", f"{temperature - oil.ZERO_CELSIUS:.6g} degC"
+    if not oil.TEMPERATURE_RANGE[0] <= temperature <= oil.TEMPERATURE_RANGE[1]:
+        rule = f"outside {low} to {high} degC, for which viscosity and density are derived from a data sheet"
+        yield InputError(key, given, rule, f"write a temperature from {low} to {high} degC")
+    elif lubricant.viscosity_40 and lubricant.viscosity_100:
+        viscosity = oil.kinematic_viscosity(lubricant.viscosity_40, lubricant.viscosity_100, temperature)
+        limits = f"{1e6 * oil.MINIMUM_VISCOSITY:g} to {1e6 * oil.MAXIMUM_VISCOSITY:g} mm**2/s"
+        if not oil.MINIMUM_VISCOSITY <= viscosity <= oil.MAXIMUM_VISCOSITY:
+            rule = f"the oil has {1e6 * viscosity:.2g} mm**2/s there, and ASTM D341 holds from {limits}"
+            other = "lower" if viscosity < oil.MINIMUM_VISCOSITY else "higher"
+            yield InputError(key, given, rule, f"write a {other} temperature, or take another oil")

@@ -1,0 +1,1 @@
+"""Shafts, bearings and stiffness matrices in a scenario."""

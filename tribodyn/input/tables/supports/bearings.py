@@ -1,0 +1,164 @@
+"""Shafts and bearings (`models/bearings/`): their tables, rules, and what the dynamics read of them."""
+
+import math
+from collections.abc import Collection, Iterator
+from typing import Annotated, cast
+
+from pydantic import Field
+
+from tribodyn.dynamics.data import ROLLERS, BearingData, BearingType, RollingBearing, radial_stiffness
+from tribodyn.errors import InputError
+from tribodyn.input import units
+from tribodyn.input.quantity import Count, InUnit, NotNegative, Table, written
+from tribodyn.input.tables.gears.material import OWN_VALUES, Described
+from tribodyn.input.tables.supports.support_matrix import MatrixUnits, Rows, broken_matrix, matrix_of
+
+Stiffness = Annotated[float, InUnit(units.positive(units.STIFFNESS))]
+#: Contact angle from which a bearing carries no radial load to speak of.
+MAXIMUM_CONTACT_ANGLE = math.radians(60.0)
+
+
+class Rolling(Table):
+    """The rolling bearings of a shaft, from whose type, size and load the stiffness follows."""
+
+    type: BearingType
+    elements: Annotated[int, Field(strict=True, ge=3, le=1000)] = Field(description="rolling elements")
+    diameter: Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")] | None = Field(
+        None, description="of a ball"
+    )
+    length: Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")] | None = Field(
+        None, description="effective, of a roller"
+    )
+    contact_angle: Annotated[float, InUnit(units.not_negative(units.ANGLE_KIND), "15 deg")] = written("0 deg")
+    radial_load: Annotated[float, InUnit(units.positive(units.FORCE))] = Field(description="of one bearing")
+    count: Count = Field(2, description="bearings that carry the shaft")
+
+
+class Bearing(Table):
+    """Shaft and bearing of one gear: stiffness given, or from the rolling bearings alone."""
+
+    stiffness_x: Stiffness | None = Field(None, description="along the pitch tangent")
+    stiffness_y: Stiffness | None = Field(None, description="along the line of centres")
+    rolling: Rolling | None = Field(None, description="in place of the stiffness")
+    stiffness_axial: Stiffness | None = Field(
+        None, description="of helical gears; default: the smaller of x and y"
+    )
+    stiffness_tilt: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
+        None, description="against tilts of helical gears; default: of two bearings at the span"
+    )
+    span: Annotated[float, InUnit(units.positive(units.LENGTH), "100 mm")] | None = Field(
+        None, description="distance of the bearings of helical gears; default: twice the face width"
+    )
+    matrix: Rows = None
+    matrix_units: MatrixUnits = None
+    damping_ratio: NotNegative | None = Field(None, description="of both axes")
+    damping_ratio_x: NotNegative | None = None
+    damping_ratio_y: NotNegative | None = None
+
+
+class Bearings(Described):
+    """Shafts and bearings of both gears (`models/bearings/`)."""
+
+    pinion: Bearing | None = Field(None, description="needed where its shaft is not drawn")
+    gear: Bearing | None = Field(None, description="needed where its shaft is not drawn")
+
+    @property
+    def written_out(self) -> bool:
+        """Whether these are a scenario's own numbers, not those of a class or a file."""
+        return self.title == OWN_VALUES
+
+
+def bearing_of(bearing: Bearing) -> BearingData:
+    """Return stiffness and damping of one bearing that breaks no rule."""
+    ratio_x = bearing.damping_ratio if bearing.damping_ratio_x is None else bearing.damping_ratio_x
+    ratio_y = bearing.damping_ratio if bearing.damping_ratio_y is None else bearing.damping_ratio_y
+    stiffness_x, stiffness_y = bearing.stiffness_x, bearing.stiffness_y
+    if bearing.matrix is not None:
+        ratio = cast(float, bearing.damping_ratio)
+        return BearingData.of_matrix(matrix_of(bearing.matrix, bearing.matrix_units), ratio)
+    if bearing.rolling is not None:
+        numbers = bearing.rolling.model_dump()
+        sizes = {name: numbers[name] or 0.0 for name in ("diameter", "length")}
+        stiffness_x = stiffness_y = radial_stiffness(RollingBearing(**{**numbers, **sizes}))
+    return BearingData(
+        cast(float, stiffness_x),
+        cast(float, stiffness_y),
+        cast(float, ratio_x),
+        cast(float, ratio_y),
+        bearing.stiffness_axial,
+        bearing.stiffness_tilt,
+        bearing.span,
+    )
+
+
+def broken_bearing_rules(bearings: Bearings, drawn: Collection[str] = ()) -> Iterator[InputError]:
+    """Go through what is missing in the bearings of both gears, or given twice.
+
+    Nothing is missing of gears whose shafts are `drawn`.
+    """
+    for side in ("pinion", "gear"):
+        if (bearing := getattr(bearings, side)) is not None:
+            yield from broken_bearing(f"bearings.{side}", bearing)
+        elif side not in drawn:
+            remedy = (
+                f"add [bearings.{side}] with stiffness_x, stiffness_y and damping_ratio, or [shaft.{side}]"
+            )
+            yield InputError(f"bearings.{side}", rule="missing", remedy=remedy)
+
+
+def broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
+    """Go through what is missing in the bearing at a key, or given twice."""
+    yield from broken_matrix(f"{key}.matrix", bearing.matrix, bearing.matrix_units)
+    if bearing.matrix is not None:
+        yield from _broken_with_matrix(key, bearing)
+        return
+    for name in ("stiffness_x", "stiffness_y"):
+        given = getattr(bearing, name)
+        if bearing.rolling is None and given is None:
+            remedy = f'add {name} = "1e9 N/m", or the table [{key}.rolling]'
+            yield InputError(f"{key}.{name}", rule="missing", remedy=remedy)
+        elif bearing.rolling is not None and given is not None:
+            rule = f"contradicts [{key}.rolling], from which it follows"
+            yield InputError(f"{key}.{name}", f"{given:g} N/m", rule, "give the one or the other")
+    if bearing.stiffness_tilt is not None and bearing.span is not None:
+        rule = "contradicts stiffness_tilt, which stands in its place"
+        yield InputError(f"{key}.span", f"{1e3 * bearing.span:g} mm", rule, "give the one or the other")
+    if bearing.rolling is not None:
+        yield from _broken_rolling(f"{key}.rolling", bearing.rolling)
+    each = (bearing.damping_ratio_x, bearing.damping_ratio_y)
+    if bearing.damping_ratio is not None and any(ratio is not None for ratio in each):
+        rule = "contradicts damping_ratio_x and damping_ratio_y"
+        remedy = "write the one for both axes, or both of the others"
+        yield InputError(f"{key}.damping_ratio", bearing.damping_ratio, rule, remedy)
+    elif bearing.damping_ratio is None and any(ratio is None for ratio in each):
+        remedy = "add damping_ratio = 0.05, for both axes"
+        yield InputError(f"{key}.damping_ratio", rule="missing", remedy=remedy)
+
+
+def _broken_with_matrix(key: str, bearing: Bearing) -> Iterator[InputError]:
+    """What a matrix says already, and the damping that it lacks."""
+    for name in type(bearing).model_fields:
+        if name.startswith(("matrix", "damping_ratio")) or getattr(bearing, name) is None:
+            continue
+        rule = "contradicts matrix, which has all of the stiffness"
+        yield InputError(f"{key}.{name}", None, rule, "give the one or the other")
+    for name in ("damping_ratio_x", "damping_ratio_y"):
+        if getattr(bearing, name) is not None:
+            rule = "has no meaning with a matrix, whose motions are not along the axes"
+            yield InputError(f"{key}.{name}", None, rule, "write damping_ratio = 0.05, of all of them")
+    if bearing.damping_ratio is None:
+        yield InputError(f"{key}.damping_ratio", rule="missing", remedy="add damping_ratio = 0.05")
+
+
+def _broken_rolling(key: str, rolling: Rolling) -> Iterator[InputError]:
+    needed, other = ("length", "diameter") if rolling.type in ROLLERS else ("diameter", "length")
+    if getattr(rolling, needed) is None:
+        rule = f'missing: type = "{rolling.type}" needs it'
+        yield InputError(f"{key}.{needed}", rule=rule, remedy=f'add {needed} = "12 mm"')
+    if getattr(rolling, other) is not None:
+        yield InputError(
+            f"{key}.{other}", rule=f'has no effect with type = "{rolling.type}"', remedy=f"leave {other} out"
+        )
+    if rolling.contact_angle >= MAXIMUM_CONTACT_ANGLE:
+        remedy = "write a smaller angle, or give stiffness_x and stiffness_y"
+        yield InputError(f"{key}.contact_angle", rule="60 deg or more: a thrust bearing", remedy=remedy)

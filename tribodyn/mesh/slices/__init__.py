@@ -1,0 +1,1 @@
+"""The mesh cycle of pairs in slices along the face."""

@@ -1,0 +1,269 @@
+"""Figures of the gear with rolling elements: loads, slip and losses of its elements, and the gear itself."""
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+
+from tribodyn.post.figures.drawing import Drawing, drawing
+from tribodyn.post.figures.panel import View, abscissa_label, record_label, record_title
+from tribodyn.post.figures.scale import scale
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, mark_panel, new_figure
+from tribodyn.record.reader import Record
+from tribodyn.studies.irefc.gear_picture import draw_gear
+
+#: What the four panels of one element's way, or of all elements, show.
+CURVES = (
+    "Normal load on the cam",
+    "Slip of the elements over the cam",
+    "Power lost by one element",
+    "The same, added up",
+)
+#: Lines of the losses of an element.
+LOSSES = (("cam", "-"), ("crown", "--"), ("both, $N_S$", ":"))
+#: Their datasets, and the last angle of the loaded half.
+SHOWN, HALF = ("normal_load", "slip_speed", "power_cam", "power_crown"), np.pi * (1 + 1e-12)
+
+
+class ElementCurves(NamedTuple):
+    """Quantities of elements in the order of an abscissa: element number, or angle φ in degrees."""
+
+    x: np.ndarray
+    load: np.ndarray
+    slip: np.ndarray
+    cam: np.ndarray
+    crown: np.ndarray
+    cumulative: np.ndarray
+
+
+def moves(record: Record) -> bool:
+    """Whether the record holds more than the paper's single position."""
+    return record.samples > 1
+
+
+def by_number(record: Record) -> ElementCurves:
+    """Take the elements in the loaded half at the start, by number; losses add up from the first."""
+    half = record["element_angle"][0] <= HALF
+    load, slip, cam, crown = (record[name][0][half] for name in SHOWN)
+    return ElementCurves(np.array(record.elements)[half], load, slip, cam, crown, np.cumsum(cam + crown))
+
+
+def by_angle(record: Record) -> ElementCurves:
+    """Take what one element meets on its way through the loaded half, by angle; in a position, all elements.
+
+    Losses are integrated over the angle and divided by the pitch of the elements, which adds up to the mean
+    loss of all elements.
+    """
+    # an element goes round in the gear's revolution and a little less; every element meets the same
+    path = (slice(None), 0) if record.samples > 1 else (0, slice(None))
+    angle = record["element_angle"][path]
+    order = np.argsort(angle)
+    order = order[angle[order] <= HALF]
+    phi = angle[order]
+    load, slip, cam, crown = (record[name][path][order] for name in SHOWN)
+    loss = cam + crown
+    pieces = np.diff(phi) * (loss[1:] + loss[:-1]) / 2
+    drive = record.scenario["drive"]
+    cumulative = np.concatenate([[0.0], np.cumsum(pieces)]) * drive["elements"] / (2 * np.pi)
+    return ElementCurves(np.degrees(phi), load, slip, cam, crown, cumulative)
+
+
+def _four_panels(records: Sequence[Record], curves: Callable[[Record], ElementCurves]) -> Figure:
+    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
+    panels = drawn.subplots(2, 2, sharex=True).ravel()
+    for number, record in enumerate(records):
+        draw_curve(panels, curves(record), PALETTE[number % len(PALETTE)], curves is by_number)
+    _finish_axes(panels, panels[2:], curves is by_number)
+    return _finish(drawn, panels, CURVES, records, LOSSES)
+
+
+def draw_curve(panels: Sequence[Axes], curve: ElementCurves, color: str, marked: bool) -> None:
+    """Draw load, slip, losses and cumulative loss into four axes; points of single elements are `marked`."""
+    marker = "o" if marked else ""
+    style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 3, "clip_on": not marked}
+    values = curve.load, curve.slip * 1e3, curve.cam, curve.cumulative
+    labels = "Normal load (N)", "Slip over the cam (mm/s)", "Loss of an element (W)", "Cumulative loss (W)"
+    for axes, y, label in zip(panels, values, labels, strict=True):
+        axes.plot(curve.x, y, **style)
+        axes.set_ylabel(label)
+    panels[2].plot(curve.x, curve.crown, linestyle="--", **style)
+    panels[2].plot(curve.x, curve.cam + curve.crown, linestyle=":", **style)
+
+
+def _finish_axes(panels: Sequence[Axes], labelled: Sequence[Axes], by_element: bool) -> None:
+    """Start loads and losses at zero, which stops axes from growing, and label abscissas."""
+    for axes in (panels[0], *panels[2:]):
+        axes.set_ylim(bottom=0)
+    for axes in labelled:
+        if by_element:
+            ends = axes.dataLim.x0 - 0.5, axes.dataLim.x1 + 0.5
+            axes.set(xlabel="Element, from the cam's depression", xlim=ends)
+            axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+        else:
+            axes.set(xlabel="Angle φ of the element (°)", xticks=range(0, 181, 30))
+
+
+def _cycles(record: Record, view: View) -> tuple[slice, np.ndarray]:
+    """Samples of the last whole cycles, and their phase or time in ms."""
+    length = int(record.scenario["output"]["samples_per_cycle"])
+    whole = (record.samples - 1) // length
+    count = whole if view.cycles is None else min(whole, view.cycles)
+    stop = whole * length + 1 if whole else record.samples
+    part = slice(stop - 1 - count * length if count else 0, stop)
+    if view.against == "time":
+        return part, record["time"][part] * 1e3
+    return part, np.arange(part.stop - part.start) / length
+
+
+def _over_time(
+    records: Sequence[Record],
+    view: View,
+    draw: Callable[[Sequence[Axes], Sequence[Record], View], tuple[str, str]],
+) -> Figure:
+    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
+    panels = drawn.subplots(2, 1, sharex=True)
+    titles = draw(panels, records, view)
+    panels[1].set_xlabel(abscissa_label(view))
+    return _finish(drawn, panels, titles, records)
+
+
+def _draw_loads(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
+    """Draw the load of each element, one of them heavier, and the number of loaded ones; their titles."""
+    for number, record in enumerate(records):
+        part, x = _cycles(record, view)
+        load = record["normal_load"][part]
+        color = PALETTE[number % len(PALETTE)]
+        draw_loads(panels[0], x, load, color)
+        loaded = np.sum(load > 1e-9 * load.max(), axis=1)
+        panels[1].step(x, loaded, color=color, where="mid")
+    panels[0].set_ylabel("Normal load of each element (N)")
+    panels[1].set_ylabel("Loaded elements")
+    panels[1].yaxis.set_major_locator(MaxNLocator(integer=True))
+    for axes in panels:
+        axes.set_ylim(bottom=0)
+    return "Normal load of each element, one drawn heavier", "Number of elements under load"
+
+
+def draw_loads(axes: Axes, x: np.ndarray, load: np.ndarray, color: str) -> None:
+    """Draw loads of all elements faintly and those of one that unloads in the window in full."""
+    axes.plot(x, load, color=color, linewidth=0.7, alpha=0.45)
+    leaving = int(np.argmax(load[0] - load[-1]))
+    axes.plot(x, load[:, leaving], color=color, linewidth=1.6)
+    middle, style = len(x) // 2, {"color": color, "fontsize": 7.5}
+    place = x[middle], load[middle, leaving]
+    axes.annotate(f"element {leaving + 1}", place, xytext=(6, 6), textcoords="offset points", **style)
+
+
+def _draw_efficiency(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
+    """Draw loss and efficiency at each moment; their titles."""
+    shown = ("power_friction", 1.0, "Loss (W)"), ("efficiency", 100.0, "Efficiency (%)")
+    for axes, (name, factor, label) in zip(panels, shown, strict=True):
+        curves = []
+        for number, record in enumerate(records):
+            part, x = _cycles(record, view)
+            curves.append(record[name][part] * factor)
+            axes.plot(x, curves[-1], color=PALETTE[number % len(PALETTE)])
+        axes.set_ylabel(label)
+        scale(axes, curves)
+    return "Power lost in all contacts", "Efficiency at each moment"
+
+
+def _gears(records: Sequence[Record]) -> Figure:
+    columns = min(len(records), 2)
+    rows = -(-len(records) // columns)
+    side = 0.85 * WIDTH if columns == 1 else 0.65 * WIDTH
+    drawn = new_figure(side * columns, rows * (side + 0.3))
+    grid = drawn.subplots(rows, columns, squeeze=False).ravel()
+    for axes in grid[len(records) :]:
+        axes.remove()
+    shown = grid[: len(records)]
+    for axes, record in zip(shown, records, strict=True):
+        draw_gear(axes, record)
+        axes.set_title(_title(record), loc="left", fontsize=9)
+    reach = max(abs(end) for axes in shown for end in (*axes.get_xlim(), *axes.get_ylim()))
+    for axes in shown:
+        axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
+    return drawn
+
+
+def _overview(records: Sequence[Record], view: View) -> Figure:
+    record = records[0]
+    drawn = new_figure(11.0, 6.2)
+    rows = drawn.subplots(2, 3)
+    draw_gear(rows[0, 0], record)
+    panels = [rows[0, 1], rows[0, 2], rows[1, 0], rows[1, 1]]
+    moving = record.samples > 1
+    draw_curve(panels, by_angle(record), PALETTE[0], marked=not moving)
+    _finish_axes(panels, panels, by_element=False)
+    panels[2].legend([name for name, _ in LOSSES])
+    if moving:
+        part, x = _cycles(record, view)
+        draw_loads(rows[1, 2], x, record["normal_load"][part], PALETTE[0])
+        rows[1, 2].set(xlabel=abscissa_label(view), ylabel="Normal load of each element (N)")
+        rows[1, 2].set_ylim(bottom=0)
+    else:
+        rows[1, 2].remove()
+    titles = ("Cam, elements and crown", *CURVES, "Normal load of each element over time")
+    for letter, axes, title in zip("abcdef" if moving else "abcde", rows.flat, titles, strict=False):
+        mark_panel(axes, letter, title)
+    drawn.suptitle(_title(record), x=0.01, ha="left", fontsize=11)
+    return drawn
+
+
+def _title(record: Record) -> str:
+    """Return what the record is about and in which mode it was made."""
+    title = record_title(record)
+    mode = literal(str(record.scenario.get("mode", "corrected")).replace("_", " "))
+    return title if mode in title else f"{title} ({mode})"
+
+
+def _finish(
+    drawn: Figure,
+    panels: Sequence[Axes],
+    titles: Sequence[str],
+    records: Sequence[Record],
+    lines: Sequence[tuple[str, Any]] = (),
+) -> Figure:
+    for letter, axes, title in zip("abcd", panels, titles, strict=False):
+        mark_panel(axes, letter, title)
+    drawn.align_ylabels()
+    handles = [Line2D([], [], color=QUIET, linestyle=style) for _, style in lines]
+    labels = [name for name, _ in lines]
+    if len(records) > 1:
+        handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles
+        labels = [*map(record_label, records), *labels]
+    else:
+        drawn.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
+    if labels:
+        drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6)
+    return drawn
+
+
+OF_A_POSITION: dict[str, Drawing] = {
+    "overview": drawing("loads, slip and losses of the elements, and the gear", _overview),
+    "elements": drawing(
+        "loads, slip and losses by element", lambda records, _: _four_panels(records, by_number)
+    ),
+    "element-angle": drawing(
+        "the same over an element's way", lambda records, _: _four_panels(records, by_angle)
+    ),
+    "gear": drawing("cam, elements and crown", lambda records, _: _gears(records)),
+}
+
+
+def _of_a_motion(name: str, about: str, draw: Any) -> Drawing:
+    """A figure over time."""
+    remedy = f"draw {', '.join(other for other in OF_A_POSITION if other != 'overview')}"
+    missing = name, "{path} holds a single position", remedy
+    return drawing(about, lambda records, view: _over_time(records, view, draw), moves, missing, samples=0)
+
+
+DRAWINGS: dict[str, Drawing] = {
+    **OF_A_POSITION,
+    "normal-load": _of_a_motion("normal-load", "normal load of the elements over time", _draw_loads),
+    "efficiency": _of_a_motion("efficiency", "efficiency and torque over time", _draw_efficiency),
+}

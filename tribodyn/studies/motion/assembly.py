@@ -1,0 +1,121 @@
+"""A train's pairs put together: assemblies and tables, one for equal meshes; masses, phases, damping."""
+
+from collections.abc import Sequence
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.data import matrices_in_space
+from tribodyn.gears.model import tilting_inertia
+from tribodyn.gears.prepare import assembled
+from tribodyn.gears.shared_tables import table_key
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.body import mass_and_inertia
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.studies.motion.case import HOUSING, Gearbox, LinkData
+from tribodyn.studies.motion.drivetrain.teeth import engagement
+from tribodyn.train.phases import Engagement, Phases, nominal_phases
+
+
+class BodyInertia(NamedTuple):
+    """Mass (kg) and moments of inertia (kg m²) of a body, with everything that is fixed to it."""
+
+    mass: float
+    inertia: float  # polar
+    #: about a diameter; shafts and other bodies as thin discs in the middle, without what drives and loads
+    tilting: float = 0.0
+
+
+def table_numbers(case: Gearbox) -> tuple[int, ...]:
+    """Number of the table of every mesh: equal meshes share one; the first mesh's is 0."""
+    known: dict[object, int] = {}
+    return tuple(known.setdefault(table_key(mesh.pair), len(known)) for mesh in case.meshes)
+
+
+def assemblies(case: Gearbox) -> tuple[Assembly, ...]:
+    """The pair of every mesh put together, its pinion the driver; meshes with one table share it.
+
+    Raises InputError, in the terms of a drive file, where teeth cannot be made; the rules of a scenario have
+    found that before.
+    """
+    numbers = table_numbers(case)
+    made: dict[int, Assembly] = {}
+    for number, mesh in zip(numbers, case.meshes, strict=True):
+        if number not in made:
+            made[number] = assembled(mesh.pair)
+    return tuple(made[number] for number in numbers)
+
+
+def body_inertias(case: Gearbox, pairs: Sequence[Assembly]) -> tuple[BodyInertia, ...]:
+    """Mass and inertia of every body; those of a gear that gives none follow from its outline and bore."""
+    found = []
+    for body in case.bodies:
+        mass, inertia, tilting = body.mass, body.inertia, (body.inertia - body.attached) / 2.0
+        for gear in (case.gears[number] for number in body.gears):
+            own, turned = gear.given.mass, gear.given.inertia
+            if own is None or turned is None:
+                mesh, side = gear.meshes[0]
+                computed = mass_and_inertia(pairs[mesh], side, gear.density)
+                own = computed[0] if own is None else own
+                turned = computed[1] if turned is None else turned
+            mass, inertia = mass + float(own), inertia + float(turned)
+            tilting += tilting_inertia(float(own), float(turned), gear.face_width)
+            tilting += float(own) * gear.axial_position**2
+        found.append(BodyInertia(mass, inertia, tilting))
+    return tuple(found)
+
+
+def phases(case: Gearbox, pairs: Sequence[Assembly], entries: Sequence[float] | None = None) -> Phases:
+    """Phase of every mesh while the reference mesh begins its cycle, and where the teeth of all gears stand.
+
+    `entries` are the pinions' angles at which the meshes' cycles begin, `roll_start` of their tables; None:
+    where their paths of contact begin. Raises InputError where the teeth of a loop do not meet.
+    """
+    return nominal_phases(case.toothed_shafts, engagements(case, pairs, entries))
+
+
+def engagements(
+    case: Gearbox, pairs: Sequence[Assembly], entries: Sequence[float] | None = None
+) -> list[Engagement]:
+    """How the teeth of every mesh touch; `entries` as of `phases`."""
+    return [
+        engagement(mesh.key, mesh.gears, mesh.azimuth, pair, entry)
+        for mesh, pair, entry in zip(case.meshes, pairs, entries or [None] * len(pairs), strict=True)
+    ]
+
+
+def link_damping(link: LinkData, bodies: Sequence[BodyInertia]) -> tuple[float, float, float]:
+    """Damping of a link in x, y (N s/m) and rotation (N m s/rad): what is given, and 2 ζ √(k m).
+
+    m is the mass of the body, or of two against each other, m_1 m_2/(m_1 + m_2); in rotation the inertia.
+    """
+    one = bodies[link.ends[0]]
+    masses = [one.mass, one.mass, one.inertia]
+    if link.ends[1] != HOUSING:
+        other = bodies[link.ends[1]]
+        masses = [
+            own * its / (own + its)
+            for own, its in zip(masses, (other.mass, other.mass, other.inertia), strict=True)
+        ]
+    x, y, rotation = (
+        given + 2.0 * ratio * sqrt(stiffness * mass)
+        for given, ratio, stiffness, mass in zip(
+            link.damping, link.damping_ratio, link.stiffness, masses, strict=True
+        )
+    )
+    return x, y, rotation
+
+
+def in_space_of(
+    link: LinkData, damping: tuple[float, float, float], bodies: Sequence[BodyInertia], width: float
+) -> tuple[Float[Array, "5 5"], Float[Array, "5 5"]]:
+    """Stiffness and damping of a link in x, y, z and tilts; of one that is no bearing in x and y alone.
+
+    `damping` is that in x and y, `width` of the faces of the bearing's body, m.
+    """
+    if link.bearing is None:
+        nothing = [0.0, 0.0, 0.0]
+        return np.diag([*link.stiffness[:2], *nothing]), np.diag([*damping[:2], *nothing])
+    own = bodies[link.ends[0]]
+    return matrices_in_space(link.bearing, width, own.mass, own.tilting)

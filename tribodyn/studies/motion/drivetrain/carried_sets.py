@@ -1,0 +1,75 @@
+"""Planetary sets of a recorded train: what is carried by what, and which meshes are of which planet."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Int
+from tribodyn.record.reader import Record
+from tribodyn.studies.motion.drivetrain.mesh_groups import together
+
+
+class CarriedSet(NamedTuple):
+    """A planetary set of a record; bodies and meshes by number, planets in the order of their meshes."""
+
+    name: str
+    carrier: int
+    planets: tuple[int, ...]
+    meshes: dict[int, tuple[int, ...]]  # of the bodies on its axis, with every planet
+
+
+def mesh_names(record: Record) -> list[str]:
+    """Names of the meshes; of a pair that of its only one."""
+    return list(map(str, record["mesh"])) if "mesh" in record else ["mesh"]
+
+
+def carriers(record: Record) -> Int[Array, " body"]:
+    """Number of the body with which each body is carried about its axis; -1: none."""
+    known = record.geometry.get("carrier")
+    return np.full(len(record["body"]), -1) if known is None else np.asarray(known, int)
+
+
+def driver_of(record: Record, m: int, end: str = "driver") -> int:
+    """The body that drives a mesh, or that is driven in it."""
+    return int(record.geometry["gear_body"][int(record.geometry[f"{end}_gear"][m])])
+
+
+def sets_of(record: Record) -> list[CarriedSet]:
+    """The planetary sets of a record; none of a pair."""
+    if "mesh" not in record:
+        return []
+    carried, centre = carriers(record), record.geometry["centre"]
+    found: dict[int, dict[int, dict[int, int]]] = {}
+    for m in range(len(record["mesh"])):
+        ends = driver_of(record, m), driver_of(record, m, "driven")
+        carrier = int(carried[ends[0]])
+        if carrier < 0:
+            continue
+        central, planet = sorted(ends, key=lambda body: np.hypot(*(centre[body] - centre[carrier])))
+        found.setdefault(carrier, {}).setdefault(central, {})[planet] = m
+    sets = []
+    for carrier, meshes in found.items():
+        planets = tuple(next(iter(meshes.values())))
+        each = {body: tuple(own[planet] for planet in planets) for body, own in meshes.items()}
+        name = str(record["mesh"][next(iter(each.values()))[0]]).rsplit("-", 2)[0]
+        sets.append(CarriedSet(name, carrier, planets, each))
+    return sets
+
+
+def mesh_labels(record: Record) -> list[str]:
+    """Names of the meshes, one for all that a member of a set has with its planets."""
+    return _labels(mesh_names(record), [own for each in sets_of(record) for own in each.meshes.values()])
+
+
+def body_labels(record: Record) -> list[str]:
+    """Names of the bodies, one for all planets of a set."""
+    return _labels(list(map(str, record["body"])), [own.planets for own in sets_of(record)])
+
+
+def _labels(names: list[str], groups: Sequence[Sequence[int]]) -> list[str]:
+    found = list(names)
+    for group in groups:
+        for number in group:
+            found[number] = together(names[one] for one in group)
+    return found

@@ -1,0 +1,131 @@
+"""Speeds and torques of a train as its scenario gives them: each once, at the input or at the output."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+from tribodyn.errors import InputError, quoted
+from tribodyn.input.tables.duty import given_twice
+from tribodyn.studies.motion.case import LoadData
+from tribodyn.studies.motion.drivetrain.duty_tables import LoadTable, TrainOperating
+from tribodyn.studies.motion.drivetrain.placed_train import Moving, ends_of
+from tribodyn.train.statics import Torques, nominal_torques
+
+_SPEEDS, _LOADS = ("input_speed", "output_speed"), ("output_torque", "input_torque", "power")
+#: What is said of the output alone.
+_OF_OUTPUT = ("output_speed", "output_torque", "output_torque_table", "output_torque_harmonics")
+#: Share of the largest torque below which a mesh carries nothing but rounding.
+_NOTHING = 1e-12
+
+
+class TrainDuty(NamedTuple):
+    """Nominal speed and load of a train; bodies in its order."""
+
+    speed: float  # of the input and of the reference body, rad/s
+    loads: tuple[LoadData, ...]
+    inertias: tuple[tuple[int, float], ...]  # (body, kg m²) of what the bodies drive
+    torques: Torques
+
+
+def broken_duty_rules(scenario: Any) -> Iterator[InputError]:
+    """Go through what is missing or said twice of speed and load."""
+    operating: TrainOperating = scenario.operating
+    source, output = ends_of(scenario)
+    if not source:
+        yield InputError(
+            "operating.input", None, "missing", 'name a gear, a shaft or a body: input = "pinion"'
+        )
+    if output is None:
+        if not scenario.load:
+            remedy = 'name a gear, a shaft or a body: output = "wheel"; or add a [[load]]'
+            yield InputError("operating.output", None, "missing", remedy)
+        for name in (*_OF_OUTPUT, "input_torque", "power") if scenario.load else ():
+            if getattr(operating, name) and (name != "input_torque" or operating.source == "speed"):
+                rule = "is of the output, and there is none"
+                yield InputError(f"operating.{name}", None, rule, 'add output = "wheel", or leave it out')
+    names = [name for name in _LOADS if name != "input_torque" or operating.motor_torque is None]
+    yield from given_twice(operating, "operating", _SPEEDS, names)
+    speeds = [name for name in _SPEEDS if getattr(operating, name) is not None]
+    loads = [name for name in names if getattr(operating, name) is not None]
+    if not speeds:
+        remedy = 'add input_speed = "1500 rpm", or output_speed'
+        yield InputError("operating.input_speed", None, "missing: the speed", remedy)
+    if output is not None and not loads:
+        remedy = 'add output_torque = "500 N*m", input_torque or power'
+        yield InputError("operating.output_torque", None, "missing: the load", remedy)
+    if not any((output, *scenario.load)):
+        return
+    if operating.power is not None and not speeds:
+        shown = quoted(f"{operating.power:g} W")
+        yield InputError("operating.power", shown, "gives no torque without a speed", "add input_speed")
+
+
+def duty_of(scenario: Any, train: Moving) -> TrainDuty:
+    """Return speed and load of a scenario that breaks no rule.
+
+    Torques balance without losses: T_out = (T_in − Σ T_l n_l)/n_out with speeds n over the input's.
+    """
+    operating: TrainOperating = scenario.operating
+    motion, parts, new = train.motion, train.parts, train.numbers
+    _, output = ends_of(scenario)
+    at = None if output is None else new[parts.body(output)]
+    loads = [_load(load, new[parts.body(load.at)]) for load in scenario.load]
+    inertias = [(new[parts.body(load.at)], load.inertia) for load in scenario.load]
+    speed = operating.input_speed
+    if speed is None and at is not None and operating.output_speed is not None:
+        speed = operating.output_speed / float(motion.ratio[at])
+    assert speed is not None, "refused by the rules"
+    if at is not None:
+        curve = operating.output_torque_table
+        loads.insert(
+            0,
+            LoadData(
+                at,
+                _output_torque(operating, speed, at, loads, train),
+                operating.load_damping,
+                curve.in_si() if curve else None,
+                tuple((one.amplitude, one.frequency, one.phase) for one in operating.output_torque_harmonics),
+            ),
+        )
+        inertias.insert(0, (at, operating.load_inertia))
+    against = [0.0] * len(motion.bodies)
+    for load in loads:
+        against[load.body] += load.torque
+    torques = torques_of(train, against)
+    least = _NOTHING * max(map(abs, torques.driven))
+    driven = tuple(0.0 if abs(torque) <= least else torque for torque in torques.driven)
+    return TrainDuty(speed, tuple(loads), tuple(inertias), torques._replace(driven=driven))
+
+
+def torques_of(train: Moving, against: Sequence[float]) -> Torques:
+    """Torques, N m, that loads on the bodies (against their motion, in the train's order) call for."""
+    gears, motion = train.parts.gears, train.motion
+    teeth = [(gears[one].table.teeth, gears[two].table.teeth) for one, two in motion.gears]
+    return nominal_torques(motion, teeth, train.couplings, against)
+
+
+def motor_torque(scenario: Any) -> float | None:
+    """Torque of the motor that a scenario gives beside the loads, N m; None: it balances them."""
+    _, output = ends_of(scenario)
+    return scenario.operating.motor_torque if output else scenario.operating.input_torque
+
+
+def _output_torque(
+    operating: TrainOperating, speed: float, at: int, others: list[LoadData], train: Moving
+) -> float:
+    if operating.output_torque is not None:
+        return operating.output_torque
+    put_in = operating.input_torque if operating.power is None else operating.power / speed
+    ratio = train.motion.ratio
+    taken = sum(load.torque * float(ratio[load.body]) for load in others)
+    return ((put_in or 0.0) - taken) / float(ratio[at])
+
+
+def _load(load: LoadTable, body: int) -> LoadData:
+    curve = load.torque_table
+    return LoadData(
+        body,
+        load.torque,
+        load.damping,
+        curve.in_si() if curve else None,
+        tuple((one.amplitude, one.frequency, one.phase) for one in load.torque_harmonics),
+    )

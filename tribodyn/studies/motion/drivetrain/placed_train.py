@@ -1,0 +1,227 @@
+"""A train as its scenario draws it: parts, speeds, the pair of every mesh, axes, and room for the gears."""
+
+from collections.abc import Callable
+from itertools import count
+from math import pi, remainder
+from typing import Any, NamedTuple, TypeVar
+
+from tribodyn.errors import InputError, InputErrors
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES, Drive, Side, tip_circle_radius
+from tribodyn.geometry.families import Family, family
+from tribodyn.geometry.limits.checks import check, check_path
+from tribodyn.input.tables.gears.drive_data import drive_of
+from tribodyn.input.tables.gears.model_files import DriveTable
+from tribodyn.studies.motion.drivetrain.structure import (
+    OF_DRIVE,
+    Structure,
+    drive_table,
+    motion_of,
+    structure,
+)
+from tribodyn.studies.motion.drivetrain.teeth import check_planet, check_same_teeth, engagement
+from tribodyn.studies.motion.planetary.stages import coaxial, refuse_overlap
+from tribodyn.train.kinematics import TrainSpeeds
+from tribodyn.train.phases import ToothedShaft, nominal_phases
+from tribodyn.train.positions import Centres, Disc, Distance, check_room, joined, places
+
+#: Modules by which a loop of meshes may not close, a choice: the rounding of azimuths in degrees with two
+#: decimals moves axes less, and backlash changes by 0.7 of it.
+LOOP_TOLERANCE = 0.01
+SENSES = {"clockwise": -1, "counter-clockwise": 1}
+
+
+_Checked = TypeVar("_Checked")
+
+
+class Moving(NamedTuple):
+    """A train that is known to turn; meshes and bodies in the order of `motion`."""
+
+    parts: Structure
+    motion: TrainSpeeds
+    drives: tuple[DriveTable, ...]  # of every mesh; its pinion drives
+
+    @property
+    def numbers(self) -> dict[int, int]:
+        """Body as the scenario writes it -> its number in the train's order."""
+        return {body: number for number, body in enumerate(self.motion.bodies)}
+
+    @property
+    def couplings(self) -> list[tuple[int, int]]:
+        """Bodies, by their numbers, that turn alike."""
+        new = self.numbers
+        return [(new[one], new[two]) for _, (one, two) in self.parts.couplings()]
+
+    def meshes_of(self, gear: int) -> tuple[tuple[int, Side], ...]:
+        """The meshes that a gear belongs to, and what it is in the pair of each."""
+        return tuple(
+            (mesh, side)
+            for mesh, gears in enumerate(self.motion.gears)
+            for side, one in zip(SIDES, gears, strict=True)
+            if one == gear
+        )
+
+
+class Drawn(NamedTuple):
+    """A train that can be made and has room."""
+
+    assemblies: tuple[Assembly, ...]  # of every mesh
+    places: Centres  # azimuths from driver to driven axis
+    planes: tuple[int, ...]  # of every gear
+    shafts: tuple[int, ...]  # of every gear: bodies that couplings join have one
+
+
+def moving(scenario: Any) -> Moving:
+    """Work out what turns how; the names of the scenario must be sound. InputError where it is no train."""
+    parts = structure(scenario)
+    source, _ = ends_of(scenario)
+    motion = motion_of(parts, parts.body(source), SENSES[scenario.operating.sense])
+    if scenario.drive is not None and motion.gears[0] != (0, 1):
+        rule = "a drive file says that its pinion drives"
+        raise InputError("operating.input", source, rule, f'write input = "{OF_DRIVE[0]}"')
+    drives = tuple(
+        drive_table(scenario, parts, parts.meshes[mesh], *gears)
+        for mesh, gears in zip(motion.meshes, motion.gears, strict=True)
+    )
+    return Moving(parts, motion, drives)
+
+
+def ends_of(scenario: Any) -> tuple[str, str | None]:
+    """Names of what the power enters at and leaves at, beside [[load]]."""
+    operating, usual = scenario.operating, OF_DRIVE if scenario.drive is not None else ("", None)
+    loads = [load.at for load in scenario.load]
+    return operating.input or usual[0], operating.output or (None if loads else usual[1])
+
+
+def drawn(train: Moving) -> Drawn:
+    """Put the teeth together and place the axes.
+
+    Raises InputError where teeth cannot be made or differ between the meshes of one gear, loops do not close,
+    or gears have no room.
+    """
+    parts = train.parts
+    for own in parts.sets:
+        planet = next(number for number, gear in enumerate(parts.gears) if gear.body == own.planets[0])
+        met: list[tuple[Drive, Side]] = []
+        for mesh, side in train.meshes_of(planet):
+            drive = train.drives[mesh]
+            if not drive.has_ring:  # the ring may need another path
+                _checked(train, mesh, check_path)
+            met.append((drive_of(drive), side))
+        check_planet(f"{own.key}.family", own.table.family, met)
+    assemblies = _assemblies(train)
+    for number, gear in enumerate(parts.gears):
+        seen: list[tuple[Assembly, Side]] = [
+            (assemblies[mesh], side) for mesh, side in train.meshes_of(number)
+        ]
+        check_same_teeth(gear.key, gear.name, seen)
+    new, couplings = train.numbers, train.couplings
+    axes = _placed(train, assemblies)
+    planes = _planes(parts)
+    discs = [
+        Disc(gear.name, gear.key, new[gear.body], plane, _tip(train, assemblies, number))
+        for number, (gear, plane) in enumerate(zip(parts.gears, planes, strict=True))
+    ]
+    for own in parts.sets:
+        disc = next(disc for disc in discs if disc.body == new[own.planets[0]])
+        refuse_overlap(own, disc.tip_radius, axes.centres[[new[planet] for planet in own.planets]])
+    check_room(discs, axes.centres, [mesh.gears for mesh in parts.meshes])
+    shafts = joined(len(parts.bodies), couplings)
+    found = Drawn(assemblies, axes, planes, tuple(shafts[new[gear.body]] for gear in parts.gears))
+    _check_phases(train, found)
+    return found
+
+
+def _assemblies(train: Moving) -> tuple[Assembly, ...]:
+    return tuple(_checked(train, mesh, check) for mesh in range(len(train.drives)))
+
+
+def _checked(train: Moving, mesh: int, check: Callable[[Family, Drive], _Checked]) -> _Checked:
+    """What a check of the teeth of a mesh returns; its errors have the keys of the train's scenario."""
+    table = train.drives[mesh]
+    try:
+        return check(family(table.family), drive_of(table))
+    except InputError as error:
+        raise in_terms_of_train(error, train, mesh) from None
+
+
+def in_terms_of_train(error: InputError, train: Moving, mesh: int) -> InputError:
+    """The error of a mesh's pair of gears with the keys of the train's scenario."""
+    if isinstance(error, InputErrors):
+        return InputErrors([in_terms_of_train(one, train, mesh) for one in error.errors])
+    key = key_in_train(error.key, train, mesh)
+    if key == error.key:
+        return error
+    remedy = error.remedy.replace("drive.material for both", "material for all")
+    for table in ("to [drive]", "[drive]"):
+        remedy = remedy.replace(table, table.replace("[drive]", "[[stage]]"))
+    return InputError(key, error.value, error.rule, remedy, error.file)
+
+
+def key_in_train(key: str, train: Moving, mesh: int) -> str:
+    """Where the train's scenario has a key of a mesh's pair of gears; other keys are its own."""
+    part = train.parts.meshes[train.motion.meshes[mesh]]
+    head, _, rest = key.partition(".")
+    if head != "drive" or part.key == "drive":
+        return key
+    side, _, inner = rest.partition(".")
+    if side in SIDES:
+        return f"{train.parts.gears[train.motion.gears[mesh][SIDES.index(side)]].key}.{inner}"
+    return f"{part.key}.{rest}" if hasattr(part.table, side) else rest
+
+
+def _placed(train: Moving, assemblies: tuple[Assembly, ...]) -> Centres:
+    """Axes, with azimuths from driver to driven."""
+    parts, motion, new = train.parts, train.motion, train.numbers
+    distances, turned = [], []
+    for number, assembly in zip(motion.meshes, assemblies, strict=True):
+        mesh = parts.meshes[number]
+        one, two = (new[parts.gears[gear].body] for gear in mesh.gears)
+        path = assembly.path
+        apart = float(path.pinion_pitch_radius + path.gear_pitch_radius)
+        tolerance = LOOP_TOLERANCE * float(assembly.drive.module)
+        distances.append(Distance(mesh.key, (one, two), apart, mesh.azimuth, tolerance))
+        turned.append(mesh.gears != motion.gears[motion.meshes.index(number)])
+    on_one_axis = [(new[one], new[two]) for one, two in coaxial(parts.sets)]
+    found = places(len(parts.bodies), distances, [*train.couplings, *on_one_axis])
+    azimuths = tuple(
+        remainder(azimuth + pi * reverse, 2.0 * pi)
+        for azimuth, reverse in zip(found.azimuths, turned, strict=True)
+    )
+    return found._replace(azimuths=azimuths)
+
+
+def _tip(train: Moving, assemblies: tuple[Assembly, ...], gear: int) -> float:
+    mesh, side = train.meshes_of(gear)[0]
+    return float(tip_circle_radius(assemblies[mesh].drive, side))
+
+
+def _planes(parts: Structure) -> tuple[int, ...]:
+    """Axial plane of every gear; gears that stages join stand in one, by default in one of their own."""
+    groups = joined(len(parts.gears), [mesh.gears for mesh in parts.meshes])
+    given: dict[int, int] = {}
+    for gear, group in zip(parts.gears, groups, strict=True):
+        if gear.plane is None:
+            continue
+        if given.setdefault(group, gear.plane) != gear.plane:
+            rule = f"gears that mesh stand in one plane, and another of these is in plane {given[group]}"
+            raise InputError(f"{gear.key}.plane", gear.plane, rule, "give both the same")
+    free = (plane for plane in count(1) if plane not in set(given.values()))
+    own = {group: given[group] if group in given else next(free) for group in dict.fromkeys(groups)}
+    return tuple(own[group] for group in groups)
+
+
+def _check_phases(train: Moving, found: Drawn) -> None:
+    """Raise InputError where the teeth of a loop do not meet."""
+    parts, motion, new = train.parts, train.motion, train.numbers
+    shafts = [
+        ToothedShaft(gear.name, shaft, gear.teeth, motion.sense[new[gear.body]], gear.tooth_angle)
+        for gear, shaft in zip(parts.gears, found.shafts, strict=True)
+    ]
+    nominal_phases(
+        shafts,
+        [
+            engagement(parts.meshes[mesh].key, motion.gears[number], found.places.azimuths[number], assembly)
+            for number, (mesh, assembly) in enumerate(zip(motion.meshes, found.assemblies, strict=True))
+        ],
+    )

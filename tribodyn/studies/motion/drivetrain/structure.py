@@ -1,0 +1,336 @@
+"""From the names of a scenario to the bodies, gears, links and meshes of its train, each by its number.
+
+Bodies are the gears that a rigid shaft joins, every other gear by itself, and the bodies without teeth. They
+are in the order of the file here, the planets behind them; the train's own order begins with the reference
+body, see `train.kinematics`.
+"""
+
+from collections.abc import Iterator, Sequence
+from math import pi
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+from tribodyn.gears.motion.settings import Mesh
+from tribodyn.geometry.families import family
+from tribodyn.input.quantity import Printed
+from tribodyn.input.tables.gears.drive_data import drive_of
+from tribodyn.input.tables.gears.model_files import DriveTable, Gear
+from tribodyn.input.tables.supports.bearings import Bearing
+from tribodyn.studies.motion.drivetrain.tables import (
+    GROUND,
+    BareMesh,
+    Link,
+    LinkTable,
+    PlanetaryStage,
+    Shaft,
+    Stage,
+)
+from tribodyn.studies.motion.planetary.stages import (
+    SetPart,
+    meshes_of_set,
+    planet_names,
+    planetary_stages,
+    set_of,
+)
+from tribodyn.train.kinematics import TrainSpeeds, kinematics
+from tribodyn.train.turning import Joint, Named, SetMembers, Toothed
+
+#: Names of the gears of a drive file.
+OF_DRIVE = ("pinion", "gear")
+
+
+class BodyPart(NamedTuple):
+    """A body before the train is put in order."""
+
+    name: str
+    key: str
+    mass: float  # of what is no gear, kg
+    inertia: float  # likewise, kg m²
+
+
+class GearPart(NamedTuple):
+    """A gear before the train is put in order."""
+
+    name: str
+    key: str
+    body: int
+    table: Gear
+    plane: int | None
+    tooth_angle: float  # rad
+    axial_position: float = 0.0  # m
+
+    @property
+    def teeth(self) -> int:
+        """Number of teeth; negative of an internal gear."""
+        return -self.table.teeth if self.table.internal else self.table.teeth
+
+
+class MeshPart(NamedTuple):
+    """A mesh before it is known which of its gears drives."""
+
+    name: str
+    key: str
+    gears: tuple[int, int]
+    azimuth: float | None  # from the first gear's axis to the second's, rad
+    table: Stage | PlanetaryStage | BareMesh | DriveTable
+    of_set: int = -1  # number of its planetary set; −1: none
+
+
+class LinkPart(NamedTuple):
+    """A link between bodies; −1 is the housing. Directions x, y and rotation."""
+
+    name: str
+    key: str
+    ends: tuple[int, int]
+    stiffness: tuple[float, float, float]
+    damping: tuple[float, float, float]
+    damping_ratio: tuple[float, float, float]
+    table: LinkTable
+
+
+class Structure(NamedTuple):
+    """A train as its scenario writes it."""
+
+    bodies: tuple[BodyPart, ...]
+    gears: tuple[GearPart, ...]
+    meshes: tuple[MeshPart, ...]
+    links: tuple[LinkPart, ...]
+    #: name of a gear, shaft or body -> its body, both of a compliant shaft, all planets of a planet
+    places: dict[str, tuple[int, ...]]
+    sets: tuple[SetPart, ...] = ()
+
+    def body(self, name: str) -> int:
+        """The body of that name; of a compliant shaft the first."""
+        return self.places[name][0]
+
+    def couplings(self) -> list[tuple[LinkPart, tuple[int, int]]]:
+        """Links that make two bodies turn alike."""
+        return [(link, link.ends) for link in self.links if link.stiffness[2] > 0.0]
+
+
+def structure(scenario: Any) -> Structure:
+    """Number the parts of a scenario whose names are sound, see `names.broken_names`."""
+    if isinstance(scenario.mesh, tuple):
+        return _bare(scenario)
+    stages = planetary_stages(scenario)
+    of_planets = {stage.planet for _, stage in stages}
+    tables: dict[str, Gear] = {name: gear for name, gear in scenario.gear.items() if name not in of_planets}
+    if scenario.drive is not None:
+        tables = dict(zip(OF_DRIVE, (scenario.drive.pinion, scenario.drive.gear), strict=True))
+    rigid = [(number, shaft) for number, shaft in enumerate(scenario.shaft) if shaft.stiffness is None]
+    bodies: list[BodyPart] = []
+    places: dict[str, tuple[int, ...]] = {}
+    for number, shaft in rigid:
+        for name in (shaft.name, *shaft.gears):
+            places[name] = (len(bodies),)
+        bodies.append(BodyPart(shaft.name, f"shaft.{number}", shaft.mass, shaft.inertia))
+    for name in tables:
+        if name not in places:
+            places[name] = (len(bodies),)
+            bodies.append(BodyPart(name, _gear_key(scenario, name), 0.0, 0.0))
+    _own_bodies(scenario, bodies, places)
+    for _, stage in stages:
+        places[stage.planet] = tuple(range(len(bodies), len(bodies) + stage.planets))
+        bodies += [BodyPart(name, f"gear.{stage.planet}", 0.0, 0.0) for name in planet_names(stage)]
+    springs: list[LinkPart] = []
+    for number, shaft in enumerate(scenario.shaft):
+        if shaft.stiffness is not None:
+            springs.append(_spring(number, shaft, places))
+            for end in springs[-1].ends:  # half of the shaft turns with either gear
+                body = bodies[end]
+                bodies[end] = body._replace(
+                    mass=body.mass + shaft.mass / 2, inertia=body.inertia + shaft.inertia / 2
+                )
+            places[shaft.name] = springs[-1].ends
+    gears = [_gear(name, _gear_key(scenario, name), places[name][0], table) for name, table in tables.items()]
+    for _, stage in stages:
+        table = scenario.gear[stage.planet]
+        each = zip(planet_names(stage), places[stage.planet], strict=True)
+        gears += [_gear(name, f"gear.{stage.planet}", body, table) for name, body in each]
+    return Structure(
+        tuple(bodies),
+        tuple(gears),
+        tuple(_stages(scenario, gears)),
+        (*springs, *_links(scenario, places)),
+        places,
+        tuple(set_of(scenario, key, stage, places) for key, stage in stages),
+    )
+
+
+def _gear(name: str, key: str, body: int, table: Gear) -> GearPart:
+    own = getattr(table, "plane", None), getattr(table, "tooth_angle", 0.0)
+    return GearPart(name, key, body, table, *own, getattr(table, "axial_position", 0.0))
+
+
+def _gear_key(scenario: Any, name: str) -> str:
+    return f"gear.{name}" if scenario.drive is None else f"drive.{name}"
+
+
+def _own_bodies(scenario: Any, bodies: list[BodyPart], places: dict[str, tuple[int, ...]]) -> None:
+    for number, body in enumerate(scenario.body):
+        places[body.name] = (len(bodies),)
+        bodies.append(BodyPart(body.name, f"body.{number}", body.mass, body.inertia))
+
+
+def _stages(scenario: Any, gears: Sequence[GearPart]) -> Iterator[MeshPart]:
+    if scenario.drive is not None:
+        # as a pair is drawn: the gear above the pinion
+        yield MeshPart("mesh", "drive", (0, 1), pi / 2, scenario.drive)
+    numbers = {gear.name: number for number, gear in enumerate(gears)}
+    sets = 0
+    for place, stage in enumerate(scenario.stage):
+        key = f"stage.{place}"
+        if isinstance(stage, PlanetaryStage):
+            for name, one, two, angle in meshes_of_set(stage):
+                yield MeshPart(name, key, (numbers[one], numbers[two]), angle, stage, sets)
+            sets += 1
+        else:
+            ends = numbers[stage.gears[0]], numbers[stage.gears[1]]
+            yield MeshPart(stage.name or "-".join(stage.gears), key, ends, stage.azimuth, stage)
+
+
+def _spring(number: int, shaft: Shaft, places: dict[str, tuple[int, ...]]) -> LinkPart:
+    ends = places[shaft.gears[0]][0], places[shaft.gears[1]][0]
+    return LinkPart(
+        shaft.name,
+        f"shaft.{number}",
+        ends,
+        (0.0, 0.0, shaft.stiffness or 0.0),
+        (0.0, 0.0, shaft.damping),
+        (0.0, 0.0, shaft.damping_ratio),
+        shaft,
+    )
+
+
+def _links(scenario: Any, places: dict[str, tuple[int, ...]]) -> Iterator[LinkPart]:
+    link: Link
+    for number, link in enumerate(scenario.link):
+        ends = [-1 if name == GROUND else places[name][0] for name in link.ends]
+        stiffness = link.stiffness_x, link.stiffness_y, link.stiffness or 0.0
+        yield LinkPart(
+            link.name or "-".join(link.ends),
+            f"link.{number}",
+            (ends[0], ends[1]),
+            stiffness,
+            (link.damping_x, link.damping_y, link.damping),
+            (link.damping_ratio, link.damping_ratio, link.damping_ratio),
+            link,
+        )
+
+
+def _bare(scenario: Any) -> Structure:
+    """A bare model: ends of meshes with the same teeth on one body are one gear."""
+    bodies: list[BodyPart] = []
+    places: dict[str, tuple[int, ...]] = {}
+    _own_bodies(scenario, bodies, places)
+    gears: list[GearPart] = []
+    known: dict[tuple, int] = {}
+    meshes = []
+    for number, mesh in enumerate(scenario.mesh):
+        key, ends = f"mesh.{number}", []
+        for name, teeth, shift in zip(mesh.bodies, mesh.teeth, mesh.profile_shift, strict=True):
+            which = (name, teeth, shift, mesh.module, mesh.pressure_angle, mesh.face_width)
+            if which not in known:
+                known[which] = len(gears)
+                table = Gear.model_validate({"teeth": teeth, "face_width": "1 mm", "profile_shift": shift})
+                table = table.model_copy(update={"face_width": mesh.face_width})
+                gears.append(GearPart(name, key, places[name][0], table, None, 0.0))
+            ends.append(known[which])
+        name = mesh.name or "-".join(mesh.bodies)
+        meshes.append(MeshPart(name, key, (ends[0], ends[1]), mesh.azimuth, mesh))
+    return Structure(
+        tuple(bodies), _named_apart(gears), tuple(meshes), tuple(_links(scenario, places)), places
+    )
+
+
+def _named_apart(gears: Sequence[GearPart]) -> tuple[GearPart, ...]:
+    """Number the gears of bodies that have several: shaft, shaft-2."""
+    named, count = [], dict[str, int]()
+    for gear in gears:
+        count[gear.name] = count.get(gear.name, 0) + 1
+        number = count[gear.name]
+        named.append(gear if number == 1 else gear._replace(name=f"{gear.name}-{number}"))
+    return tuple(named)
+
+
+def motion_of(parts: Structure, source: int, sense: int) -> TrainSpeeds:
+    """Speeds and order of a train; raises as `train.kinematics.kinematics` does."""
+    return kinematics(
+        [Named(body.name, body.key) for body in parts.bodies],
+        [Toothed(gear.name, gear.key, gear.body, gear.teeth) for gear in parts.gears],
+        [Joint(mesh.key, mesh.gears, mesh.of_set) for mesh in parts.meshes],
+        [Joint(link.key, ends) for link, ends in parts.couplings()],
+        source,
+        sense,
+        [SetMembers(own.key, own.members, own.planets, own.teeth, own.table.held) for own in parts.sets],
+    )
+
+
+def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, driven: int) -> DriveTable:
+    """What a drive file would say of a mesh whose gears drive and are driven."""
+    table = mesh.table
+    if isinstance(table, DriveTable):
+        return table
+    pinion, gear = parts.gears[driver].table, parts.gears[driven].table
+    common = {
+        "module": table.module,
+        "pressure_angle": table.pressure_angle,
+        "mean_roughness": scenario.mean_roughness,
+        "material": scenario.material,
+        "quality": scenario.quality,
+        "quality_edition": scenario.quality_edition,
+        "pinion": pinion,
+        "gear": gear,
+    }
+    if isinstance(table, BareMesh):
+        return DriveTable.model_construct(family="involute", **common)
+    flanks = "roughness", "finish", "asperity_density", "asperity_slope"
+    own = {name: getattr(table, name) for name in ("family", "rack", "shape", "helix_angle", *flanks)}
+    distance: Printed | None = table.centre_distance
+    at_ring = isinstance(table, PlanetaryStage) and (pinion.internal or gear.internal)
+    if distance is None and at_ring and family(table.family).involute:
+        distance = _distance_of_set(scenario, parts, mesh)
+    return DriveTable.model_construct(**common, **own, centre_distance=distance)
+
+
+def _distance_of_set(scenario: Any, parts: Structure, mesh: MeshPart) -> Printed:
+    """Distance of the planets' axes from the sun's where none is written: that of both without backlash."""
+    at_sun = next(other for other in parts.meshes if other.of_set == mesh.of_set)
+    drive = drive_of(drive_table(scenario, parts, at_sun, *at_sun.gears))
+    with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
+        path = family(cast(PlanetaryStage, at_sun.table).family).working_path(drive)
+    return Printed(float(path.pinion_pitch_radius + path.gear_pitch_radius), 0.0)
+
+
+def stiffness_key(stage: Stage | PlanetaryStage, mesh: str) -> str:
+    """Which key of a stage gives the stiffness of one of its meshes."""
+    if isinstance(stage, Stage):
+        return "stiffness"
+    return "sun_stiffness" if mesh.startswith(f"{stage.name}-sun-") else "ring_stiffness"
+
+
+def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
+    """The table [mesh] that holds for a mesh."""
+    table = mesh.table
+    if isinstance(table, BareMesh):
+        plain = Mesh.model_validate({"damping_ratio": 0.0})
+        own = {name: getattr(table, name) for name in ("stiffness", "table", "damping_ratio", "backlash")}
+        compliance = "constant" if table.table is None else "table"
+        return plain.model_copy(update=own | {"compliance": compliance})
+    given = {}
+    if isinstance(table, (Stage, PlanetaryStage)):
+        given = {name: getattr(table, name) for name in ("damping_ratio", "backlash")}
+        given["stiffness"] = getattr(table, stiffness_key(table, mesh.name))
+    return scenario.mesh.model_copy(update={name: own for name, own in given.items() if own is not None})
+
+
+def bearings_by_body(scenario: Any, parts: Structure) -> list[Bearing | None]:
+    """The bearings of every body: its own, else "default", else the gear's of a bearings file; None: none."""
+    by_name = scenario.bearings.by_name
+    usual = by_name.get("default", by_name.get("gear"))
+    found: list[Bearing | None] = [usual] * len(parts.bodies)
+    for name, bearing in by_name.items():
+        for body in parts.places.get(name, ()):
+            found[body] = bearing
+    return found

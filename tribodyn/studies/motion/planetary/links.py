@@ -1,0 +1,71 @@
+"""Links of planetary sets: pins of the planets, and what holds a member against rotation."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from tribodyn.input.tables.supports.bearings import bearing_of
+from tribodyn.studies.motion.case import HOUSING, LinkData, SetData
+from tribodyn.studies.motion.drivetrain.placed_train import Drawn, Moving
+from tribodyn.studies.motion.planetary.stages import SetPart, pin_offset
+from tribodyn.train.planetary import CARRIER
+
+#: Stiffness on its pitch circle with which a member is held where none is given, N/m: of a stiff bearing.
+USUAL_SUPPORT = 1e9
+
+
+def links_of_set(own: SetPart, train: Moving, figure: Drawn, bearings: Sequence[Any]) -> Iterator[LinkData]:
+    """Pins of the planets, and what holds a member against rotation."""
+    stage, new = own.table, train.numbers
+    carrier = new[own.members[CARRIER]]
+    sense, centre = train.motion.sense[carrier], figure.places.centres
+    for number, body in enumerate(own.planets):
+        bearing = bearings[body]
+        if bearing is None:
+            continue
+        data = bearing_of(bearing)
+        x, y = centre[new[body]] - centre[carrier]
+        yield LinkData(
+            f"pin-{train.parts.bodies[body].name}",
+            own.key,
+            (new[body], carrier),
+            (data.stiffness_x, data.stiffness_y, 0.0),
+            (0.0, 0.0, 0.0),
+            (data.damping_ratio_x, data.damping_ratio_y, 0.0),
+            lever=(-sense * float(y), sense * float(x)),
+            offset=pin_offset(stage, number),
+        )
+    stiffness = stage.support_stiffness
+    if stiffness is None:
+        stiffness = USUAL_SUPPORT * _held_radius(own, train, figure) ** 2
+    yield LinkData(
+        f"support-{train.parts.bodies[own.held].name}",
+        own.key,
+        (new[own.held], HOUSING),
+        (0.0, 0.0, stiffness),
+        (0.0, 0.0, 0.0),
+        (0.0, 0.0, stage.support_damping_ratio),
+        holds=True,
+    )
+
+
+def _held_radius(own: SetPart, train: Moving, figure: Drawn) -> float:
+    """Radius (m) of the pitch circle of the held member; of a carrier that on which the pins are."""
+    for mesh, gears in enumerate(train.motion.gears):
+        path = figure.assemblies[mesh].path
+        for gear, radius in zip(gears, (path.pinion_pitch_radius, path.gear_pitch_radius), strict=True):
+            if train.parts.gears[gear].body == own.held:
+                return abs(float(radius))
+    centre, new = figure.places.centres, train.numbers
+    return float(np.hypot(*(centre[new[own.planets[0]]] - centre[new[own.held]])))
+
+
+def set_data(own: SetPart, train: Moving) -> SetData:
+    """The set in the numbers of the train's order."""
+    new, stage = train.numbers, own.table
+    members = {name: new[body] for name, body in own.members.items()}
+    planets = tuple(new[body] for body in own.planets)
+    return SetData(
+        stage.name, own.key, members, planets, stage.placed, own.teeth, stage.held, stage.frame_forces
+    )

@@ -1,0 +1,219 @@
+"""The planetary stages of a scenario: their parts by number, and whether what they name is there."""
+
+from collections.abc import Iterator
+from math import cos, sin
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.input.tables.supports.bearings import bearing_of, broken_bearing
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
+from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly
+
+
+class SetPart(NamedTuple):
+    """A planetary set by its bodies."""
+
+    key: str
+    table: PlanetaryStage
+    members: dict[str, int]  # bodies of sun, ring and carrier
+    planets: tuple[int, ...]  # bodies
+    teeth: SetTeeth
+
+    @property
+    def held(self) -> int:
+        """The body that does not turn."""
+        return self.members[self.table.held]
+
+    @property
+    def floating(self) -> tuple[int, ...]:
+        """Bodies that no bearing holds."""
+        return tuple(self.members[name] for name in self.table.floating)
+
+
+def planetary_stages(scenario: Any) -> list[tuple[str, PlanetaryStage]]:
+    """The planetary stages with their keys."""
+    stages = ((f"stage.{number}", stage) for number, stage in enumerate(scenario.stage))
+    return [(key, stage) for key, stage in stages if isinstance(stage, PlanetaryStage)]
+
+
+def planet_names(stage: PlanetaryStage) -> list[str]:
+    """Names of the planets, which are gears and bodies: planet-1, planet-2."""
+    return [f"{stage.planet}-{number}" for number in range(1, stage.planets + 1)]
+
+
+def teeth_of_set(scenario: Any, stage: PlanetaryStage) -> SetTeeth:
+    """Numbers of teeth of a stage whose names are sound."""
+    sun, planet, ring = (scenario.gear[name].teeth for name in (stage.sun, stage.planet, stage.ring))
+    return SetTeeth(sun, planet, -ring)
+
+
+def set_of(scenario: Any, key: str, stage: PlanetaryStage, places: dict[str, tuple[int, ...]]) -> SetPart:
+    """The set of a stage; `places` are the bodies of names."""
+    members = {name: places[own][0] for name, own in stage.members.items()}
+    return SetPart(key, stage, members, places[stage.planet], teeth_of_set(scenario, stage))
+
+
+def meshes_of_set(stage: PlanetaryStage) -> Iterator[tuple[str, str, str, float]]:
+    """The meshes of a stage: name, both gears, direction from the first one's axis to the second's, rad.
+
+    First those of the sun with every planet, then those of the planets with the ring.
+    """
+    each = list(zip(planet_names(stage), stage.placed, strict=True))
+    for number, (planet, angle) in enumerate(each, start=1):
+        yield f"{stage.name}-sun-{number}", stage.sun, planet, angle
+    for number, (planet, angle) in enumerate(each, start=1):
+        yield f"{stage.name}-ring-{number}", planet, stage.ring, angle
+
+
+def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
+    """Go through what contradicts itself in the planetary stages, by names and numbers."""
+    of_sets: dict[str, str] = {}
+    bodies = [body.name for body in scenario.body]
+    for key, stage in planetary_stages(scenario):
+        for name in ("sun", "planet", "ring"):
+            given = getattr(stage, name)
+            if given not in gears:
+                yield unknown_name(f"{key}.{name}", given, gears, "gear")
+                continue
+            internal = scenario.gear[given].internal
+            if internal is not (name == "ring"):
+                kind = "an internal" if name == "ring" else "an external"
+                remedy = f"add internal = true to [gear.{given}]" if name == "ring" else "name another gear"
+                yield InputError(f"{key}.{name}", quoted(given), f"must be {kind} gear", remedy)
+        if stage.carrier not in bodies:
+            yield unknown_name(f"{key}.carrier", stage.carrier, bodies, "[[body]]")
+        for name in ("sun", "planet", "ring", "carrier"):
+            given = getattr(stage, name)
+            if (
+                of_sets.setdefault(given, key) != key
+                or [*stage.members.values(), stage.planet].count(given) > 1
+            ):
+                rule = f"{given} is named twice in planetary stages"
+                yield InputError(f"{key}.{name}", quoted(given), rule, "use a gear of its own for each")
+        if stage.helix_angle:
+            rule, remedy = "helical planetary stages are not modelled", "leave helix_angle out"
+            yield InputError(f"{key}.helix_angle", f"{stage.helix_angle:g} rad", rule, remedy)
+        yield from _counts(key, stage)
+        if all(name in gears for name in (stage.sun, stage.planet, stage.ring)):
+            yield from _assembly(scenario, key, stage)
+        yield from _held(scenario, key, stage)
+    yield from _joined_rigidly(scenario, of_sets)
+    yield from _bearings(scenario, of_sets)
+
+
+def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
+    for name in ("angles", "radial_pin_errors", "tangential_pin_errors"):
+        given = getattr(stage, name)
+        if given and len(given) != stage.planets:
+            rule = f"has {len(given)} values for {stage.planets} planets"
+            yield InputError(f"{key}.{name}", None, rule, "give one for every planet, or leave it out")
+    for number, name in enumerate(stage.floating):
+        if name in stage.floating[:number]:
+            yield InputError(f"{key}.floating", None, f"names {name} twice", "name each member once")
+    if stage.floating and stage.planets < 3:
+        rule = f"{stage.planets} planets do not hold a floating {stage.floating[0]} in place"
+        yield InputError(f"{key}.floating", None, rule, "give it a bearing, or the stage three planets")
+    if len(stage.floating) == len(MEMBERS):
+        rule = "no member of the set has a bearing: it has no place"
+        yield InputError(f"{key}.floating", None, rule, "let one of them have a bearing")
+
+
+def _assembly(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError]:
+    if stage.angles and len(stage.angles) != stage.planets:
+        return
+    teeth = teeth_of_set(scenario, stage)
+    if teeth.sun >= -teeth.ring:
+        rule = f"the ring's {-teeth.ring} teeth do not reach around the sun's {teeth.sun}"
+        yield InputError(f"{key}.ring", quoted(stage.ring), rule, "give the ring more teeth")
+        return
+    try:
+        check_assembly(teeth, stage.placed, f"{key}.angles")
+    except InputError as error:
+        if stage.angles:
+            yield error
+        else:
+            yield InputError(f"{key}.planets", stage.planets, error.rule, error.remedy)
+
+
+def _held(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError]:
+    """Refuse power at a member that is held."""
+    held, operating = stage.members[stage.held], scenario.operating
+    named = [("operating.input", operating.input), ("operating.output", operating.output)]
+    named += [(f"load.{number}.at", load.at) for number, load in enumerate(scenario.load)]
+    for place, name in named:
+        if name == held:
+            turning = " or ".join(own for member, own in stage.members.items() if member != stage.held)
+            rule = f"is held in the planetary stage {stage.name}, and does not turn"
+            yield InputError(place, quoted(name), rule, f"name {turning}, or hold another member: {key}.held")
+
+
+def _bearings(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
+    """Bearings of members are the same in all directions, for their frame turns; and none is missing."""
+    known = scenario.bearings.by_name
+    for _, stage in planetary_stages(scenario):
+        floating = {stage.members[name] for name in stage.floating}
+        for name in {*stage.members.values(), stage.planet} - floating:
+            if not {name, "default", "gear"} & set(known):
+                rule = f"missing: {name} of the planetary stage {stage.name} moves in x and y"
+                remedy = f"add [bearings.{name}], or [bearings.default]"
+                yield InputError(f"bearings.{name}", None, rule, remedy)
+    for name, bearing in scenario.bearings.by_name.items():
+        if name not in of_sets and not (name == "default" and of_sets):
+            continue
+        if any(broken_bearing("", bearing)):
+            continue
+        data = bearing_of(bearing)
+        both = (data.stiffness_x, data.damping_ratio_x), (data.stiffness_y, data.damping_ratio_y)
+        if both[0] != both[1]:
+            rule = "differs in x and y, and holds members of a planetary stage, whose frame turns"
+            remedy = "give stiffness_x and stiffness_y, and their damping ratios, the same values"
+            yield InputError(f"bearings.{name}", None, rule, remedy)
+
+
+def _joined_rigidly(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
+    """Members of sets move in the frames of their carriers, others in the housing."""
+    for number, shaft in enumerate(scenario.shaft):
+        for name in shaft.gears:
+            if name in of_sets:
+                rule = f"{name} is of a planetary stage, which moves in the frame of its carrier"
+                remedy = f'join it by a [[link]] with ends = ["{name}", …] and a torsional stiffness'
+                yield InputError(f"shaft.{number}.gears", quoted(name), rule, remedy)
+                break
+
+
+def coaxial(sets: tuple[SetPart, ...]) -> list[tuple[int, int]]:
+    """Bodies on one axis, in pairs."""
+    return [
+        (own.members["carrier"], body)
+        for own in sets
+        for name, body in own.members.items()
+        if name != "carrier"
+    ]
+
+
+def pin_offset(stage: PlanetaryStage, planet: int) -> tuple[float, float]:
+    """Place of a planet's pin from where it should be, x and y, m."""
+    angle = stage.placed[planet]
+    outwards = stage.radial_pin_errors[planet] if stage.radial_pin_errors else 0.0
+    onwards = stage.tangential_pin_errors[planet] if stage.tangential_pin_errors else 0.0
+    return outwards * cos(angle) - onwards * sin(angle), outwards * sin(angle) + onwards * cos(angle)
+
+
+def refuse_overlap(own: SetPart, tip_radius: float, centres: Float[Array, "planet 2"]) -> None:
+    """Raise InputError where the tip circles of planets overlap; centres, m."""
+    apart = np.hypot(*np.moveaxis(centres[:, None] - centres[None], -1, 0))
+    apart[np.diag_indices(len(centres))] = np.inf
+    overlap = 2.0 * tip_radius - float(apart.min())
+    if overlap <= 0.0:
+        return
+    one, two = sorted(int(place) + 1 for place in np.unravel_index(int(np.argmin(apart)), apart.shape))
+    radius = float(np.hypot(*(centres[0] - centres.mean(axis=0))))
+    rule = f"the tip circles of planets {one} and {two} overlap by {1e3 * overlap:.3g} mm"
+    remedy = "stand them further apart"
+    if not own.table.angles:
+        remedy = f"use at most {int(np.pi / np.arcsin(tip_radius / radius))}, or planets with fewer teeth"
+    key = "angles" if own.table.angles else "planets"
+    raise InputError(f"{own.key}.{key}", None if own.table.angles else own.table.planets, rule, remedy)

@@ -1,0 +1,52 @@
+"""Sensors on a gearbox: its places, and what listens to its run."""
+
+import numpy as np
+
+from tribodyn.dynamics.recorded.outputs import holding_links
+from tribodyn.gears.sensing.listening import Listener
+from tribodyn.gears.sensing.sensor_places import RingPlaces, Sensible, placed
+from tribodyn.studies.motion.frequencies import lines_of
+from tribodyn.studies.motion.planetary.results import meshes_of_member
+from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.train.planetary import CARRIER, RING
+from tribodyn.train.structure import TURN
+
+
+def sensible(prepared: PreparedGearbox) -> Sensible:
+    """What of the gearbox can be sensed."""
+    case, model, names = prepared.case, prepared.model, prepared.names
+    layout = model.layout
+    stiffness = np.asarray(model.links.stiffness)
+    numbers = {body: place for place, body in enumerate(prepared.order)}
+    of_motor = "motor" if case.named else "shaft"
+    shafts = {
+        case.links[k].name if k < len(case.links) else of_motor: k
+        for k in range(layout.links)
+        if layout.second[k] >= 0 and stiffness[k, TURN] > 0.0
+    }
+    rings = {
+        own.name: RingPlaces(
+            numbers[own.members[CARRIER]],
+            case.bodies[own.members[CARRIER]].sense,
+            own.angles,
+            tuple(meshes_of_member(case, own, RING)),
+        )
+        for own in case.sets
+    }
+    return Sensible(
+        bodies={name: number for number, name in enumerate(names)},
+        bearings={names[layout.first[k]]: k for k in holding_links(model) if layout.second[k] < 0},
+        meshes={mesh.name: number for number, mesh in enumerate(case.meshes)},
+        shafts=shafts,
+        lines=lines_of(prepared),
+        reference=names[0],
+        rings=rings,
+    )
+
+
+def listener_of(prepared: PreparedGearbox) -> Listener:
+    """What listens to a run of the gearbox; raises InputError where a sensor cannot."""
+    case, known = prepared.case, sensible(prepared)
+    samples, cycles = case.output.samples_per_cycle, case.solver.cycles
+    at = placed(case.sensors, case.housing, known, prepared.model, samples, cycles)
+    return Listener(at, case.housing, known)

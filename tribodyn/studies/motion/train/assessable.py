@@ -1,0 +1,127 @@
+"""The meshes of a train as pairs of gears at their duty: what an assessment rates one by one."""
+
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+from tribodyn.cases.assessment_part import MeshAtDuty, Meshing, WholeDrive
+from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.gears.rating.bearings import TurningShaft
+from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.families import family
+from tribodyn.input.tables.gears.model_files import DriveTable, Gear
+from tribodyn.studies.motion.case import Gearbox, TrainMesh
+from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
+from tribodyn.studies.motion.planetary.results import meshes_of_member
+from tribodyn.studies.protocol.load import load_data
+from tribodyn.train.planetary import RING, SUN
+
+
+def meshes(case: Gearbox) -> list[MeshAtDuty]:
+    """Every mesh with its pair; those of a planetary set with its name."""
+    stages = {
+        m: own.name
+        for own in case.sets
+        for member in (SUN, RING)
+        for m in meshes_of_member(case, own, member)
+    }
+    return [
+        MeshAtDuty(mesh.name, mesh.pair, alike, stages.get(m, ""), _meshing(case, mesh))
+        for m, (mesh, alike) in enumerate(zip(case.meshes, alike_of(case), strict=True))
+    ]
+
+
+def _meshing(case: Gearbox, mesh: TrainMesh) -> tuple[Meshing, Meshing]:
+    """How the gears of a mesh are loaded in all of their meshes.
+
+    Teeth that drive are loaded on one flank, those that are driven on the other.
+    """
+    found = []
+    for number, own in zip(mesh.gears, SIDES, strict=True):
+        roles = [side for _, side in case.gears[number].meshes]
+        found.append(Meshing(roles.count(own), len(set(roles)) > 1))
+    return found[0], found[1]
+
+
+def at_speed(case: Gearbox, scenario: Mapping[str, Any], factor: float) -> dict[str, Any]:
+    """The scenario at another speed, given at the input, and with its torque in place of a power."""
+    operating = {name: value for name, value in scenario["operating"].items() if name != "output_speed"}
+    if operating.pop("power", None) is not None and case.loads:
+        operating["output_torque"] = f"{case.loads[0].torque!r} N*m"
+    operating["input_speed"] = f"{factor * case.source.speed!r} rad/s"
+    return {**scenario, "operating": operating}
+
+
+#: Tables of a train's scenario that all pairs have alike.
+_COMMON = ("mesh", "lubricant", "film", "friction", "temperature")
+#: Keys of all gears.
+_OF_ALL = ("material", "mean_roughness", "quality", "quality_edition")
+
+
+def pair_of(case: Gearbox, name: str) -> dict[str, Any]:
+    """The pair of gears of a mesh at its duty, its driver the pinion, as a scenario has it.
+
+    Without a name that of the only mesh. Raises InputError for a mesh that is not there, or has no teeth.
+    """
+    names = [mesh.name for mesh in case.meshes]
+    if not name and len(names) > 1:
+        rule = f"missing: the gearbox has {len(names)} meshes"
+        raise InputError("mesh", None, rule, f"name one of them: {', '.join(names)}")
+    if name and name not in names:
+        raise unknown_name("mesh", name, names, "mesh")
+    mesh = case.meshes[names.index(name) if name else 0]
+    table, pair = tomllib.loads(case.toml), mesh.pair
+    if mesh.key.startswith("mesh."):
+        rule = "is of a bare model, without teeth"
+        raise InputError("mesh", quoted(mesh.name), rule, "name a mesh of a [[stage]]")
+    operating = table["operating"]
+    duty = {
+        "pinion_speed": f"{pair.operating.pinion_speed!r} rad/s",
+        "gear_torque": f"{pair.operating.gear_torque!r} N*m",
+    }
+    duty |= {key: operating[key] for key in ("oil_temperature",) if key in operating}
+    found = {key: table[key] for key in _COMMON if key in table} | {"operating": duty}
+    return found | {"drive": table["drive"] if "drive" in table else _drive(case, mesh, table)}
+
+
+def _drive(case: Gearbox, mesh: TrainMesh, table: Mapping[str, Any]) -> dict[str, Any]:
+    """What a drive file would say of a mesh of a stage."""
+    stage = table["stage"][int(mesh.key.partition(".")[2])]
+    drive = {key: table[key] for key in _OF_ALL if key in table}
+    drive |= {key: value for key, value in stage.items() if key in DriveTable.model_fields}
+    drive |= {"title": f"mesh {mesh.name} of {case.title}", "source": "its scenario"}
+    drive.setdefault("family", "involute")
+    for side, number in zip(SIDES, mesh.gears, strict=True):
+        key = case.gears[number].key.removeprefix("gear.")
+        drive[side] = {name: value for name, value in table["gear"][key].items() if name in Gear.model_fields}
+    if "planet" in stage and "centre_distance" not in stage:  # that of the sun's meshes holds for the ring's
+        path = family(mesh.pair.family).working_path(mesh.pair.drive)
+        distance = abs(float(path.pinion_pitch_radius + path.gear_pitch_radius))
+        drive["centre_distance"] = f"{1e3 * distance!r} mm"
+    return drive
+
+
+def duties(case: Gearbox) -> list[tuple[float, Gearbox]]:
+    """Every duty of the load spectrum with its share of the time."""
+    table = tomllib.loads(case.toml)
+    shares = [float(duty["share"]) for duty in table.get("duty", ())]
+    return [
+        (
+            share / sum(shares),
+            load_data({**table, "operating": {**table["operating"], "duty": number}}, case.name).case,
+        )
+        for number, share in enumerate(shares, start=1)
+    ]
+
+
+def shafts(case: Gearbox) -> list[TurningShaft]:
+    """The drawn shafts at their speeds."""
+    reference = case.source.speed / float(case.bodies[case.source.body].ratio)
+    return [
+        TurningShaft(case.bodies[body].name, held, float(case.bodies[body].ratio) * reference)
+        for body, held in case.supports.items()
+        if held.bearings
+    ]
+
+
+WHOLE = WholeDrive(meshes, at_speed, lambda case: case.source.speed, pair_of, duties, shafts)

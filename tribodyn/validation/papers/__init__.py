@@ -1,0 +1,1 @@
+"""Comparison with papers: one file with the rows of each, with its figures and curves beside it."""
