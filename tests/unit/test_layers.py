@@ -79,6 +79,8 @@ KINDS = {
 WORDS = {"efficiency", "design", "ehl", "wear"}
 #: Style: a file is one idea; lines.
 LONGEST_FILE = 340
+#: Modules of a folder beside its subfolders; of the command line a verb each.
+FULLEST_FOLDER = 15
 
 FILES = modules(ROOT)
 
@@ -208,6 +210,14 @@ def test_modules_named_by_a_string_lie_beside_who_names_them():
 
 def test_a_file_is_one_idea():
     assert {name: lines(path) for name, path in FILES.items() if lines(path) > LONGEST_FILE} == {}
+
+
+def test_a_folder_holds_no_more_modules_than_a_reader_overlooks():
+    folders = Counter(
+        path.parent.relative_to(ROOT).as_posix() for path in FILES.values() if path.name != "__init__.py"
+    )
+    crowded = {name: count for name, count in folders.items() if count > FULLEST_FOLDER}
+    assert crowded.keys() <= {"cli"}
 
 
 def test_a_class_name_means_one_class():

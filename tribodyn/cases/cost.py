@@ -18,7 +18,7 @@ GIB = 2.0**30
 PROGRAM, HEAD = 160 * 2.0**20, 30e3
 
 
-class Driver(NamedTuple):
+class CostKey(NamedTuple):
     """A key that an estimate grows with."""
 
     key: str
@@ -35,7 +35,7 @@ class Estimate(NamedTuple):
     memory: float = 0.0
     record: float = 0.0  # bytes of the record; while it is concluded there are two of it
     seconds: float = 0.0  # of one core, compiling not included; of the right order
-    drivers: Sequence[Driver] = ()  # what to reduce
+    drivers: Sequence[CostKey] = ()  # what to reduce
     shared: float = 0.0  # seconds, in addition, that cases of a sweep which share a table spend once
 
 
@@ -144,7 +144,7 @@ SAMPLE_BYTES = 2800.0
 SIDE_BY_SIDE = 0.3
 
 
-def total(drivers: tuple[Driver, ...], *parts: Estimate) -> Estimate:
+def total(drivers: tuple[CostKey, ...], *parts: Estimate) -> Estimate:
     """The program itself and the parts of a run, which grow with the keys of the drivers."""
     memory, record, seconds, shared = (
         sum(getattr(part, name) for part in parts) for name in ("memory", "record", "seconds", "shared")

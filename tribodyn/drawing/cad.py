@@ -24,7 +24,7 @@ from tribodyn.geometry.body import (
     tooth_outline,
 )
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
-from tribodyn.geometry.helix import hand_of, lead
+from tribodyn.geometry.helix import hand_name, lead
 from tribodyn.numerics.files.output_files import MARKS, write_output
 
 #: Layer -> (AutoCAD colour index, line type).
@@ -93,7 +93,7 @@ def _say_section(drawing: Any, assembly: Assembly, sides: tuple[Side, ...]) -> N
     if not drive.helix_angle:
         return
     turns = ", ".join(
-        f"{side} {hand_of(drive, side)}-hand, lead {_MILLIMETRES * float(lead(drive, side)):.6g} mm"
+        f"{side} {hand_name(drive, side)}-hand, lead {_MILLIMETRES * float(lead(drive, side)):.6g} mm"
         for side in sides
     )
     text = f"Transverse section. Helix angle {np.degrees(abs(drive.helix_angle)):.6g} deg; {turns}"

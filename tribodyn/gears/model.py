@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics import parameters
+from tribodyn.dynamics.damping import equivalent_mass, mesh_damping
 from tribodyn.gears.case import GearCase, LubricatedCase
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.geometry.drive import Drive, Side
@@ -32,7 +33,7 @@ SWEEPS_NONLINEAR = 12
 Frame = tuple[tuple[float, float], tuple[float, float]]
 
 
-def mesh_of(
+def gear_mesh(
     case: LubricatedCase,
     made: Tabulated,
     closure: Closure,
@@ -44,16 +45,14 @@ def mesh_of(
     """A mesh of two bodies with so much inertia each, kg m²; `hand`, `places` as in `train.structure`."""
     cycle = made.cycle
     radius_1, radius_2 = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
-    first, second = inertias
-    equivalent_mass = first * second / (first * radius_2**2 + second * radius_1**2)
+    mass = equivalent_mass(inertias, (radius_1, radius_2))
     return GearMesh(
         made.table,
         cycle.pinion_pitch_radius,
         cycle.gear_pitch_radius,
         *frame[0],
         *frame[1],
-        # of slices together that of the pair: √K times as much of a Kth of the stiffness
-        damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass / cycle.slices)),
+        damping=mesh_damping(case.mesh.damping_ratio, mass, cycle.slices),
         surfaces=closure.surfaces,
         film=closure.film.parameters,
         friction=closure.friction.parameters,
@@ -102,7 +101,7 @@ def with_own_teeth(
     return model._replace(schedule=schedule, options=options)
 
 
-def hand_of(drive: Drive, clockwise: bool = True) -> float:
+def helix_sign(drive: Drive, clockwise: bool = True) -> float:
     """`GearMesh.hand` of a pair whose pinion turns clockwise seen from +z, or not; 1 of spur gears."""
     return 1.0 if (float(drive.helix_angle) >= 0.0) == clockwise else -1.0
 

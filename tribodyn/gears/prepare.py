@@ -22,6 +22,7 @@ from tribodyn.tribology.bulk_temperature import (
     Temperatures,
     fixed_point,
     heat_given_off,
+    heat_partition,
     network_temperatures,
 )
 from tribodyn.tribology.law import AUTO
@@ -30,8 +31,6 @@ from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, LubricantDat
 
 #: Difference of temperatures that is not worth another motion, K; motions of a case at most.
 CLOSE, MOST_MOTIONS = 0.1, 5
-#: Share of the heat of tooth friction that either gear takes.
-SHARE = 0.5
 
 
 def with_chosen_laws(case: LawfulCase) -> LawfulCase:
@@ -76,7 +75,7 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
         if case.losses is None:
             return None
         losses, lost = idle_losses(case, assembly, case.lubricant), mesh_loss(case)
-        return Thermal(case.lubricant, lost, losses, None, _heat(lost, losses, housing=False), None)
+        return Thermal(case.lubricant, lost, losses, None, heat_partition(lost, losses, housing=False), None)
     oil: LubricantData = case.lubricant
     supplied = float(oil.temperature)
     latest: list[Thermal] = []
@@ -87,7 +86,7 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
         known = wanted.mesh_loss
         lost = mesh_loss(replace(case, lubricant=lubricant)) if known is None else known
         losses = idle_losses(case, assembly, lubricant_at(oil, around))
-        heat = _heat(lost, losses, wanted.housing_ambient > 0.0)
+        heat = heat_partition(lost, losses, housing=wanted.housing_ambient > 0.0)
         heat = heat._replace(
             oil=heat.oil + wanted.other_heat, housing=heat.housing + wanted.other_housing_heat
         )
@@ -182,15 +181,6 @@ def contact_quantities(lubricant: LubricantData, summary: Mapping[str, Any]) -> 
     """
     warm, flash = summary.get("bulk_temperature", lubricant.temperature), summary.get("flash_temperature_max")
     return {} if warm is None or flash is None else {"contact_temperature_max": float(warm + flash)}
-
-
-def _heat(mesh_loss: float, losses: dict[str, Loss], housing: bool) -> Heat:
-    """Heat by where it arises: that of bearings in the housing, where there is one."""
-    power = {name: loss.power for name, loss in losses.items()}
-    bearings = power.get("bearings", 0.0)
-    in_oil = power.get("churning", 0.0) + power.get("windage", 0.0)
-    to_oil, to_housing = (in_oil, bearings) if housing else (in_oil + bearings, 0.0)
-    return Heat(SHARE * mesh_loss, (1.0 - SHARE) * mesh_loss, to_oil, to_housing)
 
 
 def _temperatures(

@@ -113,7 +113,7 @@ def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:
         **teeth_of(drive),
         "masses": masses_of(drive),
         "operating": OperatingData("speed", *duty),
-        "mesh": mesh_of(scenario),
+        "mesh": mesh_data(scenario),
         "supports": supports_of(scenario),
         "quality": quality_of(
             [grade_of(drive, gear) for gear in gears], tolerances_of(drive), drive.quality_edition
@@ -138,7 +138,7 @@ def oil_fields(scenario: Any) -> dict[str, Any]:
     }
 
 
-def mesh_of(
+def mesh_data(
     scenario: Any, *, every_tooth: bool = False, tilting: bool = False, error: Any = None, **own: Any
 ) -> MeshData:
     """Return what a scenario says of its mesh, by finite elements where it names no compliance.

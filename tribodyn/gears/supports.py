@@ -12,7 +12,7 @@ from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.flanks.modification import Misalignment, Modifications
+from tribodyn.geometry.flanks.modification import Misalignment, Modifications, misalignment_of_tilts
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.input.tables.duty import duty_of
 from tribodyn.input.tables.gears.drive_data import assembled_on_path
@@ -29,7 +29,15 @@ from tribodyn.input.tables.supports.support_matrix import matrix_of
 from tribodyn.numerics.remembered import remembered
 from tribodyn.train.links.beam import ShaftMetal, ShaftSection
 from tribodyn.train.links.rolling_bearing import BallRow, BearingState, RollerRow
-from tribodyn.train.links.shaft import Matrix, NotHeld, Support, SupportedShaft, under_load
+from tribodyn.train.links.shaft import (
+    Matrix,
+    NotHeld,
+    Support,
+    SupportedShaft,
+    displacement_on,
+    mesh_loads,
+    under_load,
+)
 
 #: Forces along x, y, z (N) and moments about x and y (N m), or displacements (m, rad).
 Five = tuple[float, ...]
@@ -86,7 +94,7 @@ def supports_of(scenario: Any) -> GearSupports:
         elif (matrix := matrices[side]) is not None:
             found[side] = matrix_support(f"bearings.{side}.matrix", bearing_of(matrix), load)
     angle = float(assembly.path.pressure_angle(0.0))
-    stand = misalignment_of([_of(one, "displacement") for one in found.values()], angle)
+    stand = misalignment_of_tilts((_of(one, "displacement")[3:] for one in found.values()), angle)
     return GearSupports(found["pinion"], found["gear"], stand, angle)
 
 
@@ -112,27 +120,11 @@ def bearings_of(scenario: Any) -> tuple[BearingData, BearingData]:
 def mean_loads(assembly: Assembly, gear_torque: float) -> tuple[Five, Five]:
     """Load of the mesh on pinion and gear: forces along x, y, z and moments about x and y of their centres.
 
-    A negative torque on the gear loads the back flanks. The pinion turns clockwise, seen from +z; its flanks
-    move along +x at the pitch point, and y is from its centre to the gear's.
+    A negative torque on the gear loads the back flanks; directions as of `mesh_loads`.
     """
     radii = float(assembly.path.pinion_pitch_radius), float(assembly.path.gear_pitch_radius)
-    tangential = abs(gear_torque / radii[1])
-    radial = tangential * float(np.tan(assembly.path.pressure_angle(0.0)))
-    axial = tangential * float(pitch_slope(assembly))  # of a right-hand pinion towards −z
-    sense = 1.0 if gear_torque >= 0.0 else -1.0
-    on_pinion = np.array([-sense * tangential, -radial, -sense * axial])
-    found = []
-    for force, arm in ((on_pinion, radii[0]), (-on_pinion, -radii[1])):
-        found.append((*map(float, force), arm * float(force[2]), 0.0))
-    return found[0], found[1]
-
-
-def misalignment_of(displacements: Any, pressure_angle: float) -> Misalignment:
-    """How displaced gears stand, see `Misalignment`; of pinion and gear, in the directions of `Five`."""
-    (_, _, _, pinion_x, pinion_y), (_, _, _, gear_x, gear_y) = displacements
-    skew, inclination = gear_y - pinion_y, pinion_x - gear_x
-    cosine, sine = float(np.cos(pressure_angle)), float(np.sin(pressure_angle))
-    return Misalignment(skew * cosine + inclination * sine, inclination * cosine - skew * sine)
+    slopes = float(np.tan(assembly.path.pressure_angle(0.0))), float(pitch_slope(assembly))
+    return mesh_loads(abs(gear_torque / radii[1]) * (1.0 if gear_torque >= 0.0 else -1.0), radii, *slopes)
 
 
 def displaced(modifications: Modifications, held: GearSupports, *, own_tilts: bool) -> Modifications:
@@ -142,7 +134,7 @@ def displaced(modifications: Modifications, held: GearSupports, *, own_tilts: bo
     """
     further = held.misalignment
     if own_tilts:
-        further = misalignment_of([_of(one, "rest") for one in held[:2]], held.pressure_angle)
+        further = misalignment_of_tilts((_of(one, "rest")[3:] for one in held[:2]), held.pressure_angle)
     if not any(further):
         return modifications
     stand = modifications.misalignment
@@ -162,11 +154,11 @@ def _with_matrix(bearings: Any, side: str) -> Bearing | None:
 def matrix_support(key: str, data: BearingData, load: Five) -> GearSupport:
     """What a matrix holds a gear by under a load; InputError where it does not."""
     assert data.matrix is not None
-    matrix, force = np.array(data.matrix), np.array(load)
-    moved, *_ = np.linalg.lstsq(matrix, force, rcond=None)
-    if np.max(np.abs(matrix @ moved - force)) > 1e-6 * np.max(np.abs(force)):
-        rule = "does not hold the gear against the load of its mesh: it is zero in some direction of that"
-        raise InputError(key, None, rule, "give it stiffness there, of helical gears also along z")
+    try:
+        moved = displacement_on(np.array(data.matrix), np.array(load))
+    except NotHeld as error:
+        remedy = "give it stiffness there, of helical gears also along z"
+        raise InputError(key, None, str(error), remedy) from None
     return GearSupport(data, tuple(moved.tolist()), (0.0,) * 5)
 
 

@@ -84,7 +84,7 @@ def overlap_ratio(assembly: Assembly) -> Any:
     return sqrt(slope**2) * assembly.common_width / (np.pi * assembly.drive.module)
 
 
-def hand_of(drive: Drive, side: Side) -> str:
+def hand_name(drive: Drive, side: Side) -> str:
     """Hand of a gear's helix, "right" or "left": the gear's is the other than the pinion's."""
     return "right" if (drive.helix_angle > 0) == (side == "pinion") else "left"
 

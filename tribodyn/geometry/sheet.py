@@ -15,7 +15,7 @@ from tribodyn.geometry.contact_lines import contact_lines
 from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius, tip_circle_radius
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.geometry.gauges import Gauge, Quantity, involute_of, thickness_lines
-from tribodyn.geometry.helix import base_helix_angle, hand_of, lead, overlap_ratio, pitch_slope
+from tribodyn.geometry.helix import base_helix_angle, hand_name, lead, overlap_ratio, pitch_slope
 from tribodyn.geometry.limits.internal import (
     base_circle_margin,
     radial_assembly,
@@ -191,7 +191,7 @@ def _hand_lines(assembly: Assembly, side: Side) -> dict[str, Quantity]:
     """What the helix adds to the sheet of one gear."""
     drive = assembly.drive
     lines: dict[str, Quantity] = {
-        "hand of helix": (hand_of(drive, side), ""),
+        "hand of helix": (hand_name(drive, side), ""),
         "lead": _millimetres(lead(drive, side)),
     }
     if assembly.family.involute:

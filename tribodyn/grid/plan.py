@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.cases import cost
-from tribodyn.cases.cost import Driver, Estimate, described
+from tribodyn.cases.cost import CostKey, Estimate, described
 from tribodyn.errors import InputError
 from tribodyn.grid.grid import Grid
 from tribodyn.input.vary import VARY
@@ -32,7 +32,7 @@ def estimate_of(grid: Grid, settings: Any, directions: int, width: int = 1, furt
     together = int(min(cases, 10.0**9))
     ends = [grid.batch.estimate(case, settings, together, width) for case in grid.ends()]
     seconds, shared = max(end.seconds for end in ends), max(end.shared for end in ends)
-    every = Driver(VARY, cases, USUAL_CASES, f"choose larger steps than for {cases:.4g} cases")
+    every = CostKey(VARY, cases, USUAL_CASES, f"choose larger steps than for {cases:.4g} cases")
     return Estimate(
         max(end.memory for end in ends) + A_CASE * cases,
         cost.HEAD + cases * max(end.record for end in ends),

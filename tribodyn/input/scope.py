@@ -19,12 +19,12 @@ _OUTSIDE = {
     ),
     PLANETS: (
         r"planet|epicyclic|^(sun|carrier)s?(_|$)",
-        'write kind = "gear-train" with a [[stage]] of type = "planetary" (tribodyn init --kind gear-train)',
+        'write a [[stage]] of type = "planetary" in a scenario of the kind for trains (tribodyn list kinds)',
     ),
     STAGES: (
         r"multi_?stage|^((n|number_of)_)?(stage|shaft|gearbox|gear_?train|train|idler|gears|mesh(es)?|"
         r"((pinion|gear|wheel)_?\d+))(e?s)?(_?\d+)?$",
-        'write kind = "gear-train" with [gear.NAME] and [[stage]] (tribodyn init --kind gear-train), '
+        "write [gear.NAME] and [[stage]] in a scenario of the kind for trains (tribodyn list kinds), "
         "or describe one stage as [drive.pinion] and [drive.gear]",
     ),
     "bevel, worm and hypoid gears": (r"bevel|worm|hypoid|(cone|shaft|spiral)_angle", "omit it"),

@@ -19,6 +19,7 @@ from tribodyn.interface import shown
 from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.post.progress import Report, progress_of
+from tribodyn.studies import STUDIES
 from tribodyn.studies.sweeping.signals import RUN_IN
 
 #: Level of the intervals, and starts that are tried beside the scenario's own: a power of two, per unknown.
@@ -157,7 +158,8 @@ def identify(
     """
     case = scenario(source, overrides)
     if not hasattr(case, "sensors"):
-        raise InputError("kind", f'"{case.kind}"', "has no sensors", 'use kind = "gear-pair" or "gear-train"')
+        kinds = [quoted(kind) for kind in STUDIES if "sensor" in STUDIES[kind].table().model_fields]
+        raise InputError("kind", quoted(case.kind), "has no sensors", f"use kind = {' or '.join(kinds)}")
     if method not in ("least-squares", "cma-es"):
         raise InputError("method", quoted(method), "no such method", '"least-squares" or "cma-es"')
     sought = unknowns_of(case, unknowns)

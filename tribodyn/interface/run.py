@@ -73,9 +73,18 @@ def run(
     OutputError
         If the record cannot be written.
     """
-    laws: dict[str, Any] = {"film": film, "friction": friction, "wear": wear, "links": links}
-    how: dict[str, Any] = {**laws, "force": force, "progress": progress, "resume": resume}
-    return recorded(scenario(source, overrides), output, allow_large=allow_large, **how)
+    return recorded(
+        scenario(source, overrides),
+        output,
+        progress,
+        film=film,
+        friction=friction,
+        wear=wear,
+        links=links,
+        force=force,
+        allow_large=allow_large,
+        resume=resume,
+    )
 
 
 def recorded(

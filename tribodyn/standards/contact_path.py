@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.standards.loss_factors import equal_loads
 
 #: Points of the path in the order in which they are passed.
 POINTS = ("A", "AB", "B", "C", "D", "DE", "E")
@@ -135,15 +136,14 @@ def loss_factor(path: ContactPath) -> float:
     """Gear loss factor H_v of unmodified flanks: ISO/TR 15144-1:2014, (91) and (92).
 
     H_v = (ε_1² + ε_2² + 1 − ε_α)(1/z_1 + 1/z_2) π/cos β_b for ε_α < 2, else half of
-    ε_α (1/z_1 + 1/z_2) π/cos β_b. Of a pitch point beyond an end of the path the integral that the former is:
-    of abs(x) over x in pitches from the pitch point, half the load where two pairs are on the path.
+    ε_α (1/z_1 + 1/z_2) π/cos β_b. Of a pitch point beyond an end of the path the integral that the former is.
     """
     first, second = path.tip_contact_ratios
     total = first + second
-    ends = (-second, first - 1.0, 1.0 - second, first)  # A, B, D, E
-    start, inner, outer, end = (x * abs(x) for x in ends)
-    sharing = 0.5 * (end - start + outer - inner) if total < 2.0 else 0.5 * total
-    return sharing * sum(1.0 / z for z in path.teeth) * np.pi / float(np.cos(path.base_helix_angle))
+    lean, (pinion, gear) = float(np.cos(path.base_helix_angle)), path.teeth
+    if total < 2.0:
+        return equal_loads(first, second, pinion, gear / pinion) / lean
+    return 0.5 * total * (1.0 / pinion + 1.0 / gear) * np.pi / lean
 
 
 def load_share(path: ContactPath, distance: Any, quality: float = 7.0) -> Any:

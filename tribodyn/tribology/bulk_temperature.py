@@ -3,17 +3,20 @@
 The estimate of ISO/TR 15144-1 is `tribodyn.standards.micropitting.bulk_rise`. Temperatures in K.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from tribodyn.errors import SimulationError
+from tribodyn.tribology.losses import Loss
 
 #: Change from which a fixed point counts as found, K: a tenth of what is promised.
 TOLERANCE = 0.01
 #: Steps at most, the farthest that one goes, K, and the smallest share of the way that is taken.
 STEPS, FARTHEST, LEAST_WEIGHT = 100, 40.0, 0.02
 
+#: Share of the heat of tooth friction that either gear takes.
+SHARE = 0.5
 
 Lubrication = Literal["dip", "spray", "submerged"]
 
@@ -51,6 +54,33 @@ class Heat(NamedTuple):
     def total(self) -> float:
         """Sum of all, W."""
         return sum(self)
+
+
+def heat_partition(mesh_loss: float, losses: Mapping[str, Loss], *, housing: bool) -> Heat:
+    """Heat by where it arises: half of tooth friction (W) in either gear, that of bearings in the `housing`.
+
+    Without a housing of its own, bearings heat the oil, as churning and windage do.
+    """
+    power = {name: loss.power for name, loss in losses.items()}
+    bearings = power.get("bearings", 0.0)
+    in_oil = power.get("churning", 0.0) + power.get("windage", 0.0)
+    to_oil, to_housing = (in_oil, bearings) if housing else (in_oil + bearings, 0.0)
+    return Heat(SHARE * mesh_loss, (1.0 - SHARE) * mesh_loss, to_oil, to_housing)
+
+
+def heat_of_other_meshes(
+    friction: Sequence[float], idle: Sequence[Mapping[str, Loss]]
+) -> list[tuple[float, float]]:
+    """What all other meshes give to the oil and housing that each shares with them, W, and of that bearings.
+
+    `friction` are the mean losses of the meshes to tooth friction, W, `idle` their load-independent ones.
+    """
+    bearings = [losses["bearings"].power if "bearings" in losses else 0.0 for losses in idle]
+    power = [sum(loss.power for loss in losses.values()) for losses in idle]
+    return [
+        (sum(friction) - lost + sum(power) - own, sum(bearings) - turning)
+        for lost, own, turning in zip(friction, power, bearings, strict=True)
+    ]
 
 
 class Network(NamedTuple):

@@ -31,7 +31,7 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.closure import LEAST_SLIDING, Lubricated, closure, is_open, law_input
 from tribodyn.tribology.contact import LocalContact, local_contact
 from tribodyn.tribology.ehl.of_case import Contact, contact_of
-from tribodyn.tribology.ehl.table import solve_one
+from tribodyn.tribology.ehl.table import CACHE, solve_one
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO, Closure, FilmData, FilmLaw, FrictionLaw, LawInput
@@ -170,7 +170,7 @@ def _solutions(contact: Contact, duties: tuple[tuple[float, ...], ...]) -> Float
     """`solve_one` of each duty, from this process, from the cache, or solved."""
     digest = hashlib.sha256(digest_of(solve_one.__module__) + repr((contact, duties)).encode()).hexdigest()
     made = lambda: {"values": np.array([_one(contact, np.array(duty)) for duty in duties])}  # noqa: E731
-    return arrays_kept_or_made("ehl", digest, made)["values"]
+    return arrays_kept_or_made(CACHE, digest, made)["values"]
 
 
 def _one(contact: Contact, duty: Float[Array, " number"]) -> Float[Array, " 3"]:

@@ -13,7 +13,7 @@ from tribodyn.cases.cost import (
     HEAD,
     LIMITS,
     PROGRAM,
-    Driver,
+    CostKey,
     Estimate,
     described,
     record_bytes,
@@ -88,7 +88,7 @@ def test_a_record_is_counted_by_its_layout():
     assert record_bytes(layout, {"time": 100, "pair": 3, "torque": 2}) == HEAD + 100 * (8 + 24 + 1 + 16) + 24
 
 
-DRIVERS = (Driver("a.long", 50, 10), Driver("a.wide", 300, 10))
+DRIVERS = (CostKey("a.long", 50, 10), CostKey("a.wide", 300, 10))
 
 
 @pytest.mark.parametrize("name", ["memory", "record", "seconds", "shared"])

@@ -88,7 +88,7 @@ def test_the_lanes_take_a_law_that_is_a_closure(case):
     def closed(contact, film, surfaces, parameters):
         return coefficient
 
-    own = prepare(with_law(case, "friction", FrictionLaw("own", "", closed))).model
+    own = prepare(with_law(case, FrictionLaw, FrictionLaw("own", "", closed))).model
     shipped = prepare(load_scenario("crc-23-47", {**SHORT, **COULOMB})).model
     states = np.tile(initial_state(own, "static"), (8, 1))
     given = {"cycles": 2, "window": 1, "samples": 20, "rtol": 1e-8, "method": "dopri5", "workers": 1}

@@ -5,14 +5,15 @@ from typing import Any
 
 import pytest
 
-from tribodyn.gears.prepare import _heat, contact_quantities, thermal_quantities
+from tribodyn.gears.prepare import contact_quantities, thermal_quantities
+from tribodyn.tribology.bulk_temperature import heat_partition
 from tribodyn.tribology.losses import Loss
 
 LOSSES = {"churning": Loss(30.0, ("too fast",)), "windage": Loss(5.0, ()), "bearings": Loss(15.0, ())}
 
 
 def settled(given_off=None) -> Any:
-    heat = _heat(200.0, LOSSES, given_off is not None)
+    heat = heat_partition(200.0, LOSSES, housing=given_off is not None)
     temperatures = SimpleNamespace(bulk=350.0, pinion=352.0, gear=348.0, oil=340.0, housing=330.0)
     return SimpleNamespace(temperatures=temperatures, heat=heat, given_off=given_off, losses=LOSSES)
 
@@ -34,7 +35,7 @@ def test_output_over_what_the_motor_gives():
 @pytest.mark.parametrize("housing", [True, False])
 def test_heat_arises_where_it_is_lost(housing):
     """Half of the teeth's friction in either gear; of bearings in the housing, where there is one."""
-    heat = _heat(200.0, LOSSES, housing)
+    heat = heat_partition(200.0, LOSSES, housing=housing)
     assert tuple(heat[:4]) == (100.0, 100.0, *((35.0, 15.0) if housing else (50.0, 0.0)))
     assert heat.total == pytest.approx(250.0)
 

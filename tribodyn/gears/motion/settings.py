@@ -16,7 +16,7 @@ from tribodyn.gears.scenario import (
     SampleNumber,
     SliceCoupling,
     broken_stiffness_rules,
-    mesh_of,
+    mesh_data,
 )
 from tribodyn.input import fields, units
 from tribodyn.input.quantity import (
@@ -136,9 +136,9 @@ class Output(Table):
 
 
 def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
-    """Return what a scenario's `drive` and its table `mesh`, a `Mesh`, say of the mesh; see `mesh_of`."""
+    """Return what a scenario's `drive` and its table `mesh`, a `Mesh`, say of the mesh; see `mesh_data`."""
     mesh, error = scenario.mesh, scenario.mesh.transmission_error
-    return mesh_of(
+    return mesh_data(
         scenario,
         error=error.table.in_si() if error.table else None,
         table=mesh.table.in_si() if mesh.table else None,

@@ -9,7 +9,7 @@ exceeded.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -75,6 +75,17 @@ class Misalignment(NamedTuple):
 
     in_plane: float = 0.0  # within the plane of action: the gap grows by this times z
     out_of_plane: float = 0.0  # perpendicular to it; of second order only, for an involute
+
+
+def misalignment_of_tilts(tilts: Iterable[Sequence[float]], pressure_angle: float) -> Misalignment:
+    """How gears stand by the tilts of both about x and y, rad; y is from the pinion's centre to the gear's.
+
+    `pressure_angle` of the transverse section at the pitch point, rad.
+    """
+    pinion, gear = tilts
+    skew, inclination = gear[1] - pinion[1], pinion[0] - gear[0]
+    cosine, sine = math.cos(pressure_angle), math.sin(pressure_angle)
+    return Misalignment(skew * cosine + inclination * sine, inclination * cosine - skew * sine)
 
 
 class Modifications(NamedTuple):

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
-from tribodyn.cases.cost import Driver, Estimate, forced_periods, recorded, total
+from tribodyn.cases.cost import CostKey, Estimate, forced_periods, recorded, total
 from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.schema import Layout
 from tribodyn.studies.protocol.study import CaseHead
@@ -127,9 +127,9 @@ def estimate(case: BacklashOscillatorCase) -> Estimate:
     settling = min(float(case.max_periods), SETTLED / max(case.damping, LEAST_DAMPING))
     longest = sum(2.0 * math.pi / frequency for frequency in case.frequencies)
     drivers = (
-        Driver("frequency", count, 400),
-        Driver("solver.max_periods", case.max_periods, 600),
-        Driver("frequency", longest / count, 10.0, "leave out the lowest"),
+        CostKey("frequency", count, 400),
+        CostKey("solver.max_periods", case.max_periods, 600),
+        CostKey("frequency", longest / count, 10.0, "leave out the lowest"),
     )
     record = recorded(LAYOUT, {"frequency": count, "direction": 2, "multiplier": 2}, copies=4.0)
     return total(drivers, record, forced_periods(2.0 * settling * count, 2.0 * settling * longest))

@@ -1,6 +1,6 @@
 """What a search takes, before any work."""
 
-from tribodyn.cases.cost import Driver, Estimate, record_bytes
+from tribodyn.cases.cost import CostKey, Estimate, record_bytes
 from tribodyn.studies.design.candidates.archive import FACTORS, resolutions
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, shapes_gears, start_of
 from tribodyn.studies.design.candidates.converged import counts
@@ -35,6 +35,6 @@ def estimate(case: DesignCase) -> Estimate:
         largest.memory,
         record_bytes(layout_of(case), sizes),
         seconds,
-        (Driver("design.evaluations", count, USUAL), *largest.drivers),
+        (CostKey("design.evaluations", count, USUAL), *largest.drivers),
         largest.shared,
     )

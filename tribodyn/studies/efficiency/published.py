@@ -5,14 +5,11 @@ Machines 12 (2024) 943: no deflection, one pair at a time over half a pitch on e
 constant input torque, friction and load solved together at every point. The method needs nothing of the
 family but the lever arms, curvature and speeds of its path.
 
-By the loss factor of an involute mesh with a constant friction coefficient, η = 1 − μ H_v: Höhn's formula and
-the integral that it evaluates, as given by A. Diez-Ibarbia et al., efficiency of spur gears with a shifting
-profile, (8)-(11). The tip contact ratios ε1 (pinion, recess) and ε2 (gear, approach) are the pinion's
-rotation from the pitch point to the end and to the beginning of contact, in pitches.
+By the loss factor of an involute mesh with a constant friction coefficient, η = 1 − μ H_v, see
+`standards.loss_factors`.
 """
 
 import math
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,6 +21,7 @@ from tribodyn.geometry.path import Path, contact_limits, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.equilibrium import Contacts, settled
 from tribodyn.numerics.elementary import sense
+from tribodyn.standards.loss_factors import equal_loads, hoehn, of_even_lines
 from tribodyn.studies.efficiency.mesh_positions import Array, from_pitch_point
 from tribodyn.tribology.law import Closure
 
@@ -168,57 +166,15 @@ def tip_contact_ratios(family: Family, drive: Drive) -> tuple[float, float]:
     return float(path.rotation(end)) / pitch, -float(path.rotation(start)) / pitch
 
 
-def hoehn(
-    pinion_tip: float, gear_tip: float, pinion_teeth: float, ratio: float, base_helix_angle: float = 0.0
-) -> float:
-    """H_v = π (u + 1)/(z1 u cos β_b) (1 − ε_α + ε1² + ε2²), Diez-Ibarbia (10); with β_b as Ohlendorf has it.
-
-    For 0 ≤ ε1, ε2 (`pinion_tip`, `gear_tip`) ≤ 1 ≤ ε1 + ε2 only, with the pitch point where one pair alone
-    carries the load; beyond, see `exact`. `pinion_teeth` is z1, `ratio` u = z2/z1, < 0 of an internal gear.
-    """
-    total = 1.0 - (pinion_tip + gear_tip) + pinion_tip**2 + gear_tip**2
-    return math.pi * (ratio + 1.0) / (pinion_teeth * ratio) * total / math.cos(base_helix_angle)
-
-
-def of_even_lines(
-    pinion_tip: float, gear_tip: float, pinion_teeth: float, ratio: float, base_helix_angle: float
-) -> float:
-    """H_v = π (u + 1)/(z1 u cos β_b) (ε1² + ε2²)/ε_α of helical involutes: an even load on all lines.
-
-    From P = μ F_n (ω1 + ω2) ξ̄ with the mean distance from the pitch point ξ̄ = (ξ_A² + ξ_E²)/(2 g_α): exact
-    over a mesh cycle for whole ε_β, where the lines of contact keep their length.
-    """
-    mean = (pinion_tip**2 + gear_tip**2) / (pinion_tip + gear_tip)
-    return math.pi * (ratio + 1.0) / (pinion_teeth * ratio) * mean / math.cos(base_helix_angle)
-
-
-def exact(pinion_tip: float, gear_tip: float, pinion_teeth: float, ratio: float) -> float:
-    """Evaluate the integral (8) behind Höhn's formula: equal loads on all pairs in contact, however many.
-
-    H_v = 2π (u + 1)/(z1 u) ∫ |ξ|/n(ξ) dξ over −ε2 … ε1, with ξ in pitches from the pitch point and n the
-    number of pairs in contact. Piecewise closed form; parameters as for `hoehn`.
-    """
-    pairs = range(-math.ceil(pinion_tip + gear_tip), math.ceil(pinion_tip + gear_tip) + 1)
-    edges = {0.0, -gear_tip, pinion_tip}
-    edges |= {pinion_tip - k for k in pairs} | {k - gear_tip for k in pairs}
-    inside = sorted(edge for edge in edges if -gear_tip <= edge <= pinion_tip)
-    total = 0.0
-    for low, high in pairwise(inside):
-        middle = (low + high) / 2.0
-        loaded = sum(-gear_tip < middle + k < pinion_tip for k in pairs)
-        total += abs(middle) * (high - low) / loaded
-    return 2.0 * math.pi * (ratio + 1.0) / (pinion_teeth * ratio) * total
-
-
 def by_loss_factor(family: Family, drive: Drive, coefficient: float) -> dict[str, float]:
     """Loss factor of an involute drive, 1 − μ H_v with it, and by Höhn's formula where that holds.
 
-    Of spur gears it is `exact`, of helical ones `of_even_lines`.
+    Of spur gears it is `equal_loads`, of helical ones `of_even_lines`.
     """
     tips = tip_contact_ratios(family, drive)
     teeth, ratio = drive.pinion.teeth, drive.gear.teeth / drive.pinion.teeth
     lean = abs(float(base_helix_angle(drive)))
-    factor = of_even_lines(*tips, teeth, ratio, lean) if lean else exact(*tips, teeth, ratio)
+    factor = of_even_lines(*tips, teeth, ratio, lean) if lean else equal_loads(*tips, teeth, ratio)
     results = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
     if max(tips) <= 1.0 <= sum(tips) and min(tips) >= 0.0:
         results["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio, lean)

@@ -64,7 +64,7 @@ def estimate(case: EfficiencyCase) -> cost.Estimate:
     parts = [cost.recorded(LAYOUT, sizes, outlines=True), cost.quasi_static_cycle(samples)]
     if case.mesh.at_load:
         parts += [cost.FINITE_ELEMENTS, cost.load_sharing(samples + _POSITIONS, slices, samples)]
-    drivers = cost.Driver("output.samples_per_cycle", samples, 200), cost.Driver("mesh.slices", slices, 21)
+    drivers = cost.CostKey("output.samples_per_cycle", samples, 200), cost.CostKey("mesh.slices", slices, 21)
     return cost.total(drivers, *parts)
 
 

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.cases.cost import Driver, Estimate, recorded, solved_contacts, total
+from tribodyn.cases.cost import CostKey, Estimate, recorded, solved_contacts, total
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.mesh.record_arrays import described
 from tribodyn.numerics.parameter import Variable
@@ -109,7 +109,7 @@ def estimate(case: EhlCase) -> Estimate:
     sizes = {"phase": case.positions, "place": PLACES, "slide_to_roll": _TRACTION}
     sizes |= {"film_law": _LAWS, "friction_law": _LAWS}
     return total(
-        (Driver("output.positions", float(case.positions), 40),),
+        (CostKey("output.positions", float(case.positions), 40),),
         recorded(layout_of(case.transient), sizes, copies=4.0),
         solved_contacts(
             case.positions, case.positions + _TRACTION, squeeze=case.transient, coarseness=case.step / STEP

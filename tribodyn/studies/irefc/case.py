@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from tribodyn.cases.cost import (
-    Driver,
+    CostKey,
     Estimate,
     in_memory,
     record_bytes,
@@ -87,7 +87,7 @@ def estimate(case: RollingCase) -> Estimate:
     cycle, elements = case.samples_per_cycle, case.drive.elements
     samples = 1 if case.mode == "as_published" else cycle * (elements + 1) + 1
     return total(
-        (Driver("output.samples_per_cycle", cycle, 40), Driver("drive.elements", elements, 20)),
+        (CostKey("output.samples_per_cycle", cycle, 40), CostKey("drive.elements", elements, 20)),
         recorded(LAYOUT, {"time": samples, "element": elements}, copies=0.05),  # what a picture reads
         in_memory(3.0, record_bytes(LAYOUT, {"time": cycle, "element": elements})),
         in_memory(samples, 32.0),  # what the summary keeps of every sample

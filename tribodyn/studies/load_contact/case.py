@@ -7,7 +7,7 @@ from functools import partial
 from tribodyn.cases.cost import (
     FINITE_ELEMENTS,
     TOUCHING,
-    Driver,
+    CostKey,
     Estimate,
     load_sharing,
     recorded,
@@ -113,10 +113,10 @@ def estimate(case: LoadContactCase) -> Estimate:
         sizes["torque"] = torques
     return total(
         (
-            Driver("output.positions_per_cycle", case.positions_per_cycle, 60),
-            Driver("output.cycles", case.cycles, 1),
-            Driver("mesh.slices", slices, 21),
-            Driver("operating.gear_torques", 1 + torques, 10),
+            CostKey("output.positions_per_cycle", case.positions_per_cycle, 60),
+            CostKey("output.cycles", case.cycles, 1),
+            CostKey("mesh.slices", slices, 21),
+            CostKey("operating.gear_torques", 1 + torques, 10),
         ),
         recorded(OILED if case.lubricated else LAYOUT, sizes, copies=4.0, outlines=True),
         load_sharing(float(positions) * (1 + torques), slices * pairs / TOUCHING, positions),

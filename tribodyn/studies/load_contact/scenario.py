@@ -22,7 +22,7 @@ from tribodyn.gears.scenario import (
     broken_gear_rules,
     broken_support_keys,
     gear_fields,
-    mesh_of,
+    mesh_data,
     oil_fields,
 )
 from tribodyn.input import units
@@ -79,7 +79,7 @@ Scenario = LoadContactScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
     """Return the case of a scenario that has passed schema and rules."""
     gears: dict[str, Any] = gear_fields(scenario, toml, sha256) | {
-        "mesh": mesh_of(scenario, every_tooth=True)
+        "mesh": mesh_data(scenario, every_tooth=True)
     }
     oiled = None
     if scenario.lubricant is not None:

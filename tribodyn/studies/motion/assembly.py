@@ -1,11 +1,11 @@
 """A train's pairs put together: assemblies and tables, one for equal meshes; masses, phases, damping."""
 
 from collections.abc import Sequence
-from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.damping import spring_damping
 from tribodyn.dynamics.data import matrices_in_space
 from tribodyn.gears.model import tilting_inertia
 from tribodyn.gears.prepare import assembled
@@ -90,20 +90,9 @@ def link_damping(link: LinkData, bodies: Sequence[BodyInertia]) -> tuple[float, 
 
     m is the mass of the body, or of two against each other, m_1 m_2/(m_1 + m_2); in rotation the inertia.
     """
-    one = bodies[link.ends[0]]
-    masses = [one.mass, one.mass, one.inertia]
-    if link.ends[1] != HOUSING:
-        other = bodies[link.ends[1]]
-        masses = [
-            own * its / (own + its)
-            for own, its in zip(masses, (other.mass, other.mass, other.inertia), strict=True)
-        ]
-    x, y, rotation = (
-        given + 2.0 * ratio * sqrt(stiffness * mass)
-        for given, ratio, stiffness, mass in zip(
-            link.damping, link.damping_ratio, link.stiffness, masses, strict=True
-        )
-    )
+    ends = [bodies[body] for body in link.ends if body != HOUSING]
+    moved = [(one.mass, one.mass, one.inertia) for one in ends]
+    x, y, rotation = map(spring_damping, link.damping, link.damping_ratio, link.stiffness, *moved)
     return x, y, rotation
 
 

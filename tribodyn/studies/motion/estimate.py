@@ -33,7 +33,7 @@ def estimate(given: Gearbox | Case) -> cost.Estimate:
     block = min(max(cycles / 4.0, 1.0), 50.0) * samples
     window = max(cycles / 4.0, min(max(case.period, case.output.revolution), cycles)) * samples
     return cost.total(
-        drivers_of(case),
+        cost_keys(case),
         record,
         *marching_of(case, cycles, together=False),
         cost.in_memory(block * sides * meshes, cost.SAMPLE_BYTES),
@@ -42,16 +42,16 @@ def estimate(given: Gearbox | Case) -> cost.Estimate:
     )
 
 
-def drivers_of(case: Gearbox) -> tuple[cost.Driver, ...]:
+def cost_keys(case: Gearbox) -> tuple[cost.CostKey, ...]:
     """Keys that make a case large."""
-    found = drivers(case, case.meshes[0].pair.mesh)
+    found = general_cost_keys(case, case.meshes[0].pair.mesh)
     if case.laid_out < case.period or case.period <= _USUAL_PERIOD:
         return found
     remedy = (
         f"the meshes are at their phases again after {case.period} cycles of the mesh {case.meshes[0].name}: "
         "give gears of one shaft numbers of teeth with a divisor, or lower it"
     )
-    return *found, cost.Driver("solver.max_period", case.period, _USUAL_PERIOD, remedy)
+    return *found, cost.CostKey("solver.max_period", case.period, _USUAL_PERIOD, remedy)
 
 
 def marching_of(case: Gearbox, cycles: float, together: bool = True) -> list[cost.Estimate]:
@@ -79,13 +79,13 @@ def _held(case: Gearbox, body: int) -> float:
 _MESH_STIFFNESS = 0.1
 
 
-def drivers(case: Any, mesh: MeshData) -> tuple[cost.Driver, ...]:
+def general_cost_keys(case: Any, mesh: MeshData) -> tuple[cost.CostKey, ...]:
     """Keys that make a case large."""
     return (
-        cost.Driver("output.samples_per_cycle", case.output.samples_per_cycle, 200),
-        cost.Driver("solver.cycles", case.solver.cycles, 20),
-        cost.Driver("mesh.points", mesh.points, 65),
-        cost.Driver("mesh.slices", mesh.slices, 21),
+        cost.CostKey("output.samples_per_cycle", case.output.samples_per_cycle, 200),
+        cost.CostKey("solver.cycles", case.solver.cycles, 20),
+        cost.CostKey("mesh.points", mesh.points, 65),
+        cost.CostKey("mesh.slices", mesh.slices, 21),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.dynamics import parameters
 from tribodyn.errors import InputError
 from tribodyn.gears.case import LubricatedCase
-from tribodyn.gears.model import hand_of, mesh_of, options_of, varying_load, with_own_teeth
+from tribodyn.gears.model import gear_mesh, helix_sign, options_of, varying_load, with_own_teeth
 from tribodyn.gears.prepare import Thermal
 from tribodyn.gears.tabulated import Tabulated, tables
 from tribodyn.geometry.assembly import Assembly
@@ -196,9 +196,9 @@ def _model(
         ends = own[mesh.driver], own[mesh.driven]
         sense = case.bodies[mesh.driver].sense * int(each.cycle.pinion_sense)
         frame = frame_of(mesh.azimuth, sense)
-        hand = hand_of(pair.drive, clockwise=case.bodies[mesh.driver].sense < 0)
+        hand = helix_sign(pair.drive, clockwise=case.bodies[mesh.driver].sense < 0)
         one, two = (case.gears[gear].axial_position for gear in mesh.gears)
-        plain = mesh_of(pair, each, closure, ends, frame, hand, (one, two))
+        plain = gear_mesh(pair, each, closure, ends, frame, hand, (one, two))
         meshes.append(plain._replace(**carried_of(case, mesh, plain)))
     drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
     varying = _varying(case)

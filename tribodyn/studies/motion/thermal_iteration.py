@@ -10,6 +10,7 @@ from tribodyn.gears.tabulated import Tabulated, quasi_static_loss
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.families import family
 from tribodyn.studies.motion.case import Gearbox
+from tribodyn.tribology.bulk_temperature import heat_of_other_meshes
 from tribodyn.tribology.losses import Loss
 
 #: Change of a mesh's loss, as a share of it, that is not worth another pass; passes at most.
@@ -105,13 +106,10 @@ def _heated(
 ) -> list[LubricatedCase]:
     """The pairs with what the other meshes give to their oil and housing."""
     found = []
-    for pair, lost, own in zip(case.pairs, losses, idle, strict=True):
+    for pair, (whole, bearings) in zip(case.pairs, heat_of_other_meshes(losses, idle), strict=True):
         known = pair.temperature
         assert known is not None, "they share one oil"
-        bearings = [each["bearings"].power if "bearings" in each else 0.0 for each in idle]
-        of_others = sum(bearings) - (own["bearings"].power if "bearings" in own else 0.0)
-        in_housing = of_others if known.housing_ambient > 0.0 else 0.0
-        whole = sum(losses) - lost + sum(map(_power, idle)) - _power(own)
+        in_housing = bearings if known.housing_ambient > 0.0 else 0.0
         heat = {"other_heat": whole - in_housing, "other_housing_heat": in_housing}
         found.append(replace(pair, temperature=replace(known, **heat)))
     return found

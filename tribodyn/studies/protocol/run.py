@@ -70,9 +70,9 @@ def run(
     InputError
         Before anything is written; also for a law that the case has no place for.
     """
-    for table, law in (("film", film), ("friction", friction), ("wear", wear)):
+    for due, law in ((FilmLaw, film), (FrictionLaw, friction), (WearLaw, wear)):
         if law is not None:
-            case = with_law(case, table, law)
+            case = with_law(case, due, law)
     for name, link_law in (links or {}).items():
         case = with_link_law(case, name, link_law)
     how: dict[str, Any] = {"force": force, "allow_large": allow_large, "resume": resume, "client": client}
@@ -80,21 +80,24 @@ def run(
 
 
 def with_law(
-    case: CaseHead, table: str, law: FilmLaw | FrictionLaw | WearLaw | Callable[..., Any]
+    case: CaseHead,
+    due: type[FilmLaw | FrictionLaw | WearLaw],
+    law: FilmLaw | FrictionLaw | WearLaw | Callable[..., Any],
 ) -> CaseHead:
-    """Return the case under a law from Python in place of its law in `table`: "film", "friction", "wear".
+    """Return the case under a law from Python in place of its own of that type.
 
     Its scenario, which the record of a run holds, names the law as one from Python: it cannot be loaded
     again. Raises InputError if the case has no such law, or what is given is none.
     """
-    own = _from_python(table, law, {"film": FilmLaw, "friction": FrictionLaw, "wear": WearLaw}[table])
+    table = due.table
+    own = _from_python(table, law, due)
     old: Any = getattr(case, table, None)
     if not isinstance(old, FilmData | FrictionData | WearData):
         rule = f'a case of kind "{case.kind}" has no {table} law'
         raise InputError(table, quoted(own.name.removeprefix(FROM_PYTHON)), rule, "omit it")
     data = tomllib.loads(case.toml)
     data[table] = _naming(data.get(table, {}), own, old.values)
-    if table == "wear":
+    if due is WearLaw:
         return replace(_written(case, data), wear=WearData(own))  # pyright: ignore[reportCallIssue]
     laws: dict[str, Any] = {table: own}
     changed = cast(Any, _written(case, data))

@@ -8,7 +8,7 @@ import numpy as np
 
 from tribodyn.cases.cost import (
     TOUCHING,
-    Driver,
+    CostKey,
     Estimate,
     in_memory,
     load_sharing,
@@ -150,10 +150,10 @@ def estimate(case: WearCase) -> Estimate:
     evaluations = max(_LEAST, _BETWEEN * rows) * (_FRICTION if case.lubricated else 1.0)
     return total(
         (
-            Driver("output.positions_per_cycle", case.positions_per_cycle, 60),
-            Driver("mesh.slices", slices, 21),
-            Driver("wear.revolutions", rows, 21, "record less often (output.every)"),
-            Driver("wear.teeth", case.cycles, 100, 'let all teeth wear alike (wear.teeth = "alike")'),
+            CostKey("output.positions_per_cycle", case.positions_per_cycle, 60),
+            CostKey("mesh.slices", slices, 21),
+            CostKey("wear.revolutions", rows, 21, "record less often (output.every)"),
+            CostKey("wear.teeth", case.cycles, 100, 'let all teeth wear alike (wear.teeth = "alike")'),
         ),
         recorded(layout_of(case), sizes, copies=2.0, outlines=True),
         load_sharing(evaluations * positions, slices, positions),

@@ -18,6 +18,7 @@ from tribodyn.studies.wear.pressed_positions import WearPlaces
 from tribodyn.tribology.closure import closure_of
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
+from tribodyn.tribology.wear.depth import depth_per_passage
 from tribodyn.tribology.wear.law import WearContact
 
 # Friction moves loads through its arm alone: each round shrinks the error tenfold or more.
@@ -181,12 +182,13 @@ def _worn(
     ratio = 0.0 if closure is None else contacts.film / closure.surfaces.roughness
     seen = WearContact(pressure, contacts.friction_coefficient, ratio, contacts.asperity_load_ratio)
     coefficient = study.law.functions.coefficient(seen, study.parameters) * np.ones(load.shape)
-    on_path = places.on_path * coefficient * line_load
+    on_path = places.on_path * coefficient
     pinion, gear = case.counts
     # a tooth of the gear passes z_1/z_2 times in a revolution of the pinion
     rates = (
-        by_teeth(places, on_path * sliding.pinion_slip, len(depths[0])),
-        by_teeth(places, on_path * sliding.gear_slip, len(depths[1])) * (pinion / gear),
+        by_teeth(places, depth_per_passage(on_path, line_load, sliding.pinion_slip), len(depths[0])),
+        by_teeth(places, depth_per_passage(on_path, line_load, sliding.gear_slip), len(depths[1]))
+        * (pinion / gear),
     )
     work = load * sliding.sliding  # N m/rad
     speed, weight = case.operating.pinion_speed, places.weight[:, None, None]

@@ -22,6 +22,7 @@ from tribodyn.geometry.helix import normal_slope, pitch_slope, speed_share
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.shapes import Array, Bool, Float, Int
+from tribodyn.tribology.wear.depth import specific_slip
 
 # Corners are followed to a gap of so many deflections of a single pair: further than with new flanks.
 _REACH = 4.0
@@ -159,10 +160,8 @@ def _sliding(flanks: LoadedFlanks, held: HeldFlanks) -> Sliding:
     r = np.clip(motion.signed_distance, assembly.r_start, assembly.r_end)
     share = np.asarray(speed_share(pitch_slope(assembly), assembly.path, r))
     sliding = np.abs(motion.pinion_speed - motion.gear_speed)
-    own = [np.abs(share * speed) for speed in (motion.pinion_speed, motion.gear_speed)]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        slips = [np.where(speed > 0.0, sliding / speed, 0.0) for speed in own]
-    return Sliding(share * motion.pinion_speed, share * motion.gear_speed, sliding, slips[0], slips[1])
+    own = share * motion.pinion_speed, share * motion.gear_speed
+    return Sliding(*own, sliding, specific_slip(own[0], sliding), specific_slip(own[1], sliding))
 
 
 def _areas(flanks: LoadedFlanks, node: Float[Array, " node"]) -> tuple[Any, Any]:

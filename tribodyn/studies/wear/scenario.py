@@ -22,7 +22,7 @@ from tribodyn.gears.scenario import (
     broken_gear_rules,
     broken_support_keys,
     gear_fields,
-    mesh_of,
+    mesh_data,
     oil_fields,
 )
 from tribodyn.geometry.flanks.modification import uneven_teeth
@@ -122,7 +122,7 @@ Scenario = WearScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> WearCase:
     """Return the case of a scenario that has passed schema and rules."""
     wear = scenario.wear
-    mesh, own = mesh_of(scenario, every_tooth=wear.teeth == EACH), _own_teeth(scenario)
+    mesh, own = mesh_data(scenario, every_tooth=wear.teeth == EACH), _own_teeth(scenario)
     early = sum(each.early for gear in own for each in gear)
     gears: dict[str, Any] = gear_fields(scenario, toml, sha256)
     gears |= {"mesh": replace(mesh, early=early), "teeth": own}

@@ -116,6 +116,37 @@ def under_load(shaft: SupportedShaft, load: Sequence[float]) -> UnderLoad:
     return UnderLoad((here * scale)[gear], (held + held.T) / 2.0, tuple(states))
 
 
+def displacement_on(stiffness: Float[Array, "5 5"], load: Float[Array, "5"]) -> Float[Array, "5"]:
+    """Where a gear on a stiffness matrix settles under a load; raises NotHeld where that does not hold it.
+
+    Forces along x, y, z (N) and moments about x and y (N m) to displacements, m and rad.
+    """
+    moved, *_ = np.linalg.lstsq(stiffness, load, rcond=None)
+    if np.max(np.abs(stiffness @ moved - load)) > 1e-6 * np.max(np.abs(load)):
+        raise NotHeld(
+            "does not hold the gear against the load of its mesh: it is zero in some direction of that"
+        )
+    return moved
+
+
+def mesh_loads(
+    tangential: float, radii: tuple[float, float], pressure_slope: float, helix_slope: float
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Load of a mesh on pinion and gear: forces along x, y, z (N), moments about x and y (N m).
+
+    F_r = F_t tan α_t, F_a = F_t tan β, all in the middle of the face at the pitch `radii` (m). A negative
+    tangential force loads the back flanks, which press the gears apart all the same. The pinion turns
+    clockwise, seen from +z; its flanks move along +x at the pitch point, and y is from its centre to the
+    gear's.
+    """
+    on_pinion = np.array([-tangential, -abs(tangential) * pressure_slope, -tangential * helix_slope])
+    pinion, gear = (
+        (*map(float, force), arm * float(force[2]), 0.0)
+        for force, arm in ((on_pinion, radii[0]), (-on_pinion, -radii[1]))
+    )
+    return pinion, gear
+
+
 def _refuse_loose(tangent: np.ndarray, gear: slice) -> None:
     """Refuse a direction in which nothing holds the shaft: it moves as a whole there."""
     values, vectors = np.linalg.eigh(tangent)

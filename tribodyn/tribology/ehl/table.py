@@ -32,6 +32,8 @@ from tribodyn.tribology.law import LawInput
 if TYPE_CHECKING:
     import subprocess
 
+#: Where solved contacts lie in the cache.
+CACHE = "ehl"
 #: Grid's step of the contacts: the film within 0.05 %, friction within 1.5 % where pressures are low.
 STEP = 0.12
 #: Of the contacts along a path one in so many is spread over the whole box, so that no polynomial goes astray
@@ -190,7 +192,7 @@ def table_over(contact: Contact, duty: DutyRange) -> ContactTable:
     """
     digest = hashlib.sha256(digest_of(__name__) + repr((contact, duty)).encode()).hexdigest()
     made = lambda: _made(contact, duty)._asdict()  # noqa: E731
-    found = arrays_kept_or_made("ehl", digest, made)
+    found = arrays_kept_or_made(CACHE, digest, made)
     values: dict[str, Any] = {name: value if value.ndim else float(value) for name, value in found.items()}
     return ContactTable(**values)
 

@@ -31,7 +31,8 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.elementary import cos, sin, sqrt
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.efficiency.published import exact, hoehn, tip_contact_ratios
+from tribodyn.standards.loss_factors import equal_loads, hoehn
+from tribodyn.studies.efficiency.published import tip_contact_ratios
 from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import nominal_conditions
@@ -186,7 +187,7 @@ def loss_factors(pair: Drive) -> tuple[float, float]:
     """H_v by Höhn's formula and by the integral behind it."""
     tips = tip_contact_ratios(FAMILY, pair)
     teeth, ratio = pair.pinion.teeth, pair.gear.teeth / pair.pinion.teeth
-    return hoehn(*tips, teeth, ratio), exact(*tips, teeth, ratio)
+    return hoehn(*tips, teeth, ratio), equal_loads(*tips, teeth, ratio)
 
 
 def peak(scenario: Scenario) -> tuple[float, float]:

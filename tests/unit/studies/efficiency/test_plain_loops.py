@@ -11,9 +11,10 @@ from scipy.interpolate import CubicSpline
 
 from tests.support.closures import of_case
 from tribodyn.mesh.equilibrium import contacts
+from tribodyn.standards.loss_factors import equal_loads
 from tribodyn.studies.efficiency.along_path import record_arrays, samples
 from tribodyn.studies.efficiency.mesh_positions import places
-from tribodyn.studies.efficiency.published import exact, tip_contact_ratios
+from tribodyn.studies.efficiency.published import tip_contact_ratios
 from tribodyn.studies.efficiency.run import (
     PreparedEfficiency,
     _at_jumps,
@@ -227,7 +228,7 @@ def test_loss_factors_are_of_one_coefficient_alone(study: PreparedEfficiency):
     coulomb = replace(study, duty=duty._replace(closure=of_case(study.case, "coulomb", coefficient=0.07)))
     found = efficiencies(coulomb, known)
     tips = tip_contact_ratios(coulomb.assembly.family, coulomb.case.drive)
-    factor = exact(*tips, 18.0, 2.0)
+    factor = equal_loads(*tips, 18.0, 2.0)
     assert found["loss_factor"] == factor
     assert found["efficiency_loss_factor"] == pytest.approx(1.0 - 0.07 * factor, rel=1e-14)
     assert max(tips) < 1.0 < sum(tips)

@@ -101,8 +101,8 @@ def estimate(case: AssessmentCase) -> cost.Estimate:
     settings = case.settings
     return cost.total(
         (
-            cost.Driver("assessment.speeds", settings.speeds, 46),
-            cost.Driver("assessment.samples", settings.samples, 16),
+            cost.CostKey("assessment.speeds", settings.speeds, 46),
+            cost.CostKey("assessment.samples", settings.samples, 16),
         ),
         cost.recorded(LAYOUT, {"roll_angle": _PLACES}, outlines=True),
         cost.load_sharing(float(_POSITIONS) * (1 + len(settings.torque_shares)), 1.0, _POSITIONS),

@@ -95,6 +95,6 @@ def estimate(case: TrainAssessmentCase) -> cost.Estimate:
     settings = case.settings
     runs = 1 + settings.speeds + len(settings.friction_laws)
     one = case.subject.study.estimate(case.subject.case)
-    drivers = (cost.Driver("assessment.speeds", settings.speeds, 4),)
+    drivers = (cost.CostKey("assessment.speeds", settings.speeds, 4),)
     whole = one._replace(record=runs * one.record, seconds=runs * one.seconds)
     return whole._replace(drivers=(*whole.drivers, *drivers))

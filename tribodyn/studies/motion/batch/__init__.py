@@ -17,16 +17,16 @@ from tribodyn.studies.motion.batch.evaluate import at_length, evaluate
 from tribodyn.studies.motion.batch.gearboxes import (
     MOST_STATES,
     OF_MESHES,
-    form_of,
     keys_of_tables,
-    pace_of,
     refuse_steady,
+    run_speed_of,
+    shape_of,
     teeth_differ,
 )
 from tribodyn.studies.motion.batch.signals import SignalBatch, SignalSettings
 from tribodyn.studies.motion.batch.swept import SweepSettings, layout_of, row_bytes
 from tribodyn.studies.motion.case import refuse_long_period
-from tribodyn.studies.motion.estimate import drivers_of, marching_of
+from tribodyn.studies.motion.estimate import cost_keys, marching_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.report import swept_of
 from tribodyn.studies.sweeping.batch import Batch, Chunk
@@ -56,7 +56,7 @@ class MotionBatch:
 
     def turn(self, case: Any) -> float:
         """Time of a turn of the reference body at nominal speed, s."""
-        return 2.0 * pi / pace_of(case).speed
+        return 2.0 * pi / run_speed_of(case).speed
 
     def layout(self, settings: SweepSettings) -> SweepLayout:
         """What is recorded of every case."""
@@ -71,7 +71,7 @@ class MotionBatch:
         base = cases[0]
         if transient is None:
             refuse_long_period(base.gearbox())
-        form = form_of(cases)
+        form = shape_of(cases)
         samples, common = base.output.samples_per_cycle, form.common
         through_jax = engine == "jax" and runs(base.solver.method) is not Runs.JAX
         method = "tsit5" if through_jax else ""
@@ -80,7 +80,7 @@ class MotionBatch:
             cycles = max(MOST_CYCLES, 20 * common)
         else:
             differ = any(map(teeth_differ, cases))
-            widest = max(ceil(pace_of(case).slowest) for case in cases) if differ else TRANSIENT_WINDOW
+            widest = max(ceil(run_speed_of(case).slowest) for case in cases) if differ else TRANSIENT_WINDOW
             window = max(1, min(widest, transient // 4))
             window = max(1, window // common) * common if common <= transient else window
             points, cycles = max(window, min(TRANSIENT_POINTS, transient // 2)), transient
@@ -115,10 +115,10 @@ class MotionBatch:
         """What one of so many cases takes."""
         together = min(total, self.size_of_chunk(settings, total, width))
         cycles = max(STEADY_CYCLES, 4 * settings.common) if settings.steady else settings.cycles
-        marched = () if settings.steady else (cost.Driver("--transient", cycles, STEADY_CYCLES),)
+        marched = () if settings.steady else (cost.CostKey("--transient", cycles, STEADY_CYCLES),)
         samples = float(case.output.samples_per_cycle)
         taken = cost.total(
-            (*drivers_of(case.gearbox()), *marched),
+            (*cost_keys(case.gearbox()), *marched),
             *marching_of(case.gearbox(), float(cycles)),
             cost.in_memory(3.0 * together * settings.window * samples, len(settings.states) * 8.0),
             cost.in_memory(settings.window * samples, cost.SAMPLE_BYTES),

@@ -36,7 +36,7 @@ MOST_STATES = 64
 AnyCase = Gearbox | Case
 
 
-class Pace(NamedTuple):
+class RunSpeed(NamedTuple):
     """How fast a case goes."""
 
     speed: float  # of the reference body, rad/s
@@ -44,7 +44,7 @@ class Pace(NamedTuple):
     slowest: float  # and in a turn of the gear that turns slowest
 
 
-class Form(NamedTuple):
+class SweepShape(NamedTuple):
     """What the cases of a sweep have in common."""
 
     modes: int
@@ -53,7 +53,7 @@ class Form(NamedTuple):
     meshes: tuple[str, ...] = ()  # names, where files name them
 
 
-def form_of(cases: Sequence[AnyCase]) -> Form:
+def shape_of(cases: Sequence[AnyCase]) -> SweepShape:
     """States and modes of all cases; common period and meshes of the first."""
     boxes = [case.gearbox() for case in cases]
     found = [states_of(box) for box in boxes]
@@ -61,7 +61,7 @@ def form_of(cases: Sequence[AnyCase]) -> Form:
         dict.fromkeys(name for names, _ in sorted(found, key=lambda one: -len(one[0])) for name in names)
     )
     meshes = tuple(mesh.name for mesh in boxes[0].meshes) if boxes[0].named else ()
-    return Form(max(modes for _, modes in found), states, boxes[0].period, meshes)
+    return SweepShape(max(modes for _, modes in found), states, boxes[0].period, meshes)
 
 
 def states_of(case: Gearbox) -> tuple[tuple[str, ...], int]:
@@ -81,7 +81,7 @@ def keys_of_tables(case: AnyCase) -> Hashable:
 def refuse_steady(case: AnyCase) -> None:
     """Raise InputError for a case that has no steady state that could be sought."""
     if teeth_differ(case):
-        turn = ceil(pace_of(case).slowest)
+        turn = ceil(run_speed_of(case).slowest)
         rule = "teeth of a gear differ: no steady state repeats with the mesh, and none is sought"
         remedy = f"march: --transient {10 * turn} ({turn} mesh cycles are a turn of the slowest gear), or "
         remedy += "keep what sensors hear: --signals 1s"
@@ -94,14 +94,14 @@ def teeth_differ(case: AnyCase) -> bool:
     return any(any(pair.teeth) for pair in case.pairs)
 
 
-def pace_of(case: AnyCase) -> Pace:
+def run_speed_of(case: AnyCase) -> RunSpeed:
     """How fast a case goes."""
     box = case.gearbox()
     speed = box.source.speed / float(box.bodies[box.source.body].ratio)
     teeth = Fraction(abs(box.gears[box.meshes[0].gears[0]].teeth))
     slowest = min(body.ratio for body in box.bodies if body.gears and body.ratio)
     rolling = rolling_of(box)
-    return Pace(speed, float(teeth) * rolling, float(teeth / slowest) * rolling)
+    return RunSpeed(speed, float(teeth) * rolling, float(teeth / slowest) * rolling)
 
 
 def places_of(prepared: PreparedGearbox, settings: SweepSettings) -> list[int]:

@@ -22,7 +22,7 @@ from tribodyn.record.sensors import Sensed
 from tribodyn.record.sweep_schema import CASE, DONE, FAILED, OF_EVERY_SWEEP, SweepLayout
 from tribodyn.record.withheld_efficiency import remarked, warned
 from tribodyn.sensing.data import KINDS
-from tribodyn.studies.motion.batch.gearboxes import MOST_STATES, keys_of_tables, pace_of
+from tribodyn.studies.motion.batch.gearboxes import MOST_STATES, keys_of_tables, run_speed_of
 from tribodyn.studies.motion.batch.stretch import (
     HeardStretch,
     ListenedStretch,
@@ -31,7 +31,7 @@ from tribodyn.studies.motion.batch.stretch import (
     samples_per_cycle,
     stretch_of,
 )
-from tribodyn.studies.motion.estimate import drivers_of, marching_of
+from tribodyn.studies.motion.estimate import cost_keys, marching_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.sweeping.batch import Chunk
@@ -89,7 +89,7 @@ class SignalBatch:
             remedy = 'add [[sensor]] with name = "a", kind = "acceleration", at = "gear" and rate = "20 kHz"'
             raise InputError("sensor", None, "missing: what a data set holds is what sensors hear", remedy)
         rates = [sensor.rate for sensor in base.sensors]
-        paces = [pace_of(case) for case in cases]
+        paces = [run_speed_of(case) for case in cases]
         samples = samples_per_cycle(rates, paces)
         plain = SignalSettings(duration, run_in, seed, samples, (), (), (), tuple(rates), (), 0)
         longest = max(stretch_of(case, 0, self.request, rates).blocks for case in cases)
@@ -156,7 +156,7 @@ class SignalBatch:
         together = min(total, TOGETHER)
         signal = sum(samples_of(settings, rate) for rate in settings.rates)
         taken = cost.total(
-            (*drivers_of(case.gearbox()), cost.Driver("--signals", settings.cycles, 1000.0)),
+            (*cost_keys(case.gearbox()), cost.CostKey("--signals", settings.cycles, 1000.0)),
             *marching_of(case.gearbox(), float(settings.cycles)),
             cost.in_memory(together * BLOCK * settings.samples, 8.0 * MOST_STATES),
             cost.in_memory(together * signal, 3 * 8.0),
@@ -238,7 +238,7 @@ class SignalBatch:
         stretch = between(case, earliest, last)
         samples = few_enough(stretch)
         one = cost.total(
-            drivers_of(case.gearbox()),
+            cost_keys(case.gearbox()),
             *marching_of(case.gearbox(), float(stretch.cycles)),
             cost.in_memory(min(total, TOGETHER) * stretch.block * samples, 8.0 * MOST_STATES),
             cost.in_memory(stretch.block * samples, cost.SAMPLE_BYTES),
@@ -263,7 +263,7 @@ class SignalBatch:
 
     def _finer(self, case: Any, settings: SignalSettings) -> int:
         """Samples of a cycle of a case: those of the settings, doubled while it is too slow for so few."""
-        needed, samples = samples_per_cycle(settings.rates, [pace_of(case)]), settings.samples
+        needed, samples = samples_per_cycle(settings.rates, [run_speed_of(case)]), settings.samples
         while samples < needed:
             samples *= 2
         return samples

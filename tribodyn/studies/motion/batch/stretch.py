@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.gears.sensing.sensor_signals import BLOCK
 from tribodyn.signals.resampling import REACH
-from tribodyn.studies.motion.batch.gearboxes import Pace, pace_of
+from tribodyn.studies.motion.batch.gearboxes import RunSpeed, run_speed_of
 from tribodyn.studies.sweeping.signals import SignalRequest
 
 #: Samples of the motion for each of a sensor's. What the motion has above half of them folds back; of
@@ -47,7 +47,7 @@ class HeardStretch(NamedTuple):
         return self.first + self.block * self.blocks
 
 
-def samples_per_cycle(rates: Sequence[float], paces: Sequence[Pace]) -> int:
+def samples_per_cycle(rates: Sequence[float], paces: Sequence[RunSpeed]) -> int:
     """Samples of a reference cycle that the fastest sensor asks of the slowest case."""
     slowest = min(pace.speed * pace.cycles for pace in paces) / (2.0 * pi)  # reference cycles per second
     return max(FEWEST_SAMPLES, ceil(OVERSAMPLED * max(rates) / slowest))
@@ -56,7 +56,7 @@ def samples_per_cycle(rates: Sequence[float], paces: Sequence[Pace]) -> int:
 def stretch_of(case: Any, number: int, request: SignalRequest, rates: Sequence[float]) -> ListenedStretch:
     """When the case of a number is listened to: from the moment drawn for it, as long as signals are."""
     random = np.random.default_rng([request.seed, number])
-    pace = pace_of(case)
+    pace = run_speed_of(case)
     turn = 2.0 * pi / pace.speed
     reach = _AROUND * REACH / min(rates)
     start = (request.run_in + random.random()) * turn + reach
@@ -68,7 +68,7 @@ def stretch_of(case: Any, number: int, request: SignalRequest, rates: Sequence[f
 
 def between(case: Any, earliest: float, last: float) -> HeardStretch:
     """The cycles of a case that hold the signals of its sensors between two times, s."""
-    pace, rates = pace_of(case), [sensor.rate for sensor in case.sensors]
+    pace, rates = run_speed_of(case), [sensor.rate for sensor in case.sensors]
     frequency = pace.speed * pace.cycles / (2.0 * pi)  # of the reference mesh
     samples = max(samples_per_cycle(rates, [pace]), case.output.samples_per_cycle)
     block = max(1, min(BLOCK, SAMPLES_AT_ONCE // samples))

@@ -7,7 +7,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.input.tables.duty import given_twice
 from tribodyn.studies.motion.case import LoadData
 from tribodyn.studies.motion.drivetrain.duty_tables import LoadTable, TrainOperating
-from tribodyn.studies.motion.drivetrain.placed_train import Moving, ends_of
+from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics, ends_of
 from tribodyn.train.statics import Torques, nominal_torques
 
 _SPEEDS, _LOADS = ("input_speed", "output_speed"), ("output_torque", "input_torque", "power")
@@ -59,7 +59,7 @@ def broken_duty_rules(scenario: Any) -> Iterator[InputError]:
         yield InputError("operating.power", shown, "gives no torque without a speed", "add input_speed")
 
 
-def duty_of(scenario: Any, train: Moving) -> TrainDuty:
+def duty_of(scenario: Any, train: TrainKinematics) -> TrainDuty:
     """Return speed and load of a scenario that breaks no rule.
 
     Torques balance without losses: T_out = (T_in − Σ T_l n_l)/n_out with speeds n over the input's.
@@ -96,7 +96,7 @@ def duty_of(scenario: Any, train: Moving) -> TrainDuty:
     return TrainDuty(speed, tuple(loads), tuple(inertias), torques._replace(driven=driven))
 
 
-def torques_of(train: Moving, against: Sequence[float]) -> Torques:
+def torques_of(train: TrainKinematics, against: Sequence[float]) -> Torques:
     """Torques, N m, that loads on the bodies (against their motion, in the train's order) call for."""
     gears, motion = train.parts.gears, train.motion
     teeth = [(gears[one].table.teeth, gears[two].table.teeth) for one, two in motion.gears]
@@ -110,7 +110,7 @@ def motor_torque(scenario: Any) -> float | None:
 
 
 def _output_torque(
-    operating: TrainOperating, speed: float, at: int, others: list[LoadData], train: Moving
+    operating: TrainOperating, speed: float, at: int, others: list[LoadData], train: TrainKinematics
 ) -> float:
     if operating.output_torque is not None:
         return operating.output_torque

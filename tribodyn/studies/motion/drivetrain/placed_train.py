@@ -34,7 +34,7 @@ SENSES = {"clockwise": -1, "counter-clockwise": 1}
 _Checked = TypeVar("_Checked")
 
 
-class Moving(NamedTuple):
+class TrainKinematics(NamedTuple):
     """A train that is known to turn; meshes and bodies in the order of `motion`."""
 
     parts: Structure
@@ -62,7 +62,7 @@ class Moving(NamedTuple):
         )
 
 
-class Drawn(NamedTuple):
+class PlacedTrain(NamedTuple):
     """A train that can be made and has room."""
 
     assemblies: tuple[Assembly, ...]  # of every mesh
@@ -71,7 +71,7 @@ class Drawn(NamedTuple):
     shafts: tuple[int, ...]  # of every gear: bodies that couplings join have one
 
 
-def moving(scenario: Any) -> Moving:
+def resolve_kinematics(scenario: Any) -> TrainKinematics:
     """Work out what turns how; the names of the scenario must be sound. InputError where it is no train."""
     parts = structure(scenario)
     source, _ = ends_of(scenario)
@@ -83,7 +83,7 @@ def moving(scenario: Any) -> Moving:
         drive_table(scenario, parts, parts.meshes[mesh], *gears)
         for mesh, gears in zip(motion.meshes, motion.gears, strict=True)
     )
-    return Moving(parts, motion, drives)
+    return TrainKinematics(parts, motion, drives)
 
 
 def ends_of(scenario: Any) -> tuple[str, str | None]:
@@ -93,7 +93,7 @@ def ends_of(scenario: Any) -> tuple[str, str | None]:
     return operating.input or usual[0], operating.output or (None if loads else usual[1])
 
 
-def drawn(train: Moving) -> Drawn:
+def place_train(train: TrainKinematics) -> PlacedTrain:
     """Put the teeth together and place the axes.
 
     Raises InputError where teeth cannot be made or differ between the meshes of one gear, loops do not close,
@@ -127,16 +127,16 @@ def drawn(train: Moving) -> Drawn:
         refuse_overlap(own, disc.tip_radius, axes.centres[[new[planet] for planet in own.planets]])
     check_room(discs, axes.centres, [mesh.gears for mesh in parts.meshes])
     shafts = joined(len(parts.bodies), couplings)
-    found = Drawn(assemblies, axes, planes, tuple(shafts[new[gear.body]] for gear in parts.gears))
+    found = PlacedTrain(assemblies, axes, planes, tuple(shafts[new[gear.body]] for gear in parts.gears))
     _check_phases(train, found)
     return found
 
 
-def _assemblies(train: Moving) -> tuple[Assembly, ...]:
+def _assemblies(train: TrainKinematics) -> tuple[Assembly, ...]:
     return tuple(_checked(train, mesh, check) for mesh in range(len(train.drives)))
 
 
-def _checked(train: Moving, mesh: int, check: Callable[[Family, Drive], _Checked]) -> _Checked:
+def _checked(train: TrainKinematics, mesh: int, check: Callable[[Family, Drive], _Checked]) -> _Checked:
     """What a check of the teeth of a mesh returns; its errors have the keys of the train's scenario."""
     table = train.drives[mesh]
     try:
@@ -145,7 +145,7 @@ def _checked(train: Moving, mesh: int, check: Callable[[Family, Drive], _Checked
         raise in_terms_of_train(error, train, mesh) from None
 
 
-def in_terms_of_train(error: InputError, train: Moving, mesh: int) -> InputError:
+def in_terms_of_train(error: InputError, train: TrainKinematics, mesh: int) -> InputError:
     """The error of a mesh's pair of gears with the keys of the train's scenario."""
     if isinstance(error, InputErrors):
         return InputErrors([in_terms_of_train(one, train, mesh) for one in error.errors])
@@ -158,7 +158,7 @@ def in_terms_of_train(error: InputError, train: Moving, mesh: int) -> InputError
     return InputError(key, error.value, error.rule, remedy, error.file)
 
 
-def key_in_train(key: str, train: Moving, mesh: int) -> str:
+def key_in_train(key: str, train: TrainKinematics, mesh: int) -> str:
     """Where the train's scenario has a key of a mesh's pair of gears; other keys are its own."""
     part = train.parts.meshes[train.motion.meshes[mesh]]
     head, _, rest = key.partition(".")
@@ -170,7 +170,7 @@ def key_in_train(key: str, train: Moving, mesh: int) -> str:
     return f"{part.key}.{rest}" if hasattr(part.table, side) else rest
 
 
-def _placed(train: Moving, assemblies: tuple[Assembly, ...]) -> Centres:
+def _placed(train: TrainKinematics, assemblies: tuple[Assembly, ...]) -> Centres:
     """Axes, with azimuths from driver to driven."""
     parts, motion, new = train.parts, train.motion, train.numbers
     distances, turned = [], []
@@ -191,7 +191,7 @@ def _placed(train: Moving, assemblies: tuple[Assembly, ...]) -> Centres:
     return found._replace(azimuths=azimuths)
 
 
-def _tip(train: Moving, assemblies: tuple[Assembly, ...], gear: int) -> float:
+def _tip(train: TrainKinematics, assemblies: tuple[Assembly, ...], gear: int) -> float:
     mesh, side = train.meshes_of(gear)[0]
     return float(tip_circle_radius(assemblies[mesh].drive, side))
 
@@ -211,7 +211,7 @@ def _planes(parts: Structure) -> tuple[int, ...]:
     return tuple(own[group] for group in groups)
 
 
-def _check_phases(train: Moving, found: Drawn) -> None:
+def _check_phases(train: TrainKinematics, found: PlacedTrain) -> None:
     """Raise InputError where the teeth of a loop do not meet."""
     parts, motion, new = train.parts, train.motion, train.numbers
     shafts = [

@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.input.tables.supports.bearings import bearing_of
 from tribodyn.studies.motion.case import HOUSING, LinkData, SetData
-from tribodyn.studies.motion.drivetrain.placed_train import Drawn, Moving
+from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
 from tribodyn.studies.motion.planetary.stages import SetPart, pin_offset
 from tribodyn.train.planetary import CARRIER
 
@@ -15,7 +15,9 @@ from tribodyn.train.planetary import CARRIER
 USUAL_SUPPORT = 1e9
 
 
-def links_of_set(own: SetPart, train: Moving, figure: Drawn, bearings: Sequence[Any]) -> Iterator[LinkData]:
+def links_of_set(
+    own: SetPart, train: TrainKinematics, figure: PlacedTrain, bearings: Sequence[Any]
+) -> Iterator[LinkData]:
     """Pins of the planets, and what holds a member against rotation."""
     stage, new = own.table, train.numbers
     carrier = new[own.members[CARRIER]]
@@ -50,7 +52,7 @@ def links_of_set(own: SetPart, train: Moving, figure: Drawn, bearings: Sequence[
     )
 
 
-def _held_radius(own: SetPart, train: Moving, figure: Drawn) -> float:
+def _held_radius(own: SetPart, train: TrainKinematics, figure: PlacedTrain) -> float:
     """Radius (m) of the pitch circle of the held member; of a carrier that on which the pins are."""
     for mesh, gears in enumerate(train.motion.gears):
         path = figure.assemblies[mesh].path
@@ -61,7 +63,7 @@ def _held_radius(own: SetPart, train: Moving, figure: Drawn) -> float:
     return float(np.hypot(*(centre[new[own.planets[0]]] - centre[new[own.held]])))
 
 
-def set_data(own: SetPart, train: Moving) -> SetData:
+def set_data(own: SetPart, train: TrainKinematics) -> SetData:
     """The set in the numbers of the train's order."""
     new, stage = train.numbers, own.table
     members = {name: new[body] for name, body in own.members.items()}

@@ -22,7 +22,12 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.duty import torques_of
-from tribodyn.studies.motion.drivetrain.placed_train import Moving, ends_of, key_in_train, moving
+from tribodyn.studies.motion.drivetrain.placed_train import (
+    TrainKinematics,
+    ends_of,
+    key_in_train,
+    resolve_kinematics,
+)
 
 #: Quantities of the whole train, of the friction losses of all meshes.
 TOTALS = {
@@ -71,7 +76,7 @@ class DifferentiableTrain:
             raise InputError(own.key, None, rule, "take differences of runs")
         table = tomllib.loads(case.toml)
         scenario: Any = schema.model_validate(table)
-        train = moving(scenario)
+        train = resolve_kinematics(scenario)
         self.of, self.wrt = tuple(of), tuple(wrt)
         self._wanted = [_mesh_and_name(case, name) for name in of]
         self._duty = _Duty(case, scenario, train)
@@ -158,7 +163,7 @@ DIFFERENTIABLE = DifferentiableTrain
 class _Duty:
     """Speeds and torques of all meshes as functions of the numbers of [operating] and [[load]]."""
 
-    def __init__(self, case: Gearbox, scenario: Any, train: Moving) -> None:
+    def __init__(self, case: Gearbox, scenario: Any, train: TrainKinematics) -> None:
         operating, ratio = scenario.operating, np.array(train.motion.ratio, dtype=float)
         given = [
             name
@@ -211,14 +216,14 @@ def _mesh_and_name(case: Gearbox, asked: str) -> tuple[int, str]:
     raise InputError("of", quoted(asked), "is a quantity of a mesh", remedy)
 
 
-def _key(key: str, train: Moving, mesh: int) -> str:
+def _key(key: str, train: TrainKinematics, mesh: int) -> str:
     """Where the train's scenario has a number of a mesh's pair; "" where it does not have it as such."""
     own = key_in_train(key, train, mesh)
     of_bare_gear = own.startswith("mesh.") and key.split(".")[1] in SIDES  # both gears are in one table
     return "" if of_bare_gear or key in _OF_DUTY else own
 
 
-def _pair(case: Gearbox, train: Moving, table: dict[str, Any], mesh: int) -> LubricatedCase:
+def _pair(case: Gearbox, train: TrainKinematics, table: dict[str, Any], mesh: int) -> LubricatedCase:
     """A mesh's pair of gears, with the text of a scenario of its own."""
     drive = table.get("drive")
     if drive is None:

@@ -19,7 +19,7 @@ from tribodyn.input.tables.losses import (
     broken_formulas,
     drag_of,
 )
-from tribodyn.studies.motion.drivetrain.placed_train import Moving
+from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics
 from tribodyn.studies.motion.drivetrain.tables import PartName
 from tribodyn.tribology.losses import LossData
 
@@ -33,7 +33,9 @@ class TrainLossesTable(LossFormulas):
     )
 
 
-def losses_of_meshes(table: TrainLossesTable | None, train: Moving, speed: float) -> list[LossData | None]:
+def losses_of_meshes(
+    table: TrainLossesTable | None, train: TrainKinematics, speed: float
+) -> list[LossData | None]:
     """What every mesh counts of the losses; None: nothing. `speed` is that of the reference body, rad/s."""
     motion, parts = train.motion, train.parts
     if table is None or not table.any:
@@ -57,7 +59,7 @@ def losses_of_meshes(table: TrainLossesTable | None, train: Moving, speed: float
     return list(found)
 
 
-def broken_losses(table: TrainLossesTable | None, train: Moving) -> Iterator[InputError]:
+def broken_losses(table: TrainLossesTable | None, train: TrainKinematics) -> Iterator[InputError]:
     """Go through the rules that a train's losses break."""
     if table is None:
         return
@@ -86,7 +88,7 @@ def broken_losses(table: TrainLossesTable | None, train: Moving) -> Iterator[Inp
     yield from broken_formulas(table, keys)
 
 
-def _carried(train: Moving) -> set[int]:
+def _carried(train: TrainKinematics) -> set[int]:
     """Gears of planetary stages."""
     motion = train.motion
     meshes = zip(motion.gears, motion.carrier, strict=True)

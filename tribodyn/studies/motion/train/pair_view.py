@@ -6,7 +6,7 @@ from tribodyn.gears.motion.settings import Friction, Mesh
 from tribodyn.gears.supports import GearSupports
 from tribodyn.input.tables.gears.model_files import DriveTable
 from tribodyn.studies.motion.drivetrain.duty_tables import TrainOperating
-from tribodyn.studies.motion.drivetrain.placed_train import Moving
+from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics
 from tribodyn.studies.motion.drivetrain.structure import mesh_table
 
 
@@ -26,7 +26,7 @@ class PairView(NamedTuple):
     supports: GearSupports = GearSupports()  # what holds its gears
 
 
-def pair_view(scenario: Any, train: Moving, mesh: int) -> PairView:
+def pair_view(scenario: Any, train: TrainKinematics, mesh: int) -> PairView:
     """Look at a mesh, by its number in the train's order, as at a pair of gears."""
     part = train.parts.meshes[train.motion.meshes[mesh]]
     table, helical = mesh_table(scenario, part), [bool(drive.helix_angle) for drive in train.drives]
@@ -47,6 +47,6 @@ def pair_view(scenario: Any, train: Moving, mesh: int) -> PairView:
     )
 
 
-def reference_teeth(train: Moving) -> int:
+def reference_teeth(train: TrainKinematics) -> int:
     """Teeth of the gear that drives the first mesh: its cycles in a revolution against the mesh's frame."""
     return abs(train.parts.gears[train.motion.gears[0][0]].teeth)

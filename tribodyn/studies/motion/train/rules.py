@@ -19,7 +19,12 @@ from tribodyn.input.tables.sensors import broken_sensor_rules
 from tribodyn.input.tables.supports.bearings import broken_bearing
 from tribodyn.studies.motion.drivetrain.duty import broken_duty_rules, duty_of
 from tribodyn.studies.motion.drivetrain.names import broken_names, broken_sort
-from tribodyn.studies.motion.drivetrain.placed_train import Moving, drawn, in_terms_of_train, moving
+from tribodyn.studies.motion.drivetrain.placed_train import (
+    TrainKinematics,
+    in_terms_of_train,
+    place_train,
+    resolve_kinematics,
+)
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
 from tribodyn.studies.motion.train.losses import broken_losses
 from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
@@ -62,7 +67,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
 def _of_train(scenario: Scenario) -> Iterator[InputError]:
     """What can be said once names and duty are sound: of the train, then of its pairs, then of room."""
     try:
-        train = moving(scenario)
+        train = resolve_kinematics(scenario)
     except InputError as error:
         yield error
         return
@@ -76,7 +81,7 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
         )
         return
     try:
-        drawn(train)
+        place_train(train)
     except InputErrors as error:
         yield from error.errors
     except InputError as error:
@@ -85,7 +90,7 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
         yield from broken_damage(scenario.damage, gears_of_train(train))
 
 
-def _each_mesh_once(train: Moving) -> Iterator[InputError]:
+def _each_mesh_once(train: TrainKinematics) -> Iterator[InputError]:
     """Refuse two meshes of one name, and of the same two gears."""
     names: dict[str, str] = {}
     pairs: dict[frozenset[int], str] = {}
@@ -97,7 +102,7 @@ def _each_mesh_once(train: Moving) -> Iterator[InputError]:
             yield InputError(f"{mesh.key}.name", quoted(mesh.name), rule, "use another name")
 
 
-def _hands(train: Moving) -> Iterator[InputError]:
+def _hands(train: TrainKinematics) -> Iterator[InputError]:
     """Ask for the hand of a helical gear that meshes with several: no mesh can choose it alone."""
     for number, gear in enumerate(train.parts.gears):
         helical = [mesh for mesh, _ in train.meshes_of(number) if train.drives[mesh].helix_angle]
@@ -106,7 +111,7 @@ def _hands(train: Moving) -> Iterator[InputError]:
             yield InputError(f"{gear.key}.hand", None, rule, 'add hand = "right"')
 
 
-def _pairs(scenario: Scenario, train: Moving) -> Iterator[InputError]:
+def _pairs(scenario: Scenario, train: TrainKinematics) -> Iterator[InputError]:
     """Rules of every mesh as a pair of gears, and of its load; what all meshes share is said once."""
     said: set[str] = set()
     yield from broken_output_rules(scenario.output, scenario.solver, reference_teeth(train))

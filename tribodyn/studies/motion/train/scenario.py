@@ -44,7 +44,12 @@ from tribodyn.studies.motion.case import (
 )
 from tribodyn.studies.motion.drivetrain.duty import TrainDuty, duty_of, motor_torque
 from tribodyn.studies.motion.drivetrain.duty_tables import LoadTable, TrainOperating, TrainSpectrumDuty
-from tribodyn.studies.motion.drivetrain.placed_train import Drawn, Moving, drawn, moving
+from tribodyn.studies.motion.drivetrain.placed_train import (
+    PlacedTrain,
+    TrainKinematics,
+    place_train,
+    resolve_kinematics,
+)
 from tribodyn.studies.motion.drivetrain.structure import bearings_by_body
 from tribodyn.studies.motion.drivetrain.tables import (
     MOST_PARTS,
@@ -128,8 +133,8 @@ Scenario = GearTrainScenario
 
 def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
     """Return the case of a scenario that has passed schema and rules."""
-    train = moving(scenario)
-    figure = drawn(train)
+    train = resolve_kinematics(scenario)
+    figure = place_train(train)
     duty = duty_of(scenario, train)
     head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
     gears = _gears(train, figure)
@@ -157,7 +162,7 @@ def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
     )
 
 
-def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:
+def _gears(train: TrainKinematics, figure: PlacedTrain) -> tuple[GearData, ...]:
     new, found = train.numbers, []
     for number, gear in enumerate(train.parts.gears):
         meshes = train.meshes_of(number)
@@ -182,7 +187,7 @@ def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:
     return tuple(found)
 
 
-def _given_mass(train: Moving, number: int) -> BodyMass:
+def _given_mass(train: TrainKinematics, number: int) -> BodyMass:
     """Mass and inertia of a gear; gears of a bare model have none, for their bodies have it."""
     gear = train.parts.gears[number]
     if gear.key.startswith("mesh."):
@@ -190,7 +195,9 @@ def _given_mass(train: Moving, number: int) -> BodyMass:
     return BodyMass(gear.table.mass, gear.table.inertia)
 
 
-def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tuple[BodyData, ...]:
+def _bodies(
+    scenario: Any, train: TrainKinematics, figure: PlacedTrain, duty: TrainDuty
+) -> tuple[BodyData, ...]:
     motion, operating, found = train.motion, scenario.operating, []
     floating = {body for own in train.parts.sets for body in own.floating}
     for number, body in enumerate(motion.bodies):
@@ -218,7 +225,7 @@ def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tup
 
 
 def _links(
-    scenario: Any, train: Moving, figure: Drawn, held: Mapping[int, GearSupport]
+    scenario: Any, train: TrainKinematics, figure: PlacedTrain, held: Mapping[int, GearSupport]
 ) -> tuple[LinkData, ...]:
     new, found = train.numbers, []
     bearings = bearings_by_body(scenario, train.parts)
@@ -252,8 +259,8 @@ def _links(
 
 def _meshes(
     scenario: Any,
-    train: Moving,
-    figure: Drawn,
+    train: TrainKinematics,
+    figure: PlacedTrain,
     duty: TrainDuty,
     head: dict[str, Any],
     held: Mapping[int, GearSupport],
@@ -303,7 +310,7 @@ def _meshes(
     return tuple(found)
 
 
-def _source(scenario: Any, train: Moving, duty: TrainDuty) -> SourceData:
+def _source(scenario: Any, train: TrainKinematics, duty: TrainDuty) -> SourceData:
     operating, given = scenario.operating, motor_torque(scenario)
     return SourceData(
         operating.source,

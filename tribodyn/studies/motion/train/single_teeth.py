@@ -5,10 +5,10 @@ from typing import Any
 from tribodyn.input.tables.gears.damage import GearPlace, damage_of
 from tribodyn.input.tables.gears.single_teeth import own_teeth_of
 from tribodyn.mesh.teeth.fields import CARRYING, OwnTeeth
-from tribodyn.studies.motion.drivetrain.placed_train import Moving
+from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics
 
 
-def own_teeth(scenario: Any, train: Moving, mesh: int, view: Any) -> tuple[OwnTeeth, OwnTeeth]:
+def own_teeth(scenario: Any, train: TrainKinematics, mesh: int, view: Any) -> tuple[OwnTeeth, OwnTeeth]:
     """What teeth of driver and driven gear of a mesh have; `view` is its `scenario.PairView`."""
     numbers = train.motion.gears[mesh]
     one, two = (tuple(sorted({CARRYING[side] for _, side in train.meshes_of(gear)})) for gear in numbers)
@@ -21,7 +21,7 @@ def own_teeth(scenario: Any, train: Moving, mesh: int, view: Any) -> tuple[OwnTe
     return found[0], found[1]
 
 
-def gears_of_train(train: Moving) -> dict[str, GearPlace]:
+def gears_of_train(train: TrainKinematics) -> dict[str, GearPlace]:
     """The gears that may be damaged, by name."""
     return {
         gear.name: GearPlace(tuple((train.drives[mesh], side) for mesh, side in train.meshes_of(number)))

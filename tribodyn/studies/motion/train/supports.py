@@ -17,12 +17,12 @@ from tribodyn.gears.supports import (
     drawn_support,
     matrix_support,
     mean_loads,
-    misalignment_of,
 )
+from tribodyn.geometry.flanks.modification import misalignment_of_tilts
 from tribodyn.input.tables.supports.bearings import bearing_of
 from tribodyn.input.tables.supports.shafts import broken_shaft
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.motion.drivetrain.placed_train import Drawn, Moving
+from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
 from tribodyn.studies.motion.drivetrain.structure import bearings_by_body
 from tribodyn.studies.motion.drivetrain.tables import Shaft
 from tribodyn.train.positions import frame_of
@@ -31,7 +31,7 @@ _NOTHING = (0.0,) * 5
 
 
 def supports_of_bodies(
-    scenario: Any, train: Moving, figure: Drawn, torques: tuple[float, ...]
+    scenario: Any, train: TrainKinematics, figure: PlacedTrain, torques: tuple[float, ...]
 ) -> dict[int, GearSupport]:
     """What holds bodies whose shafts are drawn or whose bearings are matrices, by their numbers.
 
@@ -57,7 +57,7 @@ def supports_of_bodies(
 
 
 def supports_of_mesh(
-    held: Mapping[int, GearSupport], train: Moving, figure: Drawn, mesh: int
+    held: Mapping[int, GearSupport], train: TrainKinematics, figure: PlacedTrain, mesh: int
 ) -> GearSupports:
     """The same of the bodies of a mesh, as its pair of gears sees them; their bearings are the train's."""
     if not held:
@@ -71,7 +71,7 @@ def supports_of_mesh(
         one and one._replace(displacement=moved[end], rest=rest[end], bearings=())
         for end, one in enumerate(ends)
     ]
-    return GearSupports(seen[0], seen[1], misalignment_of(moved, angle), angle)
+    return GearSupports(seen[0], seen[1], misalignment_of_tilts((one[3:] for one in moved), angle), angle)
 
 
 def broken_drawn_shafts(scenario: Any) -> Iterator[InputError]:
@@ -97,7 +97,7 @@ def broken_drawn_shafts(scenario: Any) -> Iterator[InputError]:
             yield from broken_shaft(f"{key}.drawn", shaft.drawn)
 
 
-def _loads(train: Moving, figure: Drawn, torques: tuple[float, ...]) -> Float[Array, "body 5"]:
+def _loads(train: TrainKinematics, figure: PlacedTrain, torques: tuple[float, ...]) -> Float[Array, "body 5"]:
     """Mean loads of all meshes on the bodies, at the middles of the gears' faces."""
     motion = train.motion
     found = np.zeros((len(motion.bodies), 5))
@@ -109,7 +109,7 @@ def _loads(train: Moving, figure: Drawn, torques: tuple[float, ...]) -> Float[Ar
     return found
 
 
-def _view(train: Moving, figure: Drawn, mesh: int) -> Float[Array, "3 3"]:
+def _view(train: TrainKinematics, figure: PlacedTrain, mesh: int) -> Float[Array, "3 3"]:
     """Directions of a mesh's pair of gears in those of the train, its rows: a rotation."""
     sense = train.motion.sense[train.motion.driver[mesh]]
     along, across = frame_of(figure.places.azimuths[mesh], sense)
