@@ -20,6 +20,7 @@ from tribodyn.derivatives.numbers import Number, numbers_of
 from tribodyn.derivatives.quantities import ALSO, QUANTITIES, Fixed, PairEvaluation, quantity_of
 from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.limits.limits import beyond
+from tribodyn.input.vary import is_whole
 from tribodyn.mesh.by_compliance import in_slices
 from tribodyn.mesh.slices.fine import fine_layout
 from tribodyn.mesh.slices.helical import most_touching
@@ -66,8 +67,8 @@ class Differentiable:
         self.of, self.wrt = tuple(of), tuple(wrt)
         self._case, self._names = case, tuple(ALSO.get(name, name) for name in of)
         self._quantities = [quantity_of(case, name) for name in of]
-        self._numbers = numbers_of(case, schema)
-        check_keys(self.wrt, self._numbers)
+        self._numbers = numbers_of(case, schema, self.wrt.__contains__)
+        check_keys(self.wrt, self._numbers, schema)
         self.about = tuple(quantity.about for quantity in self._quantities)
         self.parts = tuple((case, name) for name in self.of)
         self.units = tuple(quantity.unit for quantity in self._quantities)
@@ -125,7 +126,8 @@ class Differentiable:
     @cached_property
     def _structure(self) -> "_Structure":
         laws = laws_of(self._case) if hasattr(self._case, "film") and hasattr(self._case, "friction") else ()
-        return _Structure(_without(self._case, self._numbers), laws, self._case, self._numbers)
+        text = _without(self._case, self._numbers)
+        return _Structure(text, tuple(self._numbers), laws, self._case, self._numbers)
 
     def _finite(self, found: Any) -> Any:
         """Distances that do not exist are a whole module, or one, beyond the limit, and of no slope."""
@@ -152,16 +154,20 @@ def fixed_of(case: Any) -> Fixed:
         return Fixed(pairs, vanishing, layout, parts)
 
 
-def check_keys(keys: Sequence[str], numbers: Mapping[str, Any]) -> None:
-    """Refuse keys by which nothing can be differentiated, and none at all."""
+def check_keys(keys: Sequence[str], numbers: Mapping[str, Any], schema: type[BaseModel]) -> None:
+    """Refuse keys by which nothing can be differentiated, and none at all; `schema` of the scenario."""
     there = "; there is: " + ", ".join(numbers)
     if not keys:
         raise InputError("wrt", None, "nothing to differentiate by", "name at least one key" + there)
     for key in keys:
-        if key not in numbers:
-            near = near_name(str(key), numbers)
-            mean = f'did you mean "{near}"?' if near else "use another"
-            raise InputError("wrt", quoted(str(key)), "no key to differentiate by", mean + there)
+        if key in numbers:
+            continue
+        if is_whole(schema, key):
+            rule = "is a whole number, by which nothing can be differentiated"
+            raise InputError("wrt", quoted(key), rule, f"vary it: td.sweep(…, {quoted(key + '=…')})")
+        rule, near = "no key to differentiate by", near_name(str(key), numbers)
+        mean = f'did you mean "{near}"?' if near else "use another"
+        raise InputError("wrt", quoted(str(key)), rule, mean + there)
 
 
 @dataclass(frozen=True)
@@ -169,6 +175,7 @@ class _Structure:
     """A case, equal to all others that differ in their numbers alone."""
 
     text: str
+    keys: tuple[str, ...]  # of its numbers
     laws: tuple[Any, ...]  # of film and friction: "auto" takes them by the numbers
     case: Any = field(compare=False)
     numbers: Mapping[str, Number] = field(compare=False)

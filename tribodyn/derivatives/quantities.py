@@ -193,7 +193,7 @@ QUANTITIES: dict[str, Differentiated] = {
     "centre_distance": Differentiated(
         "working centre distance",
         "m",
-        lambda at: at.gears.path.pinion_pitch_radius + at.gears.path.gear_pitch_radius,
+        lambda at: absolute(at.gears.path.pinion_pitch_radius + at.gears.path.gear_pitch_radius),
     ),
     "pressure_angle": Differentiated(
         "working pressure angle at the pitch point", "rad", lambda at: at.gears.path.pressure_angle(0.0)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import fields
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator, Field
 
@@ -15,7 +15,7 @@ from tribodyn.gears.mesh_of_gearbox import Opened, with_pair
 from tribodyn.gears.supports import displaced, has_supports, supports_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.fields import Slices, head_of
-from tribodyn.input.quantity import Switch, model_file
+from tribodyn.input.quantity import Switch, defaults_written_out, model_file
 from tribodyn.input.tables.duty import SpectrumScenario, duty_of, unnamed_duty
 from tribodyn.input.tables.gears.drive_data import masses_of, teeth_of
 from tribodyn.input.tables.gears.drive_rules import (
@@ -91,6 +91,10 @@ _ALIGNED = MisalignmentTable(from_quality=0.0)
 class GearScenario(SpectrumScenario):
     """A scenario of gears; each kind adds its tables."""
 
+    #: tables that `completed` fills, before the defaults of this kind
+    COMPLETED_BY: ClassVar = {
+        "gearbox": ("operating", "mesh", "lubricant", "film", "friction", "temperature")
+    }
     kind: Any
     gearbox: GearboxTable | None = Field(
         None, description="a mesh of a train, with its duty, in place of drive, and of other tables left out"
@@ -100,7 +104,9 @@ class GearScenario(SpectrumScenario):
     @classmethod
     def completed(cls, data: dict[str, Any], referring: Path, opened: Opened) -> dict[str, Any]:
         """A scenario's data with the pair of gears of its `gearbox`, if any; see `of_gearbox.with_pair`."""
-        return with_pair(data, cls, referring, opened) if "gearbox" in data else data
+        if "gearbox" not in data:
+            return data
+        return defaults_written_out(with_pair(data, cls, referring, opened), cls)
 
 
 def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:

@@ -212,12 +212,17 @@ def defaults_written_out(raw: dict[str, Any], table: type[Table]) -> dict[str, A
     """Return the TOML data `raw` with every default of the schema written where a key is missing.
 
     Keys that the schema does not know stay as they are, for the validation to name; so does a table that is
-    like a model, for the model comes before the defaults.
+    like a model, or that a key (of the schema's `COMPLETED_BY`) completes: these come before the defaults.
     """
     if LIKE in raw:
         return raw
     full = dict(raw)
+    later = [
+        name for key, names in getattr(table, "COMPLETED_BY", {}).items() if key in raw for name in names
+    ]
     for key, field in table.model_fields.items():
+        if key in later:
+            continue
         if key not in full and not field.is_required():
             default = field.get_default(call_default_factory=True)
             if default is not None:

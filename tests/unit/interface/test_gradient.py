@@ -94,7 +94,7 @@ def test_efficiency_is_that_of_the_efficiency_study(name):
     [
         ((INVOLUTE, "eficiency", ["drive.module"]), 'did you mean "efficiency"'),
         ((INVOLUTE, "noise", ["drive.module"]), "there is: contact_ratio, "),
-        ((INVOLUTE, "efficiency", ["drive.pinion.teeth"]), "no key to differentiate by"),
+        ((INVOLUTE, "efficiency", ["drive.pinion.teeth"]), "is a whole number"),
         ((INVOLUTE, "efficiency", ["drive.modul"]), 'did you mean "drive.module"'),
         ((INVOLUTE, "efficiency", []), "nothing to differentiate by"),
         (("crc-23-47", "contact_ratio", ["drive.pinion.profile_shift"]), "drive.pinion.addendum"),

@@ -5,9 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import tomli_w
 
 import tribodyn as td
 from tribodyn.errors import InputError
+from tribodyn.input.sources import find_scenario
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load, load_data, load_scenario
 from tribodyn.studies.protocol.run import run
@@ -34,6 +36,23 @@ def test_every_study_of_gears_takes_a_mesh(kind: str):
     assert found.operating.gear_torque == pytest.approx(mesh.pair.operating.gear_torque, rel=1e-12)
     again = load_data(tomllib.loads(found.toml), "again").case
     assert again.drive == found.drive
+
+
+def test_the_mesh_of_the_gearbox_comes_before_the_defaults_of_the_study(tmp_path: Path):
+    """Stiffness, of the stage before the train's, and law of friction; what a study says itself holds."""
+    table = tomllib.loads(find_scenario("two-stage-reducer").read_text(encoding="utf-8"))
+    table["mesh"] = {"compliance": "constant", "stiffness": "4e8 N/m", "damping_ratio": 0.05}
+    table["friction"] = {"law": "coulomb", "coefficient": 0.07}
+    table["stage"][1]["stiffness"] = "5e8 N/m"
+    file = tmp_path / "train.toml"
+    file.write_text(tomli_w.dumps(table), encoding="utf-8")
+    for mesh, stiffness in ("first", 4e8), ("second", 5e8):
+        data = {"title": "x", "kind": "efficiency", "gearbox": {"scenario": str(file), "mesh": mesh}}
+        found = load_data(data, "x").case
+        assert (found.mesh.compliance, found.mesh.stiffness) == ("constant", stiffness)
+        assert (found.friction.law, found.friction.values) == ("coulomb", {"coefficient": 0.07})
+    own = {"mesh": {"compliance": "constant", "stiffness": "3e8 N/m"}}
+    assert load_data({**data, **own}, "x").case.mesh.stiffness == 3e8
 
 
 def test_losses_of_a_mesh_are_those_of_the_train_in_motion(tmp_path: Path):

@@ -26,16 +26,18 @@ def shift_of(gear: Gear) -> float:
     return gear.profile_shift if gear.profile_shift_of == "tooth" else -gear.profile_shift
 
 
+def rim_radius(body: GearBody, module: Any) -> Any:
+    """Minus the outer radius (m) of an internal gear that gives none; `module` in m."""
+    return module * (body.teeth / 2 + body.profile_shift - body.dedendum - USUAL_RIM)
+
+
 def internal_body(gear: Gear, external: GearBody, module: float) -> GearBody:
     """The body of an internal gear, from one of the same numbers without signs; `module` in m."""
-    shift = shift_of(gear)
-    outside = module * (gear.teeth / 2 - shift + external.dedendum + USUAL_RIM)
     rounding = external.fillet_radius if gear.cutter_rounding is None else gear.cutter_rounding
-    return external._replace(
-        teeth=-external.teeth,
-        profile_shift=shift,
+    body = external._replace(teeth=-external.teeth, profile_shift=shift_of(gear))
+    return body._replace(
         fillet_radius=rounding,
-        bore_radius=-(outside if gear.outer_diameter is None else gear.outer_diameter / 2),
+        bore_radius=rim_radius(body, module) if gear.outer_diameter is None else -gear.outer_diameter / 2,
         tip_radius=None if external.tip_radius is None else -external.tip_radius,
         cutter_teeth=_cutter_teeth(gear),
         cutter_shift=gear.cutter_profile_shift or 0.0,

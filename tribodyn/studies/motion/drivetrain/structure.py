@@ -303,11 +303,11 @@ def _distance_of_set(scenario: Any, parts: Structure, mesh: MeshPart) -> Printed
     return Printed(float(path.pinion_pitch_radius + path.gear_pitch_radius), 0.0)
 
 
-def stiffness_key(stage: Stage | PlanetaryStage, mesh: str) -> str:
-    """Which key of a stage gives the stiffness of one of its meshes."""
-    if isinstance(stage, Stage):
+def stiffness_key(mesh: str, planetary: str = "") -> str:
+    """Which key of a stage gives the stiffness of a mesh; `planetary` is the name of a planetary stage."""
+    if not planetary:
         return "stiffness"
-    return "sun_stiffness" if mesh.startswith(f"{stage.name}-sun-") else "ring_stiffness"
+    return "sun_stiffness" if mesh.startswith(f"{planetary}-sun-") else "ring_stiffness"
 
 
 def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
@@ -321,7 +321,8 @@ def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
     given = {}
     if isinstance(table, (Stage, PlanetaryStage)):
         given = {name: getattr(table, name) for name in ("damping_ratio", "backlash")}
-        given["stiffness"] = getattr(table, stiffness_key(table, mesh.name))
+        planetary = table.name if isinstance(table, PlanetaryStage) else ""
+        given["stiffness"] = getattr(table, stiffness_key(mesh.name, planetary))
     return scenario.mesh.model_copy(update={name: own for name, own in given.items() if own is not None})
 
 

@@ -8,10 +8,10 @@ from tribodyn.cases.assessment_part import MeshAtDuty, Meshing, WholeDrive
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.gears.rating.bearings import TurningShaft
 from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.families import family
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
+from tribodyn.studies.motion.drivetrain.structure import stiffness_key
 from tribodyn.studies.motion.planetary.results import meshes_of_member
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.train.planetary import RING, SUN
@@ -80,25 +80,36 @@ def pair_of(case: Gearbox, name: str) -> dict[str, Any]:
         "gear_torque": f"{pair.operating.gear_torque!r} N*m",
     }
     duty |= {key: operating[key] for key in ("oil_temperature",) if key in operating}
-    found = {key: table[key] for key in _COMMON if key in table} | {"operating": duty}
-    return found | {"drive": table["drive"] if "drive" in table else _drive(case, mesh, table)}
+    found = pair_tables(case, mesh, table)
+    if mesh.key != "drive":
+        found["drive"] |= {"title": f"mesh {mesh.name} of {case.title}", "source": "its scenario"}
+    return found | {"operating": duty}
 
 
-def _drive(case: Gearbox, mesh: TrainMesh, table: Mapping[str, Any]) -> dict[str, Any]:
-    """What a drive file would say of a mesh of a stage."""
-    stage = table["stage"][int(mesh.key.partition(".")[2])]
+def pair_tables(case: Gearbox, mesh: TrainMesh, table: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of a scenario (`table` the train's) of the pair of gears in a mesh, without its duty."""
+    found = {key: table[key] for key in _COMMON if key in table}
+    if mesh.key == "drive":
+        return found | {"drive": table["drive"]}
+    group, place = mesh.key.split(".")
+    stage = table[group][int(place)]
     drive = {key: table[key] for key in _OF_ALL if key in table}
     drive |= {key: value for key, value in stage.items() if key in DriveTable.model_fields}
-    drive |= {"title": f"mesh {mesh.name} of {case.title}", "source": "its scenario"}
     drive.setdefault("family", "involute")
     for side, number in zip(SIDES, mesh.gears, strict=True):
-        key = case.gears[number].key.removeprefix("gear.")
-        drive[side] = {name: value for name, value in table["gear"][key].items() if name in Gear.model_fields}
-    if "planet" in stage and "centre_distance" not in stage:  # that of the sun's meshes holds for the ring's
-        path = family(mesh.pair.family).working_path(mesh.pair.drive)
-        distance = abs(float(path.pinion_pitch_radius + path.gear_pitch_radius))
-        drive["centre_distance"] = f"{1e3 * distance!r} mm"
-    return drive
+        gear = table.get("gear", {}).get(case.gears[number].key.removeprefix("gear."), {})
+        drive[side] = {name: value for name, value in gear.items() if name in Gear.model_fields}
+    distance = mesh.pair.drive.centre_distance
+    if (
+        "planet" in stage and "centre_distance" not in stage and distance is not None
+    ):  # the sun's, at the ring
+        drive["centre_distance"] = f"{1e3 * abs(float(distance))!r} mm"
+    if group == "stage":
+        keys = {"damping_ratio": "damping_ratio", "backlash": "backlash"}
+        keys["stiffness"] = stiffness_key(mesh.name, stage["name"] if "planet" in stage else "")
+        own = {name: stage[key] for name, key in keys.items() if key in stage}
+        found["mesh"] = found.get("mesh", {}) | own
+    return found | {"drive": drive}
 
 
 def duties(case: Gearbox) -> list[tuple[float, Gearbox]]:

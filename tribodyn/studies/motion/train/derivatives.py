@@ -1,7 +1,8 @@
 """Quantities of a train as a differentiable function of some of its numbers.
 
 A mesh is differentiated as a pair of gears; here its numbers are those of the train's scenario: speed and
-load reach every mesh by the ratios, losses not counted, and a gear may be in several meshes.
+load reach every mesh by the ratios, losses not counted, and a gear may be in several meshes. The planets of a
+set share the load evenly; without a centre distance in its scenario the ring has that of the sun's meshes.
 """
 
 import tomllib
@@ -28,6 +29,8 @@ from tribodyn.studies.motion.drivetrain.placed_train import (
     key_in_train,
     resolve_kinematics,
 )
+from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
+from tribodyn.studies.motion.train.assessable import pair_tables
 
 #: Quantities of the whole train, of the friction losses of all meshes.
 TOTALS = {
@@ -36,10 +39,6 @@ TOTALS = {
 }
 #: The duty of a pair, which follows from the train's.
 _OF_DUTY = ("operating.pinion_speed", "operating.gear_torque")
-#: Tables of a train's scenario that all pairs have alike.
-_COMMON = ("mesh", "lubricant", "film", "friction", "temperature")
-#: Keys of a stage that do not matter to its pair; pairs that are alike share compiled programs.
-_OF_PLACE = ("name", "gears", "azimuth")
 
 
 class _Part(NamedTuple):
@@ -71,9 +70,6 @@ class DifferentiableTrain:
     """
 
     def __init__(self, case: Gearbox, schema: type[BaseModel], of: Sequence[str], wrt: Sequence[str]) -> None:
-        for own in case.sets:
-            rule = f"the stage {own.name} is planetary, and derivatives are of trains of external gears"
-            raise InputError(own.key, None, rule, "take differences of runs")
         table = tomllib.loads(case.toml)
         scenario: Any = schema.model_validate(table)
         train = resolve_kinematics(scenario)
@@ -81,20 +77,30 @@ class DifferentiableTrain:
         self._wanted = [_mesh_and_name(case, name) for name in of]
         self._duty = _Duty(case, scenario, train)
         known = {key: (value, unit_at(schema, key)) for key, value in self._duty.numbers.items()}
-        pairs = [_pair(case, train, table, mesh) for mesh in range(len(case.meshes))]
+        pairs = [_pair(case, table, mesh) for mesh in range(len(case.meshes))]
         names: list[dict[str, str]] = []  # keys of every pair -> those of the train
         for mesh, pair in enumerate(pairs):
-            numbers = numbers_of(pair, schema)
+            numbers = numbers_of(pair, schema, lambda key, mesh=mesh: _key(key, train, mesh) in self.wrt)
             names.append({key: own for key in numbers if (own := _key(key, train, mesh))})
             known |= {own: (float(numbers[key].value), numbers[key].unit) for key, own in names[-1].items()}
-        check_keys(self.wrt, known)
+        check_keys(self.wrt, known, schema)
         if twice := [key for key in self.wrt if self.wrt.count(key) > 1]:
             raise InputError("wrt", quoted(twice[0]), "is named twice", "name every key once")
         self.at = np.array([known[key][0] for key in self.wrt])
         self.key_units = tuple(known[key][1] for key in self.wrt)
         self._parts = []
+        # numbers of a mesh that follow from others: its duty, and at a ring the distance of the sun's mesh
+        after = len(wrt) + len(_OF_DUTY) * len(pairs)
+        suns = {mesh: sun for mesh in range(len(pairs)) if (sun := _distance_from(train, mesh)) is not None}
+        self._distances: dict[int, tuple[Differentiable, list[int]]] = {}  # by the sun's mesh
         for mesh, pair in enumerate(pairs):
             places = {key: self.wrt.index(own) for key, own in names[mesh].items() if own in self.wrt}
+            if mesh in suns and (keys := {k: own for k, own in names[suns[mesh]].items() if own in self.wrt}):
+                sun = suns[mesh]
+                if sun not in self._distances:
+                    distance = Differentiable(pairs[sun], schema, ["centre_distance"], list(keys))
+                    self._distances[sun] = distance, [self.wrt.index(own) for own in keys.values()]
+                places["drive.centre_distance"] = after + list(self._distances).index(sun)
             if not places or not self._duty.numbers.keys().isdisjoint(self.wrt):
                 places |= {key: len(wrt) + i * len(pairs) + mesh for i, key in enumerate(_OF_DUTY)}
             if needed := self._needed(pairs, mesh):
@@ -138,6 +144,12 @@ class DifferentiableTrain:
     def _evaluated(self, x: Any, *, slopes: bool) -> tuple[Any, Any]:
         duty, by_duty = self._duty.at(dict(zip(self.wrt, x, strict=True)))
         numbers, by_numbers = np.concatenate([x, duty]), np.vstack([np.eye(len(x)), by_duty])
+        power = numbers[-2:], by_numbers[-2:]  # that loads take and put in
+        numbers, by_numbers = numbers[:-2], by_numbers[:-2]
+        for function, places in self._distances.values():
+            distance, by = function.jacobian(numbers[places])
+            numbers = np.concatenate([numbers, distance])
+            by_numbers = np.vstack([by_numbers, by @ by_numbers[places]])
         found: dict[tuple[int, str], tuple[Any, Any]] = {}
         for mesh, function, places in self._parts:
             at = numbers[places]
@@ -148,9 +160,9 @@ class DifferentiableTrain:
             lost = [each for (_, name), each in found.items() if name == "friction_power"]
             loss, by_loss = (sum(parts) for parts in zip(*lost, strict=True))
             # what drives, the input or a load, puts in what loads take, and the loss unless the input brakes
-            put_in, by_put_in = numbers[-2] + loss, by_numbers[-2] + by_loss
-            if put_in < numbers[-1]:
-                put_in, by_put_in = numbers[-1], by_numbers[-1]
+            put_in, by_put_in = power[0][0] + loss, power[1][0] + by_loss
+            if put_in < power[0][1]:
+                put_in, by_put_in = power[0][1], power[1][1]
             found[-1, "friction_power"] = loss, by_loss
             found[-1, "efficiency"] = 1.0 - loss / put_in, (loss * by_put_in / put_in - by_loss) / put_in
         values, by = zip(*(found[wanted] for wanted in self._wanted), strict=True)
@@ -176,7 +188,10 @@ class _Duty:
         bodies = [load.body for load in case.loads]
         units = np.eye(len(case.bodies))[bodies]
         self._torques = np.array([torques_of(train, list(unit)).driven for unit in units]).T
-        self._driver, self._ratio = ratio[list(train.motion.driver)], ratio[bodies]
+        self._ratio = ratio[bodies]
+        ends = zip(train.motion.driver, train.motion.carrier, strict=True)
+        # of a set against its carrier
+        self._driver = np.array([ratio[body] - float(train.motion.carried(body, by)) for body, by in ends])
 
     def at(self, changed: Mapping[str, float]) -> tuple[Float[Array, " out"], Float[Array, "out key"]]:
         """Speeds of the drivers, torques of the driven gears, powers that loads take and put in; slopes."""
@@ -220,17 +235,21 @@ def _key(key: str, train: TrainKinematics, mesh: int) -> str:
     """Where the train's scenario has a number of a mesh's pair; "" where it does not have it as such."""
     own = key_in_train(key, train, mesh)
     of_bare_gear = own.startswith("mesh.") and key.split(".")[1] in SIDES  # both gears are in one table
-    return "" if of_bare_gear or key in _OF_DUTY else own
+    follows = key == "drive.centre_distance" and _distance_from(train, mesh) is not None
+    return "" if of_bare_gear or follows or key in _OF_DUTY else own
 
 
-def _pair(case: Gearbox, train: TrainKinematics, table: dict[str, Any], mesh: int) -> LubricatedCase:
+def _distance_from(train: TrainKinematics, mesh: int) -> int | None:
+    """The mesh with the sun whose centre distance a mesh with the ring has; None: it has one of its own."""
+    meshes = [train.parts.meshes[number] for number in train.motion.meshes]
+    part, distance = meshes[mesh], train.drives[mesh].centre_distance
+    if distance is None or not isinstance(part.table, PlanetaryStage) or part.table.centre_distance:
+        return None
+    own = (m for m, other in enumerate(meshes) if other.of_set == part.of_set)
+    return next(m for m in own if not train.drives[m].has_ring)
+
+
+def _pair(case: Gearbox, table: dict[str, Any], mesh: int) -> LubricatedCase:
     """A mesh's pair of gears, with the text of a scenario of its own."""
-    drive = table.get("drive")
-    if drive is None:
-        group, place = train.parts.meshes[train.motion.meshes[mesh]].key.split(".")
-        gears = [train.parts.gears[gear].name for gear in train.motion.gears[mesh]]
-        drive = {name: table[name] for name in ("material", "mean_roughness") if name in table}
-        drive |= {name: own for name, own in table[group][int(place)].items() if name not in _OF_PLACE}
-        drive |= {side: table.get("gear", {}).get(name, {}) for side, name in zip(SIDES, gears, strict=True)}
-    text = {"drive": drive} | {name: table[name] for name in _COMMON if name in table}
-    return replace(case.meshes[mesh].pair, toml=tomli_w.dumps(text))
+    one = case.meshes[mesh]
+    return replace(one.pair, toml=tomli_w.dumps(pair_tables(case, one, table)))
