@@ -72,7 +72,7 @@ class Study:
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case or scenario)
     assess        ``ROLE``, its part in an assessment of a drive (optional): `cases.assessment_part`
-    whole         ``WHOLE``, its meshes as pairs of gears (optional): it can be assessed mesh by mesh, see
+    assessable    ``WHOLE``, its meshes as pairs of gears (optional): it can be assessed mesh by mesh, see
                   `cases.assessment_part`
     derivatives   ``DIFFERENTIABLE``, what makes quantities of a case a function of its numbers (optional:
                   that of a pair of gears), called as `derivatives.differentiable.Differentiable`
@@ -267,7 +267,7 @@ class Study:
 
     def whole(self) -> "WholeDrive | None":
         """Its meshes as pairs of gears at their duty; None: it is not assessed mesh by mesh."""
-        return self._part("whole", "WHOLE", optional=True)
+        return self._part("assessable", "WHOLE", optional=True)
 
     def differentiable(self, case: Any, of: Sequence[str], wrt: Sequence[str]) -> Any:
         """Quantities of a case as a function of its numbers: a `Differentiable`, or what serves as one."""
