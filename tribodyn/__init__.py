@@ -31,12 +31,12 @@ if TYPE_CHECKING:
     from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.families import Family
     from tribodyn.interface import standards as standards
-    from tribodyn.interface.drive import GearPair, constraints, drive
+    from tribodyn.interface.drive import GearPair, NamedGear, constraints, drive, gear
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
     from tribodyn.interface.identify import Identified, identify
     from tribodyn.interface.line_contact import line_contact
     from tribodyn.interface.result import Run
-    from tribodyn.interface.run import check, run
+    from tribodyn.interface.run import check, run, run_meshes
     from tribodyn.interface.scenario import scenario
     from tribodyn.interface.sweep import Sweep, sweep
     from tribodyn.interface.sweep import open_result as open
@@ -63,6 +63,7 @@ __all__ = [
     "Identified",
     "InputError",
     "LinkLaw",
+    "NamedGear",
     "OutputError",
     "Parameter",
     "Run",
@@ -76,12 +77,14 @@ __all__ = [
     "design",
     "differentiable",
     "drive",
+    "gear",
     "gradient",
     "identify",
     "judge",
     "line_contact",
     "open",
     "run",
+    "run_meshes",
     "scenario",
     "signals",
     "standards",
@@ -95,6 +98,7 @@ _PLACES = {
     "Family": "tribodyn.geometry.families",
     "FilmLaw": "tribodyn.tribology.law",
     "FrictionLaw": "tribodyn.tribology.law",
+    "NamedGear": "tribodyn.interface.drive",
     "GearPair": "tribodyn.interface.drive",
     "Gradient": "tribodyn.interface.gradient",
     "Identified": "tribodyn.interface.identify",
@@ -111,11 +115,13 @@ _PLACES = {
     "constraints": "tribodyn.interface.drive",
     "differentiable": "tribodyn.interface.gradient",
     "drive": "tribodyn.interface.drive",
+    "gear": "tribodyn.interface.drive",
     "gradient": "tribodyn.interface.gradient",
     "identify": "tribodyn.interface.identify",
     "line_contact": "tribodyn.interface.line_contact",
     "open": "tribodyn.interface.sweep:open_result",
     "run": "tribodyn.interface.run",
+    "run_meshes": "tribodyn.interface.run",
     "scenario": "tribodyn.interface.scenario",
     "sweep": "tribodyn.interface.sweep",
     "validate": "tribodyn.interface.validation",

@@ -26,7 +26,7 @@ from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import sets
 from tribodyn.cli.app import app
 from tribodyn.input.sources import find_scenario, names, shipped
-from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.load import load_every, load_scenario
 
 ROOT = Path(__file__).parents[2]
 PAGES = [
@@ -165,7 +165,7 @@ def run_commands(page: Path, folder: Path) -> None:
                 assert load_scenario(words[1]).title
                 continue
             if words[0] == "run":
-                kind = load_scenario(words[1]).kind
+                kind = next(iter(load_every(words[1]).cases.values())).study.kind
                 shorter = sets(*SHORTER.get(words[1], SHORTER.get(kind, ())))
                 picture = () if "--plot" in words else ("--no-plot",)  # every scenario's is tested elsewhere
                 words = [*words, *shorter, *picture, "--force"]

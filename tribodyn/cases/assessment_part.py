@@ -141,6 +141,12 @@ class MeshAtDuty(NamedTuple):
     meshing: tuple[Meshing, Meshing] = (Meshing(), Meshing())  # of driver and driven gear
 
 
+def shared_names(meshes: Sequence[MeshAtDuty]) -> list[str]:
+    """The name of every mesh; of those that differ by their planet alone what they share."""
+    names = {mesh.name for mesh in meshes}
+    return [mesh.alike if mesh.alike and mesh.alike not in names else mesh.name for mesh in meshes]
+
+
 class WholeDrive(NamedTuple):
     """What an assessment needs of a study whose cases have several meshes."""
 
@@ -148,9 +154,12 @@ class WholeDrive(NamedTuple):
     #: (case, scenario as a file has it, factor) -> the scenario at that factor of its speed, torques the same
     at_speed: Callable[[Any, Mapping[str, Any], float], dict[str, Any]]
     speed: Callable[[Any], float]  # of the input of a case, rad/s
-    #: (case, name of a mesh or "": the only one) -> the scenario of its pair of gears at its duty, as a file
-    #: has it; raises InputError for a mesh that is not there, with the key "mesh"
+    #: (case, name of a mesh, of those of all planets, or "": the only one) -> the scenario of its pair of
+    #: gears at its duty, as a file has it; raises InputError with the key "mesh" where there is no such mesh
     pair: Callable[[Any, str], dict[str, Any]]
+    #: (case, name of a gear, or of all planets) -> its meshes by `shared_names`, and what it is in their
+    #: pairs, "pinion" or "gear"; raises InputError with the key "gear" where there is no such gear
+    gear: Callable[[Any, str], Mapping[str, Any]]
     #: case -> shares of the time, their sum 1, and cases of the duties of its load spectrum; empty: none
     duties: Callable[[Any], Sequence[tuple[float, Any]]]
     shafts: Callable[[Any], Sequence[Any]]  # case -> its drawn shafts, see `gears.rating.bearings`

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tribodyn.cli.options import JsonOption, ReplaceOption, SetOption, drives, overrides
+from tribodyn.errors import InputError, quoted
 from tribodyn.numerics.files.output_files import check_output, make_folder, write_output
 
 if TYPE_CHECKING:
     from tribodyn.geometry.assembly import Assembly
+    from tribodyn.geometry.drive import Side
     from tribodyn.studies.drive_file import DriveModel
 
 EXAMPLES = (
@@ -19,6 +21,7 @@ EXAMPLES = (
     "  tribodyn gear my-drive.toml -o drawings\n"
     "  tribodyn gear liu-ni-crc-23-47 --as-spline 9\n"
     "  tribodyn gear two-stage-reducer --mesh second\n"
+    "  tribodyn gear planetary-24-84 --gear planet -o drawings\n"
     "\b\nWith -o: the pair as SVG, PNG and DXF; each gear and its rack cutter as DXF;\n"
     "the points of each gear's profile as CSV."
 )
@@ -46,10 +49,19 @@ def gear(
     mesh: Annotated[
         str | None, typer.Option(help="Of a train: the mesh whose gears are meant.", metavar="NAME")
     ] = None,
+    gear: Annotated[
+        str | None, typer.Option(help="One gear by its name, in all its meshes.", metavar="NAME")
+    ] = None,
     force: ReplaceOption = False,
     json: JsonOption = False,
 ) -> None:
     """Print a gear pair's geometry; draw it."""
+    if gear is not None:
+        for option, value in (("--mesh", mesh), ("--as-spline", as_spline)):
+            if value is not None:
+                raise InputError("--gear", quoted(gear), f"contradicts {option}", "give one of them")
+        _one_gear(model, overrides(settings), gear, output, points, force=force, json=json)
+        return
     from tribodyn.cli.printing import print_files, print_findings, print_json, print_prose
     from tribodyn.gears.check import sheet_tables
     from tribodyn.geometry.families import family
@@ -75,6 +87,46 @@ def gear(
     print_files("", files)
 
 
+def _one_gear(
+    model: str,
+    settings: dict[str, str],
+    name: str,
+    output: Path | None,
+    points: int,
+    *,
+    force: bool,
+    json: bool,
+) -> None:
+    """Print the sheet of one gear in its meshes; draw it."""
+    from tribodyn.cli.printing import print_files, print_findings, print_json
+    from tribodyn.gears.check import gear_table, sheet_of_gear
+    from tribodyn.geometry.families import family
+    from tribodyn.geometry.limits.checks import check
+    from tribodyn.quantities.quantity import in_si
+    from tribodyn.studies.drive_file import load_gear
+
+    pairs = load_gear(model, settings, name)
+    assemblies = {}
+    for mesh, (pair, _) in pairs.items():
+        with pair.origins.naming():
+            assemblies[mesh] = check(family(pair.family), pair.drive)
+    sheets = {mesh: sheet_of_gear(pair.sheet(assemblies[mesh]), side) for mesh, (pair, side) in pairs.items()}
+    mesh, (pair, side) = next(iter(pairs.items()))
+    files: list[Path] = []
+    if output is not None:
+        make_folder(output)
+        for file in (targets := _gear_files(pair, assemblies[mesh], side, output, name)).values():
+            check_output(file, force)
+        files = _draw_gear(targets, assemblies[mesh], side, points, force)
+    if json:
+        geometry = {each: in_si(sheet) for each, sheet in sheets.items()}
+        head = {"model": str(pair.path), "gear": name, "family": pair.family}
+        print_json({**head, "geometry": geometry, "files": [str(file) for file in files]})
+        return
+    print_findings([gear_table(name, sheets)])
+    print_files("", files)
+
+
 def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tuple[DriveModel, Path]":
     """The pair with a free-form path, and the drive file that was written of it."""
     import tomli_w
@@ -91,9 +143,9 @@ def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tup
 
 def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int, force: bool) -> list[Path]:
     """Write every drawing of a gear pair into a folder; return the files."""
-    from tribodyn.drawing.cad import tooth_profile, write_gear, write_pair, write_profile, write_rack
+    from tribodyn.drawing.cad import write_pair
     from tribodyn.drawing.picture import pair_figure
-    from tribodyn.geometry.drive import SIDES, body_of
+    from tribodyn.geometry.drive import SIDES
     from tribodyn.post.progress import progress_bar
     from tribodyn.post.style import save
 
@@ -101,21 +153,41 @@ def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int, 
         return folder / f"{model.name}-{what}"
 
     make_folder(folder)
-    with_rack = [side for side in SIDES if body_of(assembly.drive, side).cutter_teeth is None]
-    own = [f"{side}{what}" for side in SIDES for what in (".dxf", ".csv")]
-    own += [f"{side}-rack.dxf" for side in with_rack]
-    for what in ("pair.svg", "pair.png", "pair.dxf", *own):
-        check_output(file(what), force)
+    gears = {side: _gear_files(model, assembly, side, folder, side) for side in SIDES}
+    every = [file for files in gears.values() for file in files.values()]
+    for target in (*map(file, ("pair.svg", "pair.png", "pair.dxf")), *every):
+        check_output(target, force)
     with progress_bar("drawing") as progress:
         picture = pair_figure(assembly, model.title, points)
         files = [save(picture, file(f"pair.{ending}"), force=force) for ending in ("svg", "png")]
         progress(0.5)
         files.append(write_pair(file("pair.dxf"), assembly, points, force=force))
         for side in SIDES:
-            files.append(write_gear(file(f"{side}.dxf"), assembly, side, points, force=force))
-            if side in with_rack:
-                files.append(write_rack(file(f"{side}-rack.dxf"), assembly, side, points, force=force))
-            profile = tooth_profile(assembly, side, points)
-            files.append(write_profile(file(f"{side}.csv"), profile, force=force))
+            files += _draw_gear(gears[side], assembly, side, points, force)
         progress(1.0)
     return files
+
+
+def _gear_files(
+    model: "DriveModel", assembly: "Assembly", side: "Side", folder: Path, name: str
+) -> dict[str, Path]:
+    """Files of a gear's drawings: of its outline, of its rack cutter where it has one, of its profile."""
+    from tribodyn.geometry.drive import body_of
+
+    endings = {"gear": ".dxf", "rack": "-rack.dxf", "profile": ".csv"}
+    if body_of(assembly.drive, side).cutter_teeth is not None:
+        del endings["rack"]
+    return {what: folder / f"{model.name}-{name}{ending}" for what, ending in endings.items()}
+
+
+def _draw_gear(
+    files: dict[str, Path], assembly: "Assembly", side: "Side", points: int, force: bool
+) -> list[Path]:
+    """Draw a gear into the files of `_gear_files`."""
+    from tribodyn.drawing.cad import tooth_profile, write_gear, write_profile, write_rack
+
+    write_gear(files["gear"], assembly, side, points, force=force)
+    if "rack" in files:
+        write_rack(files["rack"], assembly, side, points, force=force)
+    write_profile(files["profile"], tooth_profile(assembly, side, points), force=force)
+    return list(files.values())

@@ -8,7 +8,8 @@ import typer
 from tribodyn.cli.options import JsonOption, LargeOption, ScenarioArgument, SetOption, kinds, overrides
 
 if TYPE_CHECKING:
-    from tribodyn.studies.protocol.study import TextTable
+    from tribodyn.studies.protocol.load import Loaded
+    from tribodyn.studies.protocol.study import CheckResult, TextTable
 
 INIT_EXAMPLES = (
     "\b\nExamples:\n"
@@ -59,16 +60,30 @@ def check(
 ) -> None:
     """Check a scenario; print duty, geometry and stiffness."""
     from tribodyn.cli.outcome import complain
-    from tribodyn.cli.printing import begun, print_findings, print_json, print_prose
+    from tribodyn.cli.printing import print_json
     from tribodyn.post.progress import progress_bar
-    from tribodyn.studies.protocol.load import load
+    from tribodyn.studies.protocol.load import load_every
 
-    loaded = load(scenario, overrides(settings))
-    with loaded.naming(), progress_bar(loaded.case.name):
-        checked = loaded.study.check(loaded.case, allow_large=allow_large)
+    every = load_every(scenario, overrides(settings))
+    results = {}
+    for mesh, loaded in every.cases.items():
+        with loaded.naming(), progress_bar(loaded.case.name):
+            results[mesh] = loaded.study.check(loaded.case, allow_large=allow_large)
+    for remark in every.remarks():
+        complain(f"{scenario}: {remark}")
     if json:
-        print_json({"scenario": str(loaded.path), **checked.data})
+        data = {mesh: checked.data for mesh, checked in results.items()}
+        path = str(next(iter(every.cases.values())).path)
+        print_json({"scenario": path, **(data[""] if "" in data else {"meshes": data})})
         return
+    for mesh, loaded in every.cases.items():
+        _print_checked(loaded, results[mesh], part, full)
+
+
+def _print_checked(loaded: "Loaded", checked: "CheckResult", part: str, full: bool) -> None:
+    from tribodyn.cli.outcome import complain
+    from tribodyn.cli.printing import begun, print_findings, print_prose
+
     number = len(checked.warnings)
     unusual = f"can be computed, but has {number} unusual value{'s' * (number > 1)}, see the end"
     print_prose(f"{loaded.path}: {loaded.case.title}: {unusual if number else 'sound'}")

@@ -93,7 +93,7 @@ def _run(
     if scheduler is not None and engine is SearchEngine.native:
         raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
     with nullcontext() if engine is SearchEngine.native else client_of(None, scheduler) as client:
-        run_loaded(lambda: function(scenario, overrides=overrides(settings)), client=client, **how)
+        run_loaded(lambda: {"": function(scenario, overrides=overrides(settings))}, client=client, **how)
 
 
 def _answer(

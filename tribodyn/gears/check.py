@@ -1,6 +1,6 @@
 """What is said of a case of gears: the geometry sheet, stiffness, oil, laws and a rounded centre distance."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,7 @@ from tribodyn.cases.results import CheckResult, TextTable
 from tribodyn.gears.case import LubricatedCase, rounded_in
 from tribodyn.gears.prepare import PreparedGears
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import MaterialData
+from tribodyn.geometry.drive import MaterialData, Side
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
@@ -270,15 +270,30 @@ def sheet_tables(sheet: dict[str, Any]) -> Sequence[TextTable]:
     """Lay out the sheet of `tribodyn.geometry.sheet`: a table of the pair, one of the gears."""
     bodies = {name: sheet[name] for name in ("pinion", "gear")}
     pair = {name: value for name, value in sheet.items() if name not in bodies}
-    names = dict.fromkeys(name for body in bodies.values() for name in body)
+    return _sheet_table("Pair", {"value": pair}), _sheet_table("Gears", bodies)
+
+
+#: Endings of lines of a pair's sheet that hold for each of its gears.
+_OF_BOTH = ("module", "helix angle", "of the rack on its rolling line")
+
+
+def sheet_of_gear(sheet: Mapping[str, Any], side: Side) -> dict[str, Any]:
+    """The lines of a pair's sheet that describe one of its gears."""
+    return {name: value for name, value in sheet.items() if name.endswith(_OF_BOTH)} | sheet[side]
+
+
+def gear_table(name: str, sheets: Mapping[str, Mapping[str, Any]]) -> TextTable:
+    """Lay out the sheets of a gear by its meshes."""
+    titles = {f"in {mesh}" if mesh else "value": sheet for mesh, sheet in sheets.items()}
+    return _sheet_table(f"Gear {name}", titles)
+
+
+def _sheet_table(title: str, sheets: Mapping[str, Mapping[str, Any]]) -> TextTable:
     rows = [
-        (name, *(with_unit(*body[name]) if name in body else "" for body in bodies.values()))
-        for name in names
+        (name, *(with_unit(*sheet[name]) if name in sheet else "" for sheet in sheets.values()))
+        for name in dict.fromkeys(name for sheet in sheets.values() for name in sheet)
     ]
-    return (
-        TextTable("Pair", ("quantity", "value"), [(name, with_unit(*value)) for name, value in pair.items()]),
-        TextTable("Gears", ("quantity", *bodies), rows),
-    )
+    return TextTable(title, ("quantity", *sheets), rows)
 
 
 def with_unit(value: Any, unit: str) -> str:

@@ -6,7 +6,9 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from tribodyn.cases.assessment_part import WholeDrive, shared_names
 from tribodyn.errors import InputError, quoted
+from tribodyn.geometry.drive import SIDES
 from tribodyn.input.quantity import Table
 from tribodyn.input.sources import SCENARIOS, find_model
 from tribodyn.input.tables.duty import LOADS, SPEEDS
@@ -31,6 +33,33 @@ def with_pair(
     InputError where there is no such gearbox or mesh, and ValidationError of pydantic where `gearbox` is
     no such table.
     """
+    mesh, whole, case = _gearbox_of(data, referring, opened)
+    return _with_mesh(data, schema, whole, case, mesh)
+
+
+def with_every_pair(
+    data: Mapping[str, Any], schema: type[BaseModel], referring: Path, opened: Opened, *, internal: bool
+) -> dict[str, dict[str, Any] | None]:
+    """The data as `with_pair` gives them for every mesh by name, where there are several and none is named.
+
+    Meshes that differ by their planet alone count once. Those with an internal gear are None unless
+    `internal` says that the study knows them, or there is no other. Raises as `with_pair`.
+    """
+    mesh, whole, case = _gearbox_of(data, referring, opened)
+    names = [] if mesh else list(dict.fromkeys(shared_names(whole.meshes(case))))
+    if len(names) < 2:
+        return {}
+    every = {name: _with_mesh(data, schema, whole, case, name) for name in names}
+    rings = {
+        name for name, each in every.items() if any(each["drive"][side].get("internal") for side in SIDES)
+    }
+    if internal or rings == set(every):
+        return dict(every)
+    return {name: None if name in rings else each for name, each in every.items()}
+
+
+def _gearbox_of(data: Mapping[str, Any], referring: Path, opened: Opened) -> tuple[str, WholeDrive, Any]:
+    """The mesh that is named, or "", what the study of the gearbox says of its meshes, and its case."""
     asked = _Asked.model_validate({"gearbox": data["gearbox"]}).gearbox
     name = asked.scenario
     if isinstance(drive := data.get("drive"), Mapping) and "family" in drive:
@@ -42,10 +71,17 @@ def with_pair(
     if whole is None:
         rule = f"is no gearbox of several meshes, but {study.about}"
         raise InputError("gearbox.scenario", quoted(name), rule, "name its drive: drive = …")
+    return asked.mesh, whole, case()
+
+
+def _with_mesh(
+    data: Mapping[str, Any], schema: type[BaseModel], whole: WholeDrive, case: Any, mesh: str
+) -> dict[str, Any]:
     try:
-        tables = whole.pair(case(), asked.mesh)
+        tables = whole.pair(case, mesh)
     except InputError as error:
-        raise InputError(f"gearbox.{error.key}", error.value, error.rule, error.remedy) from None
+        remedy = error.remedy if mesh else f"{error.remedy}; all of them: tribodyn run, tribodyn.run_meshes"
+        raise InputError(f"gearbox.{error.key}", error.value, error.rule, remedy) from None
     return _put({key: value for key, value in data.items() if key != "gearbox"}, tables, schema)
 
 

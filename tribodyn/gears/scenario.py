@@ -11,7 +11,7 @@ from tribodyn.compliance.foundation import Support
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
 from tribodyn.gears.by_standard import quality_of
-from tribodyn.gears.mesh_of_gearbox import Opened, with_pair
+from tribodyn.gears.mesh_of_gearbox import Opened, with_every_pair, with_pair
 from tribodyn.gears.supports import displaced, has_supports, supports_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.fields import Slices, head_of
@@ -91,6 +91,8 @@ _ALIGNED = MisalignmentTable(from_quality=0.0)
 class GearScenario(SpectrumScenario):
     """A scenario of gears; each kind adds its tables."""
 
+    #: whether the kind knows internal gears
+    internal_gears: ClassVar[bool] = False
     #: tables that `completed` fills, before the defaults of this kind
     COMPLETED_BY: ClassVar = {
         "gearbox": ("operating", "mesh", "lubricant", "film", "friction", "temperature")
@@ -103,10 +105,20 @@ class GearScenario(SpectrumScenario):
 
     @classmethod
     def completed(cls, data: dict[str, Any], referring: Path, opened: Opened) -> dict[str, Any]:
-        """A scenario's data with the pair of gears of its `gearbox`, if any; see `of_gearbox.with_pair`."""
+        """Its data with the pair of gears of its `gearbox`, if any; see `mesh_of_gearbox.with_pair`."""
         if "gearbox" not in data:
             return data
         return defaults_written_out(with_pair(data, cls, referring, opened), cls)
+
+    @classmethod
+    def of_every_mesh(
+        cls, data: dict[str, Any], referring: Path, opened: Opened
+    ) -> dict[str, dict[str, Any] | None]:
+        """Data of every mesh of a `gearbox` that names none; see `mesh_of_gearbox.with_every_pair`."""
+        if "gearbox" not in data:
+            return {}
+        every = with_every_pair(data, cls, referring, opened, internal=cls.internal_gears)
+        return {mesh: each and defaults_written_out(each, cls) for mesh, each in every.items()}
 
 
 def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:
@@ -242,18 +254,17 @@ def broken_gear_rules(
     *,
     every_duty: bool = False,
     oil: bool = True,
-    internal: bool = False,
     every_tooth: bool = False,
 ) -> Iterator[InputError]:
     """Go through the broken rules of drive, duty, oil, temperatures, losses and mesh.
 
     Tables and keys that the scenario's kind does not have count as absent. `every_duty` says whether the
-    study runs all duties of a load spectrum at a time, `oil` whether the lubricant is looked at, `internal`
-    whether it knows internal gears, `every_tooth` whether teeth may differ.
+    study runs all duties of a load spectrum at a time, `oil` whether the lubricant is looked at,
+    `every_tooth` whether teeth may differ.
     """
     drive, mesh, lubricant = scenario.drive, scenario.mesh, scenario.lubricant
     if drive.has_ring:
-        if not internal:
+        if not getattr(scenario, "internal_gears", True):
             yield internal_refused(drive)
             return
         yield from broken_internal_runs(scenario)

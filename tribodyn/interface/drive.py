@@ -10,8 +10,10 @@ import tomli_w
 
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.errors import InputError
-from tribodyn.gears.check import sheet_tables
+from tribodyn.gears.check import sheet_of_gear, sheet_tables
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.body import gear_polygon
+from tribodyn.geometry.drive import Side
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.limits.limits import plain_distances
@@ -23,7 +25,7 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh
 from tribodyn.quantities.quantity import in_si
-from tribodyn.studies.drive_file import DriveModel, as_spline, load_drive
+from tribodyn.studies.drive_file import DriveModel, as_spline, load_drive, load_gear
 
 if TYPE_CHECKING:
     import xarray
@@ -58,11 +60,11 @@ class GearPair:
 
     def __init__(
         self,
-        model: str | Path | Mapping[str, Any],
+        model: str | Path | Mapping[str, Any] | DriveModel,
         overrides: Mapping[str, Any] | None = None,
         mesh: str | None = None,
     ) -> None:
-        self._model = _loaded(model, overrides, mesh)
+        self._model = model if isinstance(model, DriveModel) else _loaded(model, overrides, mesh)
         self.title, self.family = self._model.title, self._model.family
         with self._model.origins.naming():
             self._assembly = check(family(self.family), self._model.drive)
@@ -190,6 +192,82 @@ class GearPair:
         )
 
 
+class NamedGear:
+    """One gear of a pair or of a train, a planet or a ring as well; `gear` makes one.
+
+    Attributes
+    ----------
+    name : str
+        Of the gear.
+    pairs : dict of GearPair
+        The pair in each of its meshes, by the name of the mesh (``""`` of a pair alone); meshes that differ
+        by their planet alone are there once.
+    sides : dict of str
+        What it is in them, "pinion" or "gear". A ring is always the gear.
+    """
+
+    def __init__(self, name: str, pairs: Mapping[str, tuple[DriveModel, Side]]) -> None:
+        self.name = name
+        self.pairs = {mesh: GearPair(pair) for mesh, (pair, _) in pairs.items()}
+        self.sides: dict[str, Side] = {mesh: side for mesh, (_, side) in pairs.items()}
+
+    @property
+    def sheet(self) -> dict[str, dict[str, Any]]:
+        """Its lines of the geometry sheet by the name of the mesh: name to (value, SI unit)."""
+        return {mesh: sheet_of_gear(pair.sheet, self.sides[mesh]) for mesh, pair in self.pairs.items()}
+
+    @property
+    def outline(self) -> np.ndarray:
+        """Its closed outline about its axis, (points, 2), m."""
+        mesh, pair = next(iter(self.pairs.items()))
+        return np.asarray(gear_polygon(pair._assembly, self.sides[mesh]))
+
+    @property
+    def constraints(self) -> dict[str, float]:
+        """Its distances from the limits of existence, see `constraints`: the smallest of all meshes."""
+        found: dict[str, float] = {}
+        for mesh, pair in self.pairs.items():
+            for name, value in pair.constraints.items():
+                limit = name.removesuffix(f"_{self.sides[mesh]}")
+                if limit != name:
+                    found[limit] = min(value, found.get(limit, value))
+        return found
+
+    def __repr__(self) -> str:
+        meshes = ", ".join(filter(None, self.pairs)) or "one mesh"
+        teeth = next(iter(self.sheet.values()))["teeth"][0]
+        return f"<tribodyn gear: {self.name}, {teeth:g} teeth, in {meshes}>"
+
+
+@in_python()
+@checked
+def gear(
+    model: str | Path | Mapping[str, Any], name: str, overrides: Mapping[str, Any] | None = None
+) -> NamedGear:
+    """Take one gear of a train, or of a pair, by its name.
+
+    Parameters
+    ----------
+    model, overrides
+        As `drive` takes them.
+    name : str
+        Of the gear in the scenario: a planet by its own name, or all of a set by the name of their table; of
+        a pair "pinion" or "gear".
+
+    Returns
+    -------
+    NamedGear
+
+    Raises
+    ------
+    InputError
+        If there is none of that name, or no such gears can be made.
+    """
+    text = in_toml(model) if isinstance(model, Mapping) else str(model)
+    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
+    return NamedGear(name, load_gear(text, changes, name))
+
+
 @in_python()
 @checked
 def drive(
@@ -223,7 +301,9 @@ def drive(
 @in_python()
 @checked
 def constraints(
-    model: str | Path | Mapping[str, Any] | GearPair, overrides: Mapping[str, Any] | None = None
+    model: str | Path | Mapping[str, Any] | GearPair,
+    overrides: Mapping[str, Any] | None = None,
+    mesh: str | None = None,
 ) -> dict[str, float]:
     """How far a pair is from the limits of its existence: signed distances, positive where gears exist.
 
@@ -231,8 +311,8 @@ def constraints(
 
     Parameters
     ----------
-    model, overrides
-        As `drive` takes them, or a gear pair; its teeth need not exist.
+    model, overrides, mesh
+        As `drive` takes them, or a gear pair; its teeth need not exist. Of one gear: `NamedGear.constraints`.
 
     Returns
     -------
@@ -253,5 +333,5 @@ def constraints(
     """
     if isinstance(model, GearPair):
         return model.constraints
-    loaded = _loaded(model, overrides)
+    loaded = _loaded(model, overrides, mesh)
     return plain_distances(assemble(family(loaded.family), loaded.drive))

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 from tribodyn.input.sources import find_scenario
 from tribodyn.interface.arguments import checked
 from tribodyn.interface.result import Run
-from tribodyn.interface.scenario import Source, in_python, scenario
+from tribodyn.interface.scenario import Source, in_python, resolved, scenario
 from tribodyn.post.progress import progress_of
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
+from tribodyn.studies.protocol.load import every_from
 from tribodyn.studies.protocol.run import run as run_case
 from tribodyn.studies.protocol.study import CaseHead, Progress
 
@@ -85,6 +86,51 @@ def run(
         allow_large=allow_large,
         resume=resume,
     )
+
+
+@in_python()
+@checked
+def run_meshes(
+    source: Source,
+    overrides: Mapping[str, Any] | None = None,
+    *,
+    output: str | Path | None = None,
+    force: bool = False,
+    progress: Progress | bool | None = None,
+    allow_large: bool = False,
+) -> dict[str, Run]:
+    """Run a study of a pair of gears for every mesh of a gearbox: of ``[gearbox]`` without ``mesh``.
+
+    Parameters
+    ----------
+    source, overrides
+        As `scenario` takes them.
+    output : path, optional
+        Folder of the records, each named after the scenario and its mesh; default: temporary ones.
+    force, progress, allow_large
+        As of `run`.
+
+    Returns
+    -------
+    dict
+        A `Run` by the name of the mesh. Meshes that differ by their planet alone are there once, by the name
+        that they share (``"set-sun"``); those with a ring only where the kind of study knows internal gears.
+        Of any other scenario its only run, by its name.
+
+    Raises
+    ------
+    InputError
+        Before anything is computed, for what is wrong with the case of any mesh.
+    OutputError
+        If a record cannot be written.
+    """
+    how: dict[str, Any] = {"force": force, "progress": progress, "allow_large": allow_large}
+    found: dict[str, Run] = {}
+    for mesh, loaded in every_from(*resolved(source, overrides)).cases.items():
+        name = loaded.case.name
+        record = None if output is None else Path(output) / f"{name}.h5"
+        found[mesh or name] = recorded(loaded.case, record, **how)
+    return found
 
 
 def recorded(

@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError, OutputError
-from tribodyn.input.resolve import OVERRIDES, resolve_table
+from tribodyn.input.resolve import OVERRIDES, Resolved, resolve, resolve_table
+from tribodyn.input.sources import find_scenario
 from tribodyn.input.vary import VARY
 from tribodyn.interface.arguments import checked
-from tribodyn.studies.protocol.load import load_scenario, loaded_from, table_of
+from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.protocol.study import CaseHead
 
 #: What the options are called that stand for the scenario's keys.
@@ -94,19 +95,25 @@ def scenario(source: Source, overrides: Mapping[str, Any] | None = None) -> Any:
     A value with a unit is a text, ``"3 mm"``, or a quantity of pint. NumPy numbers and arrays are taken as
     Python's numbers and lists.
     """
+    if isinstance(source, CaseHead) and not overrides:
+        return source
+    return loaded_from(*resolved(source, overrides)).case
+
+
+def resolved(source: Source, overrides: Mapping[str, Any] | None) -> tuple[Resolved, Path]:
+    """What a source says with everything in it, and its file; raises as `scenario`."""
     changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
     if isinstance(source, (str, Path)):
-        return load_scenario(source, changes)
+        path = find_scenario(str(source))
+        return resolve(path, changes, table_of), path
     if isinstance(source, CaseHead):
-        if not changes:
-            return source
         written = tomllib.loads(source.toml)
     elif isinstance(source, Mapping):
         written = in_toml(source)
     else:
         rule = f"expected a name, a path, a mapping or a case, got {type(source).__name__}"
         raise InputError("scenario", None, rule, 'give the name of a scenario: "crc-23-47"')
-    return loaded_from(resolve_table(written, _FILE, changes, table_of), _FILE).case
+    return resolve_table(written, _FILE, changes, table_of), _FILE
 
 
 def in_toml(value: Any) -> Any:

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from pydantic import ValidationError
 
-from tribodyn.errors import InputError, InputErrors, quoted
+from tribodyn.errors import InputError, InputErrors, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
-from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of, internal_side
+from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, Side, body_of, internal_side
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.spline import FEWEST, MOST
 from tribodyn.geometry.gauges import Gauge
@@ -107,6 +107,27 @@ def load_drive(
         return _of_scenario(path, overrides or {}, mesh)
     _refuse(mesh)
     return _of_table(written, path, overrides or {})
+
+
+def load_gear(
+    model: str | Mapping[str, Any], overrides: Mapping[str, Any] | None = None, gear: str = ""
+) -> dict[str, tuple[DriveModel, Side]]:
+    """The pairs in which a gear is, and what it is in them: of a train by the name of the mesh.
+
+    Of a pair the gear is its pinion or its gear, and the mesh has no name. Meshes that differ by their planet
+    alone are there once. Arguments and errors as of `load_drive`, and where there is no such gear.
+    """
+    if not isinstance(model, Mapping) and "kind" in read_toml(path := find_drive_or_scenario(model)):
+        case, study, *_ = load(path, overrides or {})
+        if (whole := study.whole()) is not None:
+            return {
+                mesh: (_of_table(whole.pair(case, mesh)["drive"], path, {}), side)
+                for mesh, side in whole.gear(case, gear).items()
+            }
+    pair = load_drive(model, overrides)
+    if gear not in SIDES:
+        raise unknown_name("gear", gear, SIDES, "gear")
+    return {"": (pair, gear)}
 
 
 def _of_table(written: dict[str, Any], path: Path, overrides: Mapping[str, Any]) -> DriveModel:

@@ -181,7 +181,8 @@ def draw_speed(axes: Axes, record: Record, view: View) -> None:
     axes.set_xlabel(abscissa_label(view))
 
 
-def _stacked(about: str, *panels: Trace) -> Drawing:
+def stacked(about: str, *panels: Trace) -> Drawing:
+    """A figure of panels over the mesh cycles, one above the other."""
     return Drawing(about, partial(_over_phase, panels))
 
 
@@ -190,16 +191,16 @@ DRAWINGS: dict[str, Drawing] = {
     "overview": Drawing(
         "path of contact, transmission error, load, friction, film, efficiency", overview_figure
     ),
-    "transmission-error": _stacked(
+    "transmission-error": stacked(
         "transmission error, and deflection along the normal of every pair", TRANSMISSION_ERROR, DEFLECTION
     ),
     "spectrum": Drawing("spectrum of the rotational transmission error, with the modes", spectrum_figure),
-    "normal-load": _stacked("normal load of every pair", NORMAL_LOAD),
-    "friction": _stacked("friction force and coefficient", FRICTION_FORCE, FRICTION_COEFFICIENT),
-    "film": _stacked("film thickness and film parameter", FILM_THICKNESS, FILM_PARAMETER),
-    "entrainment": _stacked("entrainment and sliding speed", ENTRAINMENT, SLIDING),
-    "pressure": _stacked("Hertz pressure and flash temperature", HERTZ_PRESSURE, FLASH_TEMPERATURE),
-    "efficiency": _stacked("instantaneous efficiency", EFFICIENCY),
-    "mesh-stiffness": _stacked("stiffness of every pair, and of all together", STIFFNESS),
+    "normal-load": stacked("normal load of every pair", NORMAL_LOAD),
+    "friction": stacked("friction force and coefficient", FRICTION_FORCE, FRICTION_COEFFICIENT),
+    "film": stacked("film thickness and film parameter", FILM_THICKNESS, FILM_PARAMETER),
+    "entrainment": stacked("entrainment and sliding speed", ENTRAINMENT, SLIDING),
+    "pressure": stacked("Hertz pressure and flash temperature", HERTZ_PRESSURE, FLASH_TEMPERATURE),
+    "efficiency": stacked("instantaneous efficiency", EFFICIENCY),
+    "mesh-stiffness": stacked("stiffness of every pair, and of all together", STIFFNESS),
     "path-of-contact": Drawing("both gears in mesh, path of contact, key points", path_figure),
 }

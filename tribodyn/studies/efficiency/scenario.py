@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -113,6 +113,8 @@ class EfficiencyOutput(Table):
 class EfficiencyScenario(GearScenario):
     """A scenario file of an efficiency study."""
 
+    internal_gears: ClassVar[bool] = True
+
     kind: Literal["efficiency"]
     lubricant: Oil
     operating: OiledOperatingTable
@@ -149,7 +151,7 @@ def _at_duty(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     yield from driving_internal(scenario.drive)
-    yield from broken_gear_rules(scenario, every_duty=True, internal=True)
+    yield from broken_gear_rules(scenario, every_duty=True)
     yield from broken_support_keys(scenario)
     yield from broken_stiffness_rules(scenario.mesh, ("constant",))
     drive, operating = scenario.drive, scenario.operating

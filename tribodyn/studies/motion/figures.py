@@ -52,8 +52,15 @@ _LOW, _FEW = 1.8, 3
 
 def mesh_forces(record: Record) -> np.ndarray:
     """Force of every mesh on its driven gear along the pitch tangent, N (samples, meshes)."""
+    if not _has_meshes(record):
+        return record["driven_torque"][:, None] / abs(record.geometry["gear_pitch_radius"])
     radii = [abs(record.of_mesh(mesh, "geometry")["gear_pitch_radius"]) for mesh in record["mesh"]]
     return record["driven_torque"] / np.array(radii)
+
+
+def losses(record: Record) -> np.ndarray:
+    """Power of friction in every mesh, W (samples, meshes)."""
+    return record["mesh_power_friction"] if _has_meshes(record) else record["power_friction"][:, None]
 
 
 def thinnest_films(record: Record) -> np.ndarray:
@@ -67,6 +74,9 @@ def displacements(record: Record) -> np.ndarray:
 
     NaN of those that only turn.
     """
+    if not _has_meshes(record):
+        moved = dict(zip(record["dof"], record["displacement"].T, strict=True))
+        return np.stack([np.hypot(moved[f"x_{side}"], moved[f"y_{side}"]) for side in "pg"], axis=1)
     x, y = record["x"].copy(), record["y"].copy()
     places = record.geometry
     for own in sets_of(record):
@@ -93,7 +103,7 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
         (MESH_FORCE, mesh_forces(record), meshes),
         (ERROR, record["transmission_error_rotational"], meshes),
         (FILM, thinnest_films(record), meshes),
-        (LOSS, record["mesh_power_friction"], meshes),
+        (LOSS, losses(record), meshes),
         (DISPLACEMENT, moved, bodies) if held else (EFFICIENCY, record["efficiency"][:, None], ["train"]),
     )
     for letter, axes, (trace, values, names) in zip("bcdef", rows.flat[1:], curves, strict=True):
@@ -125,7 +135,7 @@ def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], vie
     """Draw a curve of every mesh or body, each record in a panel of its own."""
     figure, rows = _rows(len(records), records)
     for letter, axes, record in zip(_letters(records), rows, records, strict=True):
-        names = list(record[over])
+        names = list(record[over]) if over in record else ["mesh"]
         if len(names) > len(style.PALETTE):
             names = mesh_labels(record) if over == "mesh" else body_labels(record)
         draw_curves(axes, record, of(record), names, trace, view)
@@ -239,6 +249,7 @@ def _either(of_pair: Drawing | None, of_train: Drawing | None) -> Drawing:
 _OF_PAIR: dict[str, Drawing] = {
     **over_mesh.DRAWINGS,
     **over_face.DRAWINGS,
+    "film-parameter": over_mesh.stacked("film thickness over roughness", over_mesh.FILM_PARAMETER),
     "orders": Drawing(
         "orders of the mesh while the speed changes, such as run-up",
         spectrum.orders_figure,
@@ -251,18 +262,6 @@ _OF_TRAIN: dict[str, Drawing] = {
     "transmission-error": Drawing(
         "transmission error of every mesh",
         partial(_all_meshes, ERROR, lambda record: record["transmission_error_rotational"], "mesh"),
-    ),
-    "mesh-force": Drawing(
-        "force of every mesh along its pitch tangent", partial(_all_meshes, MESH_FORCE, mesh_forces, "mesh")
-    ),
-    "displacement": Drawing(
-        "displacement of every body in its bearing",
-        partial(_all_meshes, DISPLACEMENT, displacements, "body"),
-        lambda record: bool(np.any(np.isfinite(record["x"]))),
-    ),
-    "loss": Drawing(
-        "loss to friction in every mesh",
-        partial(_all_meshes, LOSS, lambda record: record["mesh_power_friction"], "mesh"),
     ),
     "planet-load": Drawing(
         "load of every planet of planetary sets, at sun and ring",
@@ -292,6 +291,18 @@ _OF_TRAIN: dict[str, Drawing] = {
 }
 
 _OF_ANY: dict[str, Drawing] = {
+    "mesh-force": drawing(
+        "force of every mesh along its pitch tangent",
+        partial(_all_meshes, MESH_FORCE, mesh_forces, "mesh"),
+        lambda record: "driven_torque" in record,
+        ("mesh-force", "{path} has no torques of the mesh", "run it again"),
+    ),
+    "displacement": Drawing(
+        "displacement of every body in its bearing",
+        partial(_all_meshes, DISPLACEMENT, displacements, "body"),
+        lambda record: bool(np.any(np.isfinite(displacements(record)))),
+    ),
+    "loss": Drawing("loss to friction in every mesh", partial(_all_meshes, LOSS, losses, "mesh")),
     **by_revolution.DRAWINGS,
     "bearing-load": drawing(
         "force on every bearing and pin",

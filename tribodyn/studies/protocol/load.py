@@ -4,7 +4,7 @@ import hashlib
 import json
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from importlib import resources
 from pathlib import Path
@@ -108,6 +108,51 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
     return loaded_from(resolve(path, overrides or {}, table_of), path)
 
 
+class EveryMesh(NamedTuple):
+    """Cases of the meshes of a gearbox by their names; under "" where there is one case."""
+
+    cases: dict[str, Loaded]
+    left_out: tuple[str, ...] = ()  # meshes that the kind does not know
+
+    def remarks(self) -> list[str]:
+        """What is left out, if anything."""
+        rule = "is left out: this kind of study has external gears alone"
+        return [f"mesh {mesh} {rule}" for mesh in self.left_out]
+
+
+def load_every(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> EveryMesh:
+    """Read a scenario as `load` does; a case of every mesh of a gearbox of which it names none."""
+    path = find_scenario(str(scenario))
+    return every_from(resolve(path, overrides or {}, table_of), path)
+
+
+def every_from(resolved: Resolved, path: Path) -> EveryMesh:
+    """The cases of a scenario's file as `load_every` gives them; `resolved` as of `loaded_from`."""
+    data, parts = resolved.data, {}
+    if (of_every_mesh := getattr(table_of(data), "of_every_mesh", None)) is not None:
+        with suppress(InputError, ValidationError):  # said below
+            parts = of_every_mesh(data, path, opened)
+    if not parts:
+        return EveryMesh({"": loaded_from(resolved, path)})
+    found: dict[str, Loaded] = {}
+    stem = data.get("name") or _name_of(path.stem)
+    for mesh, part in parts.items():
+        if part is None:
+            continue
+        part["name"] = f"{stem}-{_name_of(mesh)}"
+        part["title"] = f"{data.get('title', '')}: mesh {mesh}"
+        try:
+            found[mesh] = loaded_from(resolved._replace(data=part), path)
+        except InputError as error:
+            raise error.moved(lambda file, mesh=mesh: f"{file}, mesh {mesh}") from None
+    return EveryMesh(found, tuple(mesh for mesh, part in parts.items() if part is None))
+
+
+def _name_of(text: str) -> str:
+    """A text as the name of a record."""
+    return re.sub(r"[^\w .-]", "-", text).lstrip(" .-")
+
+
 def opened(path: Path) -> tuple[Study, Callable[[], Any]]:
     """The study of a scenario's file, and what makes its case."""
     resolved = resolve(path, {}, table_of)
@@ -142,7 +187,7 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     """
     data, origins, unresolved = resolved
     origins = origins.over(data)  # the grid of a sweep changes values
-    data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")
+    data.setdefault("name", _name_of(path.stem) or "scenario")
     study, kind = study_of(data), data.get("kind")
     model = study.table(data)
     try:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -103,6 +103,8 @@ class WearOutput(Table):
 class WearScenario(GearScenario):
     """A scenario file of a wear study."""
 
+    internal_gears: ClassVar[bool] = True
+
     kind: Literal["wear"]
     lubricant: Oil | None = Field(None, description="default: the flanks run without a film")
     operating: OiledOperatingTable
@@ -160,7 +162,7 @@ def _own_teeth(scenario: Scenario) -> tuple[OwnTeeth, OwnTeeth]:
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     yield from driving_internal(scenario.drive)
-    yield from broken_gear_rules(scenario, internal=True, every_tooth=scenario.wear.teeth == EACH)
+    yield from broken_gear_rules(scenario, every_tooth=scenario.wear.teeth == EACH)
     yield from broken_support_keys(scenario)
     drive, wear = scenario.drive, scenario.wear
     yield from broken_driving_rules(scenario.operating, (drive.pinion.teeth, drive.gear.teeth))

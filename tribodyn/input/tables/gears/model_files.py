@@ -314,4 +314,4 @@ class GearboxTable(quantity.Table):
     """A mesh of another scenario."""
 
     scenario: quantity.Text = Field(description="name of a scenario of a train, or its file")
-    mesh: quantity.Text = quantity.written("", description="name of the mesh; default: the only one")
+    mesh: quantity.Text = quantity.written("", description="name of the mesh; default: every mesh")

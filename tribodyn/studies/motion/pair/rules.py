@@ -23,7 +23,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
     of_drive = [
         *driving_internal(scenario.drive),
-        *broken_gear_rules(scenario, internal=True, every_tooth=True),
+        *broken_gear_rules(scenario, every_tooth=True),
     ]
     yield from of_drive
     if not of_drive:

@@ -5,7 +5,7 @@ as they would be written in TOML. Rules that tie fields together stand in `rules
 solvers in their registries.
 """
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -83,6 +83,8 @@ class Operating(OiledOperatingTable):
 
 class GearPairScenario(GearScenario):
     """A scenario file."""
+
+    internal_gears: ClassVar[bool] = True
 
     kind: Literal["gear-pair"] = "gear-pair"
     lubricant: Oil

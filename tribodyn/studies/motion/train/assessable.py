@@ -4,10 +4,10 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any
 
-from tribodyn.cases.assessment_part import MeshAtDuty, Meshing, WholeDrive
+from tribodyn.cases.assessment_part import MeshAtDuty, Meshing, WholeDrive, shared_names
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.gears.rating.bearings import TurningShaft
-from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
@@ -59,31 +59,45 @@ _OF_ALL = ("material", "mean_roughness", "quality", "quality_edition")
 
 
 def pair_of(case: Gearbox, name: str) -> dict[str, Any]:
-    """The pair of gears of a mesh at its duty, its driver the pinion, as a scenario has it.
+    """The pair of gears of a mesh at its duty as a scenario has it; its driver, unless internal, the pinion.
 
-    Without a name that of the only mesh. Raises InputError for a mesh that is not there, or has no teeth.
+    Without a name that of the only mesh; what the meshes of all planets share names the first of them. Raises
+    InputError for a mesh that is not there, or has no teeth.
     """
-    names = [mesh.name for mesh in case.meshes]
-    if not name and len(names) > 1:
+    names, shared = [mesh.name for mesh in case.meshes], shared_names(meshes(case))
+    if not name and len(set(shared)) > 1:
         rule = f"missing: the gearbox has {len(names)} meshes"
-        raise InputError("mesh", None, rule, f"name one of them: {', '.join(names)}")
-    if name and name not in names:
-        raise unknown_name("mesh", name, names, "mesh")
-    mesh = case.meshes[names.index(name) if name else 0]
+        raise InputError("mesh", None, rule, f"name one of them: {', '.join(dict.fromkeys(shared))}")
+    if name and name not in (*names, *shared):
+        raise unknown_name("mesh", name, dict.fromkeys((*names, *shared)), "mesh")
+    mesh = case.meshes[names.index(name) if name in names else shared.index(name or shared[0])]
     table, pair = tomllib.loads(case.toml), mesh.pair
     if mesh.key.startswith("mesh."):
         rule = "is of a bare model, without teeth"
         raise InputError("mesh", quoted(mesh.name), rule, "name a mesh of a [[stage]]")
-    operating = table["operating"]
-    duty = {
-        "pinion_speed": f"{pair.operating.pinion_speed!r} rad/s",
-        "gear_torque": f"{pair.operating.gear_torque!r} N*m",
-    }
-    duty |= {key: operating[key] for key in ("oil_temperature",) if key in operating}
-    found = pair_tables(case, mesh, table)
+    operating, found = table["operating"], pair_tables(case, mesh, table)
     if mesh.key != "drive":
         found["drive"] |= {"title": f"mesh {mesh.name} of {case.title}", "source": "its scenario"}
+    drive = found["drive"]
+    speed, torque = pair.operating.pinion_speed, pair.operating.gear_torque
+    if drive["pinion"].get("internal"):  # of a pair the gear is internal: with a negative torque it drives
+        found["drive"] = {
+            **drive,
+            "pinion": _on_both_flanks(drive["gear"]),
+            "gear": _on_both_flanks(drive["pinion"]),
+        }
+        ratio = drive["pinion"]["teeth"] / drive["gear"]["teeth"]
+        speed, torque = speed * ratio, -torque * ratio
+    duty = {"pinion_speed": f"{speed!r} rad/s", "gear_torque": f"{torque!r} N*m"}
+    duty |= {key: operating[key] for key in ("oil_temperature",) if key in operating}
     return found | {"operating": duty}
+
+
+def _on_both_flanks(gear: Mapping[str, Any]) -> dict[str, Any]:
+    """A gear's table whose modification is on the back flanks too, which carry where the gear drives."""
+    if "modification" not in gear:
+        return dict(gear)
+    return {**gear, "modification": {**gear["modification"], "both_flanks": True}}
 
 
 def pair_tables(case: Gearbox, mesh: TrainMesh, table: Mapping[str, Any]) -> dict[str, Any]:
@@ -112,6 +126,23 @@ def pair_tables(case: Gearbox, mesh: TrainMesh, table: Mapping[str, Any]) -> dic
     return found | {"drive": drive}
 
 
+def meshes_of_gear(case: Gearbox, name: str) -> dict[str, Side]:
+    """The meshes of a gear, or of all planets of a set, and what it is in the pair that `pair_of` gives.
+
+    Raises InputError for a gear that is not there.
+    """
+    names = {gear.key.removeprefix("gear."): gear for gear in reversed(case.gears)}
+    names |= {gear.name: gear for gear in case.gears}
+    if name not in names:
+        raise unknown_name("gear", name, names, "gear")
+    shared = shared_names(meshes(case))
+    found: dict[str, Side] = {}
+    for m, side in names[name].meshes:
+        turned = case.gears[case.meshes[m].gears[0]].teeth < 0
+        found.setdefault(shared[m], SIDES[turned ^ SIDES.index(side)])
+    return found
+
+
 def duties(case: Gearbox) -> list[tuple[float, Gearbox]]:
     """Every duty of the load spectrum with its share of the time."""
     table = tomllib.loads(case.toml)
@@ -135,4 +166,4 @@ def shafts(case: Gearbox) -> list[TurningShaft]:
     ]
 
 
-WHOLE = WholeDrive(meshes, at_speed, lambda case: case.source.speed, pair_of, duties, shafts)
+WHOLE = WholeDrive(meshes, at_speed, lambda case: case.source.speed, pair_of, meshes_of_gear, duties, shafts)

@@ -121,7 +121,7 @@ def _pairs(scenario: Scenario, train: TrainKinematics) -> Iterator[InputError]:
         view = pair_view(scenario, train, mesh)
         part = train.parts.meshes[train.motion.meshes[mesh]]
         back = view.mesh.backlash is not None or gives_backlash(view.drive)
-        for error in broken_gear_rules(view, every_duty=True, internal=True, every_tooth=True):
+        for error in broken_gear_rules(view, every_duty=True, every_tooth=True):
             error = in_terms_of_train(error, train, mesh)
             if str(error) not in said:
                 said.add(str(error))
