@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.pair_outputs import outputs
 from tests.support.soak_parameters import all_in_soak
 from tests.support.states import TURN_G, WORK_IN, WORK_PARAMETRIC, recorded, sampled
 from tribodyn.gears.motion.running import energy_residual
@@ -13,7 +14,6 @@ from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.march.reversal import SHARES, stops
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
-from tribodyn.studies.motion.record import outputs
 
 SAMPLES = 100
 

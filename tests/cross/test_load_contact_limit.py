@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from tests.support.closures import known
+from tests.support.pair_outputs import outputs
 from tests.support.states import recorded, sampled
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
-from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
@@ -20,10 +20,10 @@ from tribodyn.geometry.flanks.modification import (
     Modifications,
     Relief,
 )
+from tribodyn.geometry.helix import face_positions
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import TransientSettings
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.motion.record import outputs
 from tribodyn.train.schedule import interval_of
 from tribodyn.tribology.law import FrictionData
 

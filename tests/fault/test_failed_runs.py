@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.support.pair_outputs import outputs
 from tests.support.states import SLIP, altered
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import Record
@@ -11,7 +12,6 @@ from tribodyn.solve.integrator import Status
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.motion import run as simulate
-from tribodyn.studies.motion.record import outputs
 from tribodyn.studies.protocol.load import load_scenario
 
 

@@ -6,7 +6,6 @@ import numpy as np
 
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
-from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import family
@@ -18,6 +17,7 @@ from tribodyn.geometry.flanks.modification import (
     Modifications,
     Relief,
 )
+from tribodyn.geometry.helix import face_positions
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)

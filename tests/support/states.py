@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
+from tests.support.pair_outputs import outputs
 from tribodyn.dynamics.parameters import DRIVE_TORQUE, Model
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
-from tribodyn.studies.motion.record import outputs
 from tribodyn.train.flow import tree
 from tribodyn.train.schedule import Schedule
 from tribodyn.train.structure import GROUND, TURN, layout_of, shift_of, turn_of, works

@@ -10,7 +10,7 @@ from typing import Any, Generic, NamedTuple, TypeVar
 
 from tribodyn.errors import InputError
 from tribodyn.gears.case import GearCase, LawfulCase, LubricatedCase
-from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
 from tribodyn.geometry.families import family
 from tribodyn.mesh.cycle import MeshCycle
@@ -97,22 +97,6 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
     for temperature in fixed_point(step, (supplied, supplied), TEMPERATURE_RANGE):
         _refuse_unknown(temperature, wanted)
     return latest[0]
-
-
-def at_own_temperature(case: Any, bulk_temperature: float | None, mesh_loss: float) -> Any | None:
-    """Return the case at the bulk temperature that its motion's loss gives; None where it was run there.
-
-    A case begins at the temperature of its quasi-static loss, from which vibration moves it. It is given as
-    it was run, with its oil as that enters the mesh; with the temperature at which it was run, K, None where
-    it asks for none; and with the mean loss of its motion to tooth friction, W.
-    """
-    if bulk_temperature is None or not mesh_loss >= 0.0:
-        return None
-    again = replace(case, temperature=replace(case.temperature, mesh_loss=mesh_loss))
-    thermal = thermal_state(again, assemble(family(case.family), case.drive), lambda _: mesh_loss)
-    assert thermal is not None
-    assert thermal.temperatures is not None
-    return None if abs(thermal.temperatures.bulk - bulk_temperature) <= CLOSE else again
 
 
 def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, Loss]:

@@ -15,6 +15,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Drive, Side, reference_radius
 from tribodyn.geometry.path import Path, PerContact
 from tribodyn.numerics.elementary import arctan2, cos, sin, sqrt, tan
+from tribodyn.numerics.shapes import Array, Float
 
 
 def pitch_slope(assembly: Assembly) -> Any:
@@ -102,3 +103,8 @@ def lead(drive: Drive, side: Any) -> Any:
 
 def _angle(tangent: Any) -> Any:
     return arctan2(tangent, 1.0 + 0.0 * tangent)
+
+
+def face_positions(width: Any, slices: int) -> Float[Array, " slice"]:
+    """Middles of equal slices of the face (S,), m from the middle of the face."""
+    return ((np.arange(slices) + 0.5) / slices - 0.5) * width

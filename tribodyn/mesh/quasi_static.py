@@ -175,20 +175,6 @@ class SinglePair(NamedTuple):
     stiffness: float
 
 
-def total_stiffness(
-    stiffness: Float[Array, "sample pair"],
-    pressure_angle: Float[Array, "sample pair"],
-    pitch_slope: float = 0.0,
-) -> Float[Array, " sample"]:
-    """Stiffness of all pairs together along the pitch tangent, Σ k cos² α cos² β_n, N/m.
-
-    The force along the pitch tangent per rotational transmission error, of a mesh whose pairs deflect apart;
-    `pitch_slope` is tan β_w.
-    """
-    square = np.cos(np.nan_to_num(pressure_angle)) ** 2
-    return np.sum(stiffness * square / (1.0 + pitch_slope**2 * square), axis=-1)
-
-
 def single_pair(cycle: MeshCycle, gear_torque: float) -> SinglePair:
     """One pair at the pitch point under a gear torque, N m, of either sign, with the load T_g/(r_g cos α).
 

@@ -25,7 +25,7 @@ from tribodyn.geometry.drive import MaterialData
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import back_flanks, uneven_teeth
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.slices.loaded import tabulate_slices
+from tribodyn.mesh.slices.loaded import tabulate_loaded_slices
 from tribodyn.mesh.table import (
     Elasticity,
     MeshData,
@@ -66,7 +66,7 @@ def tabulate_loaded(
     for flanks in sides:
         check_contact(flanks, torque)
     if is_helical(assembly):
-        return tabulate_slices(front, mesh, torque, back)
+        return tabulate_loaded_slices(front, mesh, torque, back)
     # where the mesh vibrates by more than this reach, contact begins too late in the model
     reaches = [reach(flanks, torque, early=mesh.early) for flanks in sides]
     limits = min(start for start, _ in reaches), max(end for _, end in reaches)

@@ -104,11 +104,6 @@ def _write_times(part: h5py.Group, rate: float, signals: Sequence[SensorSignal])
             part[signal.name].attrs[key] = value
 
 
-def has_sensors(record: Record) -> bool:
-    """Whether a record holds signals of sensors, with some samples."""
-    return SENSORS in record.groups and any(len(signal.values) > 1 for signal in read_sensed(record).signals)
-
-
 def read_sensed(record: Record) -> Sensed:
     """The signals of a record, in the order of its scenario; none where it has no sensors.
 

@@ -61,17 +61,13 @@ def as_measured(values: Float[Array, " sample"], sensor: SensorData) -> Float[Ar
     return values
 
 
-#: Window -> what it is.
-WINDOWS = {
-    "hann": "Hann's, as wide as the planets are apart: one planet after the other is heard "
-    "(Inalpolat & Kahraman, J. Sound Vib. 323 (2009) 677)",
-    "hamming": "Hamming's over the whole turn: every planet is always heard, with 0.08 on the far side "
-    "(Liang, Zuo & Hoseini, Eng. Fail. Anal. 48 (2015) 245, without their factor for the width)",
-}
-
-
 def heard(away: Float[Array, "sample planet"], window: str, planets: int) -> Float[Array, "sample planet"]:
-    """Weights 0 … 1 of planets by their angles from the sensor, rad."""
+    """Weights 0 … 1 of planets by their angles from the sensor, rad.
+
+    The window "hann" is as wide as the planets are apart, so that one after the other is heard (Inalpolat &
+    Kahraman, J. Sound Vib. 323 (2009) 677); "hamming" goes over the whole turn, with 0.08 on the far side
+    (Liang, Zuo & Hoseini, Eng. Fail. Anal. 48 (2015) 245, without their factor for the width).
+    """
     near = (np.asarray(away, dtype=float) + np.pi) % (2.0 * np.pi) - np.pi
     if window == "hamming":
         return 0.54 + 0.46 * np.cos(near)

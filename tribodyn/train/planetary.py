@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.numerics.shapes import Array, Float
 
 SUN, RING, CARRIER = "sun", "ring", "carrier"
 MEMBERS = (SUN, RING, CARRIER)
@@ -66,30 +65,6 @@ def torques(
     relative = {SUN: float(factors[SUN]), RING: factors[RING] * share}
     relative[CARRIER] = -relative[SUN] - relative[RING]
     return {member: torque * relative[member] / relative[driving] for member in MEMBERS}
-
-
-def mesh_phases(
-    teeth: SetTeeth,
-    angles: Sequence[float],
-    half_angles: tuple[float, float],
-    entries: tuple[float, float] = (0.0, 0.0),
-    sense: int = 1,
-) -> tuple[Float[Array, " planet"], Float[Array, " planet"]]:
-    """Phases of the meshes of sun and ring with every planet, cycles, 0 ≤ … < 1; the first sun mesh's is 0.
-
-    Phases grow while the sun turns counter-clockwise against the carrier; `sense` is that of its load, +1
-    counter-clockwise.
-
-    Parameters
-    ----------
-    angles : of the planets, counter-clockwise, rad
-    half_angles : of a planet's tooth on its working pitch circles with sun and ring, rad: (π/2 + 2 x tan α)/z
-        + inv α − inv α_w
-    entries : where the tables of both meshes begin, on the path of contact from the pitch point, base pitches
-    """
-    turned = sense * (np.asarray(angles, dtype=float) - angles[0]) / (2.0 * pi)
-    between = teeth.planet * (sum(half_angles) / (2.0 * pi) - 0.5) + entries[0] - entries[1]
-    return (-teeth.sun * turned) % 1.0, (between - teeth.ring * turned) % 1.0
 
 
 def check_assembly(teeth: SetTeeth, angles: Sequence[float], key: str) -> None:

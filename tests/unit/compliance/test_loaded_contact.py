@@ -11,7 +11,6 @@ from tribodyn.compliance.sharing.load_sharing import (
     flexibility,
 )
 from tribodyn.compliance.sharing.loaded_contact import loaded_error, mean_pairs, reach, roll_through
-from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
@@ -25,6 +24,7 @@ from tribodyn.geometry.flanks.modification import (
     Modifications,
     Relief,
 )
+from tribodyn.geometry.helix import face_positions
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
 WIDTH, ANGLE = 26.7e-3, np.radians(20.0)

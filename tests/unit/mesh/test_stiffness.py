@@ -8,7 +8,7 @@ import pytest
 
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.mesh.quasi_static import single_pair, total_stiffness
+from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.studies.protocol.load import load_scenario
 
@@ -66,10 +66,3 @@ def test_the_pair_is_as_stiff_as_at_the_pitch_point():
     beside = compliance[order][[after - 1, after]]
     assert beside.min() <= 1.0 / pair.stiffness <= beside.max()
     assert np.ptp(beside) < 2e-2 * beside.min() < np.ptp(compliance)
-
-
-def test_stiffnesses_of_pairs_add_up_along_the_pitch_tangent():
-    stiffness = np.array([[2.0, 3.0], [5.0, 0.0]])
-    angle = np.array([[0.4, 0.2], [0.3, np.nan]])
-    wanted = [2 * math.cos(0.4) ** 2 + 3 * math.cos(0.2) ** 2, 5 * math.cos(0.3) ** 2]
-    assert total_stiffness(stiffness, angle) == pytest.approx(wanted)

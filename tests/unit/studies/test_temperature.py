@@ -1,17 +1,17 @@
 """Temperature, film and friction of a case settled together; losses by the scenario's tables."""
 
 import tomllib
-from dataclasses import replace
 from typing import Any
 
 import pytest
 
 import tribodyn as td
 from tribodyn.errors import InputError
-from tribodyn.gears.prepare import Thermal, at_own_temperature
+from tribodyn.gears.prepare import Thermal
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.efficiency.run import prepare, quantities_of
 from tribodyn.studies.motion.prepare import prepare as prepare_motion
+from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
 
 SCENARIO = tomllib.loads(
@@ -121,15 +121,15 @@ def test_dynamics_and_efficiency_find_the_same_temperature(changes):
 
 
 def test_a_motion_with_another_loss_is_run_again_until_its_own_temperature():
-    asked = case(source=MOTION)
-    prepared = prepare_motion(asked)
+    prepared = prepare_motion(case(source=MOTION))
     warm, lost = warm_of(prepared).temperatures.bulk, warm_of(prepared).mesh_loss
-    assert at_own_temperature(asked, warm, lost) is None
-    again: Any = at_own_temperature(asked, warm, 1.2 * lost)
+    assert at_own_temperatures(prepared.case, [warm], [lost]) is None
+    again = at_own_temperatures(prepared.case, [warm], [1.2 * lost])
+    assert again is not None
     hotter = warm_of(prepare_motion(again)).temperatures.bulk
     assert hotter - 353.15 == pytest.approx((warm - 353.15) * 1.2**0.72, rel=1e-3)
-    assert at_own_temperature(again, hotter, 1.2 * lost) is None
-    assert at_own_temperature(replace(asked, temperature=None), None, lost) is None
+    assert at_own_temperatures(again, [hotter], [1.2 * lost]) is None
+    assert at_own_temperatures(prepared.case, [None], [lost]) is None
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 
+from tests.support.planetary_phases import mesh_phases
 from tribodyn.errors import InputError
 from tribodyn.train.phases import Engagement, ToothedShaft, nominal_phases
 from tribodyn.train.planetary import (
@@ -17,7 +18,6 @@ from tribodyn.train.planetary import (
     check_assembly,
     excited,
     mesh_frequency,
-    mesh_phases,
     nearest_teeth,
     speeds,
     torques,

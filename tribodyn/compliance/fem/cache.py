@@ -4,8 +4,6 @@ A file's name is the digest of everything its content depends on: the tooth as c
 the mesh and the source of the method with all that it imports.
 """
 
-import hashlib
-from functools import lru_cache
 from importlib import import_module
 from typing import Any, TypeVar
 
@@ -21,8 +19,7 @@ from tribodyn.compliance.fem.gear_compliance import (
 )
 from tribodyn.geometry.body import tooth_outline
 from tribodyn.numerics.elementary import sense
-from tribodyn.numerics.files.cache import arrays_kept_or_made
-from tribodyn.numerics.files.sources import digest_of
+from tribodyn.numerics.files.cache import arrays_kept_or_made, digest_of_numbers
 from tribodyn.numerics.processes.blas_threads import one_blas_thread
 from tribodyn.numerics.processes.work import part
 
@@ -74,13 +71,4 @@ def _kept(kind: type[Kept], gear: ElasticGear, *more: Any) -> Kept:
 
 
 def _digest(gear: ElasticGear, *more: Any) -> str:
-    digest = hashlib.sha256(_source_digest())
-    for values in (*tooth_outline(gear.tooth, 40, 40), np.hstack([*gear[1:], *more])):
-        # rounded: the last bits differ between processors
-        digest.update(np.char.mod("%.11e", np.atleast_1d(np.asarray(values, dtype=float))).tobytes())
-    return digest.hexdigest()[:32]
-
-
-@lru_cache(maxsize=1)
-def _source_digest() -> bytes:
-    return digest_of(*_METHODS)
+    return digest_of_numbers(_METHODS, (*tooth_outline(gear.tooth, 40, 40), np.hstack([*gear[1:], *more])))

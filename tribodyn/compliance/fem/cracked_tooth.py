@@ -4,8 +4,6 @@ The same triangles are solved sound and with the crack open; a point load's own 
 is the same in both and cancels.
 """
 
-import hashlib
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -20,8 +18,7 @@ from tribodyn.compliance.energy import LoadedTooth
 from tribodyn.compliance.fem.crack_mesh import CrackedMesh, cracked_mesh
 from tribodyn.compliance.fem.strips import plane_stiffness
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.numerics.files.cache import arrays_kept_or_made
-from tribodyn.numerics.files.sources import digest_of
+from tribodyn.numerics.files.cache import arrays_kept_or_made, digest_of_numbers
 from tribodyn.numerics.processes.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float
 
@@ -99,18 +96,10 @@ def deflections(
 
 
 def _digest(loaded: LoadedTooth, crack: Crack, poisson_ratio: float) -> str:
-    digest = hashlib.sha256(_source_digest())
     along = np.linspace(float(loaded.tooth.form_distance), float(loaded.tooth.tip_distance), 9)
     at = loaded.contact(along)
     numbers = [at.x, at.y, at.load_angle, loaded.tooth.root_radius, loaded.tooth.form_radius]
     numbers += [loaded.tooth.tip_radius, loaded.tooth.form_angle, loaded.tooth.corner_x]
     numbers += [loaded.tooth.corner_y, loaded.tooth.corner_radius, loaded.body.teeth]
     numbers += [loaded.body.bore_radius, thinning(loaded), *crack, poisson_ratio]
-    for number in numbers:  # rounded: the last bits differ between processors
-        digest.update(np.char.mod("%.11e", np.atleast_1d(np.asarray(number, dtype=float))).tobytes())
-    return digest.hexdigest()[:32]
-
-
-@lru_cache(maxsize=1)
-def _source_digest() -> bytes:
-    return digest_of("tribodyn.compliance.fem.cracked_tooth")
+    return digest_of_numbers((__name__,), numbers)

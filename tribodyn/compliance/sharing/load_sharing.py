@@ -25,12 +25,12 @@ from tribodyn.compliance.sharing.oblique import oblique_compliance
 from tribodyn.compliance.sharing.oblique_faces import oblique_faces
 from tribodyn.compliance.sharing.pinned import check_even, on_pins
 from tribodyn.compliance.sharing.section import elastic_section, is_helical, length_per_width
-from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions, slice_compliance
+from tribodyn.compliance.sharing.slices import PairFlexibility, slice_compliance
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData, Side, body_of
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
-from tribodyn.geometry.helix import pitch_slope, roll_shift
+from tribodyn.geometry.helix import face_positions, pitch_slope, roll_shift
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.elementary import sense
 from tribodyn.numerics.processes.blas_threads import one_blas_thread

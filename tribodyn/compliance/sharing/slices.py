@@ -34,6 +34,7 @@ from tribodyn.compliance.local import freed_of_depth
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
+from tribodyn.geometry.helix import face_positions
 from tribodyn.numerics.shapes import Array, Float
 
 
@@ -44,11 +45,6 @@ class PairFlexibility(NamedTuple):
     materials: tuple[MaterialData, MaterialData]
     width: float  # common face width, m
     gears: tuple[GearCompliance, GearCompliance]
-
-
-def face_positions(width: float, slices: int) -> Float[Array, " slice"]:
-    """Middles of the slices (S,), m from the middle of the face."""
-    return ((np.arange(slices) + 0.5) / slices - 0.5) * width
 
 
 def modes(count: int, slices: int) -> Float[Array, "slice slice"]:

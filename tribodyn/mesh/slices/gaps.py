@@ -27,11 +27,6 @@ class TouchingPart(NamedTuple):
     share: Any  # length over the slice's
 
 
-def face_positions(width: Any, slices: int) -> Float[Array, " slice"]:
-    """Middles of the slices (K,), m from the middle of the face."""
-    return ((np.arange(slices) + 0.5) / slices - 0.5) * width
-
-
 def slice_gap(
     assembly: Assembly, mesh: table.MeshData, at: table.Slots, motion: Kinematics, slope: Any, back: range
 ) -> Float[Array, "segment node slot"]:

@@ -28,6 +28,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.geometry.helix import (
     curvature_share,
+    face_positions,
     line_stretch,
     normal_slope,
     overlap_ratio,
@@ -37,7 +38,7 @@ from tribodyn.geometry.helix import (
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.slices.gaps import TouchingPart, face_positions, modified_gap, slice_gap
+from tribodyn.mesh.slices.gaps import TouchingPart, modified_gap, slice_gap
 from tribodyn.mesh.tabulate import RollCurve, check_options, pair_compliance, tabulate
 from tribodyn.numerics.elementary import absolute, cos, is_jax, namespace, within
 from tribodyn.numerics.shapes import Array, Float
@@ -130,7 +131,7 @@ def tabulate_slices(
         at,
         motion._replace(pinion_speed=motion.pinion_speed * speed, gear_speed=motion.gear_speed * speed),
         table.Elasticity(
-            slice_compliance(assembly, materials, mesh, curve, r_nodes, at.roll, faces, layout),
+            compliance_of_slices(assembly, materials, mesh, curve, r_nodes, at.roll, faces, layout),
             np.zeros((*at.phase.shape, 1, 1)),
             slice_gap(assembly, mesh, at, motion, slope, layout.back)
             + modified_gap(assembly, mesh, TouchingPart(at.roll, place, share), distance, slope, slots),
@@ -281,7 +282,7 @@ def _slots(
     return table.Slots(np.array([0.0, 1.0]), phase, present, side, touched, limits), share, place
 
 
-def slice_compliance(
+def compliance_of_slices(
     assembly: Assembly,
     materials: tuple[MaterialData, MaterialData],
     mesh: table.MeshData,

@@ -52,7 +52,7 @@ class LoadedSlots(NamedTuple):
     touched: Float[Array, "node slot"]  # z in the middle of the part that touches, m
 
 
-def tabulate_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, back: bool) -> MeshCycle:
+def tabulate_loaded_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, back: bool) -> MeshCycle:
     """Tabulate a helical pair at an operating torque T_g > 0, N m; the flanks are checked.
 
     As `helical.tabulate_slices`, but for the path of contact, which reaches as far out as corners can touch.

@@ -17,14 +17,15 @@ import os
 import stat
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cache
 from glob import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from tribodyn.numerics.files.output_files import CAREFUL, open_new, replacing
+from tribodyn.numerics.files.sources import digest_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -163,6 +164,24 @@ def arrays_kept_or_made(
         return arrays, b"".join([head.encode(), b"\n", *(value.tobytes() for value in arrays.values())])
 
     return kept_or_made(folder, name, read, made)
+
+
+@cache
+def _of_sources(modules: tuple[str, ...]) -> bytes:
+    return digest_of(*modules)
+
+
+def digest_of_numbers(modules: tuple[str, ...], numbers: Iterable[Any]) -> str:
+    """Digest of numbers and of the sources of modules that compute with them, for `arrays_kept_or_made`.
+
+    The numbers are rounded to 12 digits: their last bits differ between processors.
+    """
+    import numpy as np
+
+    digest = hashlib.sha256(_of_sources(modules))
+    for values in numbers:
+        digest.update(np.char.mod("%.11e", np.atleast_1d(np.asarray(values, dtype=float))).tobytes())
+    return digest.hexdigest()[:32]
 
 
 def _head(folder: str, name: str, content: bytes) -> bytes:

@@ -9,18 +9,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import Model
-from tribodyn.dynamics.recorded.outputs import IN_SPACE_NAMES, evaluated, holding_links
+from tribodyn.dynamics.recorded.outputs import IN_SPACE_NAMES, holding_links
 from tribodyn.gears.motion import by_revolution
 from tribodyn.gears.motion.recorded import OF_SLICES, PAIR, gears_layout, scales_of
 from tribodyn.gears.motion.recorded import SAMPLES as OF_A_PAIR
 from tribodyn.gears.motion.running import MeshOfRun, mesh_pairs
-from tribodyn.gears.motion.samples import Sampled, sampled
+from tribodyn.gears.motion.samples import Sampled
 from tribodyn.geometry.body import GEOMETRY, geometry_arrays
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.record_arrays import as_arrays, described
 from tribodyn.numerics.parameter import Variable
-from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.motion.case import Gearbox
@@ -233,19 +231,6 @@ def usual_layout(case: Gearbox) -> Layout:
 
 #: Bodies of a pair of gears, and its only mesh.
 PINION, GEAR, MESH = 0, 1, 0
-
-
-def outputs(
-    cycles: Float[Array, " sample"],
-    states: Float[Array, "sample state"],
-    model: Model,
-    interval: Int[Array, " sample"] | None = None,
-) -> dict[str, np.ndarray]:
-    """All datasets of a pair's record at samples (n,), by name: (n,), (n, pairs) or (n, dof), SI.
-
-    Arguments as of `dynamics.recorded.outputs.evaluated`.
-    """
-    return recorded(sampled(evaluated(cycles, states, model, interval)))
 
 
 def recorded(found: Sampled) -> dict[str, np.ndarray]:

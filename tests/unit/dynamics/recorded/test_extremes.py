@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from tests.support.pair_outputs import outputs
 from tests.support.states import PAIR, TURN_G, altered, random_place, random_state
 from tribodyn.dynamics.approach import DRIVEN_SPEED, DRIVER_SPEED, PEAK, RADIUS, RELATIVE_VELOCITY, SLIDING
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
@@ -45,7 +46,7 @@ from tribodyn.gears.motion.samples import sampled_with_extremes
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of, worthwhile
 from tribodyn.solve.right_hand_side import contacts_of, work_array
-from tribodyn.studies.motion.record import outputs, recorded
+from tribodyn.studies.motion.record import recorded
 
 OVERRIDES = [
     {},

@@ -7,11 +7,11 @@ import pytest
 
 import tribodyn as td
 from tests.support.own_teeth import errors, made
+from tests.support.pair_outputs import outputs
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
 from tribodyn.studies.motion.prepare import PreparedGearbox
-from tribodyn.studies.motion.record import outputs
 
 ECCENTRICITY = 20e-6
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from tests.support.closures import LOCAL_LAWS, VECIANA, coulomb, of_case, under
+from tests.support.pair_outputs import outputs
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.mesh_positions import SHARINGS, places
 from tribodyn.studies.efficiency.published import torque_ratio
 from tribodyn.studies.efficiency.run import efficiencies, prepare, quantities_of
-from tribodyn.studies.motion.record import outputs
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.train.schedule import interval_of
