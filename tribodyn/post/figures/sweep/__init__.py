@@ -1,1 +1,1 @@
-"""Figures of sweeps, one subject a file; `tribodyn.grid.pictures` names them."""
+"""Figures of sweeps, one subject a file; the pictures of a study name them."""
