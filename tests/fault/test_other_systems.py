@@ -64,7 +64,7 @@ for words in json.loads(sys.argv[1]):
     except SystemExit as end:
         assert not end.code, words
 import tribodyn as td
-from tribodyn.record import lookout, soundness
+from tribodyn.record.files import guarded_read, soundness
 
 soundness._own.clear()
 found = []
@@ -72,9 +72,9 @@ thread = threading.Thread(target=lambda: found.append(td.open("run.h5").summary[
 thread.start()
 thread.join()
 assert found
-lookout.TIME_LIMIT = lookout.START_LIMIT = 1.0
+guarded_read.TIME_LIMIT = guarded_read.START_LIMIT = 1.0
 os.mkfifo("pipe")
-assert "did not end" in lookout.through_a_child(open, Path("pipe"))  # which waits for a writer
+assert "did not end" in guarded_read.through_a_child(open, Path("pipe"))  # which waits for a writer
 """
 
 

@@ -100,7 +100,7 @@ def check(path: Path, good: Path, number: int | None = None) -> None:
 
 def no_child(monkeypatch: pytest.MonkeyPatch) -> None:
     """Look through files in this process: none of these is harmful to HDF5, and a child costs a fork each."""
-    monkeypatch.setattr(soundness.lookout, "through_a_child", lambda look, path: look(path))
+    monkeypatch.setattr(soundness.guarded_read, "through_a_child", lambda look, path: look(path))
 
 
 @pytest.mark.parametrize("name", SAMPLES)

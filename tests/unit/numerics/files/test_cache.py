@@ -167,7 +167,7 @@ def test_what_is_not_to_be_kept_is_not_and_what_cannot_be_made_leaves_nothing(fo
 @posix
 def test_a_process_killed_as_it_writes_leaves_nothing_that_is_read_and_it_is_removed(folder: Path):
     dies = (
-        "import os\nfrom tribodyn.numerics import cache\n"
+        "import os\nfrom tribodyn.numerics.files import cache\n"
         "os.fsync = lambda number: os.kill(os.getpid(), 9)\n"
         "cache.kept_or_made('things', 'one', int, lambda: (1, b'1'))\n"
     )

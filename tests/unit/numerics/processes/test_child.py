@@ -20,7 +20,7 @@ pytestmark = pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="look
 #: Starts a child that computes without end, and one of its own in that; says their numbers and waits.
 PARENT = """
 import os, sys, time
-from tribodyn.numerics import child
+from tribodyn.numerics.processes import child
 busy = "import os; os.fork(); os.write(1, b'%d\\\\n' % os.getpid())\\nwhile True: pass"
 process = child.start("builtins:exec", busy)
 EXTRA
@@ -127,7 +127,8 @@ def test_the_current_folder_is_not_on_the_path(how, tmp_path):
     """Whatever put it on that of the parent, which imports first what it needs."""
     option, variable = PATHS[how]
     (tmp_path / "else").mkdir()
-    program = "import sys, tribodyn\nfrom tribodyn.numerics import child\nimport subprocess, select, pickle\n"
+    program = "import sys, tribodyn\nfrom tribodyn.numerics.processes import child\n"
+    program += "import subprocess, select, pickle\n"
     if "separator" in how:
         program += f"sys.path.insert(0, {str(tmp_path / 'no:.')!r})\n"
     program += (
