@@ -42,6 +42,8 @@ _POWERS = ("power_in_mean", "power_friction_mean", "efficiency")
 #: Load-independent losses; the last is their sum.
 IDLE = ("power_churning", "power_windage", "power_bearings", "power_load_independent")
 _TOLD_ONCE = (*IDLE, "efficiency_with_losses", "losses_outside")
+#: What a mesh says of its place in the train.
+_NAMES = ("driver", "driven", ALIKE)
 #: Of an order, not of a mesh's own cycles: not told where the window holds no whole number of them.
 _BY_ORDER = ("transmission_error_harmonics", "spectrum_frequencies", "spectrum_amplitudes")
 
@@ -165,10 +167,14 @@ def _powers_of_mesh(window: Mapping[str, np.ndarray], lost: float) -> dict[str, 
 def concluded(
     prepared: PreparedGearbox, whole: Mapping[str, Any], each: Sequence[Mapping[str, Any]]
 ) -> dict[str, Any]:
-    """The summary of the gearbox: with the worst of its meshes, or with its only mesh where none is named."""
+    """The summary of the gearbox: with what its only mesh has, or with the worst of several."""
     if not prepared.case.named:
         return {**each[0], **whole}
-    return {name: value for name, value in whole.items() if name != "driving_gear"} | worst_of(each)
+    if len(each) == 1:
+        whole = {name: value for name, value in each[0].items() if name not in _NAMES} | dict(whole)
+    else:
+        whole = {name: value for name, value in whole.items() if name != "driving_gear"}
+    return {**whole, **worst_of(each)}
 
 
 def _idle_losses(whole: Mapping[str, Any], each: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
