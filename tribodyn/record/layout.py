@@ -80,6 +80,8 @@ def create(head: Head, samples: int) -> LaidOut:
         file.attrs["axis"] = axis
         # words, not an array of texts: Octave stops reading at those
         file.attrs["datasets"] = " ".join(datasets)
+        for name in schema.ANGLES.keys() & datasets.keys():
+            file[schema.ANGLES[name]] = datasets[name]
         datasets["samples_written"] = reserve(file, "samples_written", schema.SAMPLES_WRITTEN, ())
         for name, table in layout.groups.items():
             _write_arrays(file.create_group(name), table, head.groups.get(name, {}), scales)

@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import TOO_MANY_FILES, InputError, harmless, no_descriptors
+from tribodyn.record import schema
 from tribodyn.record.files.soundness import UNREADABLE, blamed, check_sound, reason_of
 from tribodyn.record.withheld_efficiency import samples_withheld
 
@@ -23,6 +24,8 @@ _OF_A_MESH = re.compile(r"(back_)?transmission_error_(rotational_)?(mean|peak_to
 
 def todays_name(name: Any, names: Collection[str]) -> Any:
     """Name of today of a dataset among the names of a file; others as they are."""
+    if name not in names and schema.ANGLES.get(name) in names:
+        return schema.ANGLES[name]
     return NORMAL if name == OLDER and BESIDE in names else name
 
 
@@ -97,14 +100,20 @@ class OpenRecord:
         """Close the file."""
         self._file.close()
 
+    @cached_property
+    def _names(self) -> frozenset[str]:
+        """Names in the file, of a dataset with two names the one that is listed."""
+        listed = str(self._file.attrs.get("datasets", "")).split()
+        return frozenset(name for name in self._file if schema.ANGLES.get(name) not in listed)
+
     def __contains__(self, name: object) -> bool:
-        stored = stored_name(name, self._file)
+        stored = stored_name(name, self._names)
         return stored in self._file and isinstance(self._file[stored], h5py.Dataset)
 
     def dims_of(self, name: str) -> tuple[str, ...]:
         """Names of a dataset's dimensions; none of a group, or of a number."""
         if name not in self._known_dims:
-            item = self._file[stored_name(name, self._file)]
+            item = self._file[stored_name(name, self._names)]
             dims: tuple[str, ...] = ()
             if isinstance(item, h5py.Dataset) and item.shape:
                 axes = (self._name_of(dim[0]) if len(dim) else "" for dim in item.dims)
@@ -153,7 +162,7 @@ class OpenRecord:
         if name not in self:
             raise InputError("dataset", name, "no such dataset", f"one of {', '.join(self)}")  # pyright: ignore
         try:
-            return self._file[stored_name(name, self._file)]
+            return self._file[stored_name(name, self._names)]
         except (KeyError, RuntimeError) as error:
             raise self._damaged(error) from error
 

@@ -27,7 +27,7 @@ class Record(OpenRecord):
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return one dataset in SI units, first axis time; `pair` and `dof` give the other axes' labels."""
-        return self._read(name, slice(self.samples) if todays_name(name, self._file) in self._along else ...)
+        return self._read(name, slice(self.samples) if todays_name(name, self._names) in self._along else ...)
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names of the datasets over time, or over what takes its place."""
@@ -49,13 +49,13 @@ class Record(OpenRecord):
         """The axis, and the datasets along it."""
         names = str(self.attrs["datasets"]).split() if "datasets" in self.attrs else sorted(self._file)
         datasets = [name for name in names if self.axis in self.dims_of(name)[:1]]
-        return self.axis, *(todays_name(name, self._file) for name in datasets if name != self.axis)
+        return self.axis, *(todays_name(name, self._names) for name in datasets if name != self.axis)
 
     @cached_property
     def others(self) -> tuple[str, ...]:
         """The datasets along other axes, such as revolutions."""
         names = str(self.attrs.get("datasets", "")).split()
-        return tuple(todays_name(n, self._file) for n in names if self.axis not in self.dims_of(n)[:1])
+        return tuple(todays_name(n, self._names) for n in names if self.axis not in self.dims_of(n)[:1])
 
     @property
     def trust(self) -> str:
@@ -171,7 +171,7 @@ class Record(OpenRecord):
         if self.samples < 0:
             raise ValueError(f"{self.samples} samples")
         for name in self._along:
-            if self._file[stored_name(name, self._file)].shape[0] < self.samples:
+            if self._file[stored_name(name, self._names)].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
         axis = np.asarray(self._file[self.axis][: self.samples])
         if axis.dtype.kind != "f" or not np.all(np.abs(axis) < LARGEST):

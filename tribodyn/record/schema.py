@@ -18,7 +18,10 @@ HEAD = ("created", "message", "scenario", "scenario_sha256", "status", "tribodyn
 #: Attribute of records that a later call may go on with: digest of the code that computes.
 CODE = "code_sha256"
 #: Raised when a reader of the previous version would misread the file.
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
+#: Rotation of the body that drives the first mesh, which is a pair's pinion: one dataset under both names. A
+#: record lists one of them.
+ANGLES = {"pinion_angle": "reference_angle", "reference_angle": "pinion_angle"}
 
 #: States of a record. A file that says `partial` is being written, or its process was killed.
 PARTIAL, COMPLETE, FAILED = "partial", "complete", "failed"

@@ -17,6 +17,7 @@ from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import open_any
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import evaluated
+from tribodyn.studies.protocol.load import load_data
 
 RECORDS = Path(__file__).parents[2] / "fixtures/records-0.1.0"
 #: Record -> one of its figures.
@@ -61,6 +62,23 @@ def test_every_dataset_reads_as_it_was_written(name):
             np.testing.assert_array_equal(record[key], text(dataset[()]), err_msg=key)
             assert record.units(key) == dataset.attrs["units"]
             assert record.long_name(key) == dataset.attrs["long_name"]
+
+
+def test_an_angle_has_both_of_its_names():
+    """Before version 2 of the format a record had one of both."""
+    with Record(RECORDS / "gear-pair.h5") as record, h5py.File(record.path) as file:
+        assert record.attrs["format_version"] == 1
+        assert "reference_angle" not in file
+        np.testing.assert_array_equal(record["reference_angle"], file["pinion_angle"])
+        assert record.long_name("reference_angle") == "rotation of the pinion"
+        assert "reference_angle" not in list(record)
+
+
+@pytest.mark.parametrize("path", sorted(RECORDS.parent.glob("*/*.h5")), ids=lambda path: path.stem)
+def test_their_scenarios_are_read(path: Path):
+    """By the names that they have, whatever today's are."""
+    with h5py.File(path) as file:
+        load_data(tomllib.loads(file.attrs["scenario"]), path.stem)
 
 
 @pytest.mark.parametrize("name", FIGURES)

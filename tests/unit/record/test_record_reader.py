@@ -121,7 +121,7 @@ def test_a_record_of_an_earlier_release_may_lack_later_datasets(record_path: Pat
     with h5py.File(record_path, "r+") as file:
         for attribute in ("axis", "datasets"):  # which 0.1.0 does not write
             del file.attrs[attribute]
-        del file["drive_torque"]
+        del file["drive_torque"], file["reference_angle"]
     with Record(record_path) as record:
         assert "drive_torque" not in record
         assert set(record) == {"time", *SAMPLES} - {"drive_torque"}
