@@ -1,6 +1,6 @@
 """Figures of gears in motion: of a pair over its mesh cycles; of a train in its true positions, by mesh."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -8,12 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.errors import InputError
 from tribodyn.post import style
 from tribodyn.post.cycles import last_cycles
 from tribodyn.post.figures import by_revolution, over_face, over_mesh, sensors, spectrum
 from tribodyn.post.figures.drawing import Drawing, drawing
-from tribodyn.post.figures.over_face import helical
 from tribodyn.post.figures.panel import (
     ORDER,
     Trace,
@@ -24,7 +22,13 @@ from tribodyn.post.figures.panel import (
 )
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
-from tribodyn.studies.motion.drivetrain.carried_sets import body_labels, mesh_labels, sets_of
+from tribodyn.studies.motion.drivetrain.carried_sets import (
+    body_labels,
+    by_mesh,
+    mesh_labels,
+    mesh_names,
+    sets_of,
+)
 from tribodyn.studies.motion.pictures.curves import draw_curves
 from tribodyn.studies.motion.pictures.modes_figure import modes_figure
 from tribodyn.studies.motion.pictures.planet_figures import (
@@ -52,7 +56,7 @@ _LOW, _FEW = 1.8, 3
 
 def mesh_forces(record: Record) -> np.ndarray:
     """Force of every mesh on its driven gear along the pitch tangent, N (samples, meshes)."""
-    if not _has_meshes(record):
+    if not _named(record):
         return record["driven_torque"][:, None] / abs(record.geometry["gear_pitch_radius"])
     radii = [abs(record.of_mesh(mesh, "geometry")["gear_pitch_radius"]) for mesh in record["mesh"]]
     return record["driven_torque"] / np.array(radii)
@@ -60,7 +64,7 @@ def mesh_forces(record: Record) -> np.ndarray:
 
 def losses(record: Record) -> np.ndarray:
     """Power of friction in every mesh, W (samples, meshes)."""
-    return record["mesh_power_friction"] if _has_meshes(record) else record["power_friction"][:, None]
+    return record["mesh_power_friction"] if _named(record) else record["power_friction"][:, None]
 
 
 def thinnest_films(record: Record) -> np.ndarray:
@@ -74,7 +78,7 @@ def displacements(record: Record) -> np.ndarray:
 
     NaN of those that only turn.
     """
-    if not _has_meshes(record):
+    if not _named(record):
         moved = dict(zip(record["dof"], record["displacement"].T, strict=True))
         return np.stack([np.hypot(moved[f"x_{side}"], moved[f"y_{side}"]) for side in "pg"], axis=1)
     x, y = record["x"].copy(), record["y"].copy()
@@ -119,7 +123,11 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
 
 def _each_mesh(trace: Trace, records: Sequence[Record], view: View) -> Figure:
     """Draw the pairs of every mesh in a panel of its own, of one record after the other."""
-    places = [(record, m, str(mesh)) for record in records for m, mesh in enumerate(record["mesh"])]
+    places = [
+        (record, m if _named(record) else None, mesh)
+        for record in records
+        for m, mesh in enumerate(mesh_names(record))
+    ]
     figure, rows = _rows(len(places), records)
     for letter, axes, (record, m, mesh) in zip(_letters(places), rows, places, strict=True):
         draw(axes, [record], trace, view, last=axes is rows[-1], mesh=m)
@@ -135,7 +143,7 @@ def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], vie
     """Draw a curve of every mesh or body, each record in a panel of its own."""
     figure, rows = _rows(len(records), records)
     for letter, axes, record in zip(_letters(records), rows, records, strict=True):
-        names = list(record[over]) if over in record else ["mesh"]
+        names = mesh_names(record) if over == "mesh" else list(record[over])
         if len(names) > len(style.PALETTE):
             names = mesh_labels(record) if over == "mesh" else body_labels(record)
         draw_curves(axes, record, of(record), names, trace, view)
@@ -145,13 +153,12 @@ def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], vie
     return figure
 
 
-def _whole(trace: Trace, of: Any, records: Sequence[Record], view: View) -> Figure:
-    """Draw curves by their names, each record in a panel of its own."""
+def efficiency_figure(records: Sequence[Record], view: View) -> Figure:
+    """Draw the efficiency at each moment, each record in a panel of its own."""
     figure, rows = _rows(len(records), records)
     for letter, axes, record in zip(_letters(records), rows, records, strict=True):
-        curves = of(record)
-        draw_curves(axes, record, np.stack(list(curves.values()), axis=1), list(curves), trace, view)
-        style.mark_panel(axes, letter, record_label(record) if len(records) > 1 else trace.title)
+        draw_curves(axes, record, record["efficiency"][:, None], ["train"], EFFICIENCY, view)
+        style.mark_panel(axes, letter, record_label(record) if len(records) > 1 else EFFICIENCY.title)
     _finish(figure, rows, records)
     return figure
 
@@ -213,94 +220,85 @@ def _lower(text: str) -> str:
     return text[0].lower() + text[1:]
 
 
-def _per_mesh(about: str, trace: Trace) -> Drawing:
-    return Drawing(about, partial(_each_mesh, trace))
-
-
-def _has_meshes(record: Record) -> bool:
-    """Whether there are several meshes, by their names."""
+def _named(record: Record) -> bool:
+    """Whether a record names its meshes; that of a pair does not."""
     return "mesh" in record
-
-
-def _either(of_pair: Drawing | None, of_train: Drawing | None) -> Drawing:
-    """A figure of a pair, or of a train in its place; of records of both that of the first one's kind."""
-
-    def chosen(record: Record) -> Drawing | None:
-        return of_train if _has_meshes(record) else of_pair
-
-    def draw(records: Sequence[Record], view: View) -> Figure:
-        first = chosen(records[0])
-        if first is None or any(_has_meshes(record) is not _has_meshes(records[0]) for record in records):
-            what = "a train" if _has_meshes(records[0]) else "a pair"
-            rule = f"{records[0].path} is of {what}" + ("" if first is None else ", and others are not")
-            raise InputError(
-                "plot", None, rule, "draw another figure" if first is None else "draw them apart"
-            )
-        return first.draw(records, view)
-
-    def fits(record: Record) -> bool:
-        own = chosen(record)
-        return own is not None and own.fits(record)
-
-    one, other = (own.about if own else "" for own in (of_pair, of_train))
-    return Drawing(one if one == other or not other else f"{one}; {other}" if one else other, draw, fits)
 
 
 _OF_PAIR: dict[str, Drawing] = {
     **over_mesh.DRAWINGS,
     **over_face.DRAWINGS,
     "film-parameter": over_mesh.stacked("film thickness over roughness", over_mesh.FILM_PARAMETER),
+}
+
+
+def _apart(name: str, of_named: Any, *, first: bool = False) -> Drawing:
+    """A figure of pairs of gears; where a record names its meshes, in its place one that tells these apart.
+
+    `first`: which is drawn of the first record alone.
+    """
+    of_pair = _OF_PAIR[name]
+
+    def draw(records: Sequence[Record], view: View) -> Figure:
+        named = any(map(_named, records[:1] if first else records))
+        return (of_named if named else of_pair.draw)(records, view)
+
+    return of_pair._replace(draw=draw)
+
+
+def _panel_for_each(name: str, trace: Trace) -> Drawing:
+    return _apart(name, partial(_each_mesh, trace))
+
+
+def _held(name: str, about: str, draw: Any, fits: Callable[[Record], bool] = _named) -> Drawing:
+    """A figure of records that hold what it shows."""
+    return drawing(about, draw, fits, (name, "{path} does not hold what it shows", "draw another figure"))
+
+
+_ERROR_OF_EACH = partial(
+    _all_meshes, ERROR, lambda record: by_mesh(record, "transmission_error_rotational"), "mesh"
+)
+DRAWINGS: dict[str, Drawing] = {
+    **_OF_PAIR,
+    "overview": _apart("overview", overview_figure, first=True),
+    "transmission-error": _apart("transmission-error", _ERROR_OF_EACH),
+    "spectrum": _apart("spectrum", spectrum_figure)._replace(
+        fits=lambda record: has_spectra(record) or not _named(record)
+    ),
+    "normal-load": _panel_for_each("normal-load", over_mesh.NORMAL_LOAD),
+    "friction": _panel_for_each("friction", over_mesh.FRICTION_COEFFICIENT),
+    "film": _panel_for_each("film", over_mesh.FILM_THICKNESS),
+    "entrainment": _panel_for_each("entrainment", over_mesh.ENTRAINMENT),
+    "pressure": _panel_for_each("pressure", PRESSURE),
+    "efficiency": _apart("efficiency", efficiency_figure),
+    "mesh-stiffness": _panel_for_each("mesh-stiffness", over_mesh.STIFFNESS),
+    "path-of-contact": _OF_PAIR["path-of-contact"]._replace(fits=lambda record: not _named(record)),
+    "in-space": _apart("in-space", in_space_figure, first=True),
+    "film-parameter": _panel_for_each("film-parameter", over_mesh.FILM_PARAMETER),
     "orders": Drawing(
         "orders of the mesh while the speed changes, such as run-up",
         spectrum.orders_figure,
         spectrum.worth_tracking,
     ),
-}
-_OF_TRAIN: dict[str, Drawing] = {
-    "overview": Drawing("the train, forces, errors, films and losses of its meshes", overview_figure),
-    "train": Drawing("the train in its true positions, and the teeth in every mesh", train_figure),
-    "transmission-error": Drawing(
-        "transmission error of every mesh",
-        partial(_all_meshes, ERROR, lambda record: record["transmission_error_rotational"], "mesh"),
-    ),
-    "planet-load": Drawing(
+    "train": _held("train", "the train in its true positions, and the teeth in every mesh", train_figure),
+    "planet-load": _held(
+        "planet-load",
         "load of every planet of planetary sets, at sun and ring",
         planet_load_figure,
         lambda record: bool(sets_of(record)),
     ),
-    "orbit": Drawing("orbits of the central gears of planetary sets", orbit_figure, has_orbits),
-    "spectrum": Drawing(
-        "spectrum of every mesh's transmission error, with the modes", spectrum_figure, has_spectra
-    ),
-    "normal-load": _per_mesh("normal load of every pair of every mesh", over_mesh.NORMAL_LOAD),
-    "friction": _per_mesh("friction coefficient of every pair", over_mesh.FRICTION_COEFFICIENT),
-    "film": _per_mesh("film thickness of every pair", over_mesh.FILM_THICKNESS),
-    "entrainment": _per_mesh("entrainment speed of every pair", over_mesh.ENTRAINMENT),
-    "efficiency": Drawing(
-        "instantaneous efficiency of the whole train",
-        partial(_whole, EFFICIENCY, lambda record: {"train": record["efficiency"]}),
-    ),
-    "orders": _OF_PAIR["orders"],
-    "line-load": _OF_PAIR["line-load"],
-    "in-space": Drawing(
-        "axial force of every mesh, axial displacements and tilts of every body", in_space_figure, helical
-    ),
-    "film-parameter": _per_mesh("film thickness over roughness", over_mesh.FILM_PARAMETER),
-    "pressure": _per_mesh("Hertz pressure of every pair", PRESSURE),
-    "mesh-stiffness": _per_mesh("stiffness of every pair", over_mesh.STIFFNESS),
-}
-
-_OF_ANY: dict[str, Drawing] = {
+    "orbit": _held("orbit", "orbits of the central gears of planetary sets", orbit_figure, has_orbits),
     "mesh-force": drawing(
         "force of every mesh along its pitch tangent",
         partial(_all_meshes, MESH_FORCE, mesh_forces, "mesh"),
         lambda record: "driven_torque" in record,
         ("mesh-force", "{path} has no torques of the mesh", "run it again"),
     ),
-    "displacement": Drawing(
+    "displacement": _held(
+        "displacement",
         "displacement of every body in its bearing",
         partial(_all_meshes, DISPLACEMENT, displacements, "body"),
-        lambda record: bool(np.any(np.isfinite(displacements(record)))),
+        lambda record: "body" in record and bool(np.any(np.isfinite(displacements(record)))),
     ),
     "loss": Drawing("loss to friction in every mesh", partial(_all_meshes, LOSS, losses, "mesh")),
     **by_revolution.DRAWINGS,
@@ -317,11 +315,4 @@ _OF_ANY: dict[str, Drawing] = {
         ("modes", "{path} does not say which bodies move in its modes", "run it again"),
     ),
     **sensors.DRAWINGS,
-}
-DRAWINGS: dict[str, Drawing] = {
-    **{
-        name: _either(_OF_PAIR.get(name), _OF_TRAIN.get(name))
-        for name in dict.fromkeys((*_OF_PAIR, *_OF_TRAIN))
-    },
-    **_OF_ANY,
 }

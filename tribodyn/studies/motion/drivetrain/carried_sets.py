@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.shapes import Array, Int
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
 
@@ -22,6 +22,11 @@ class CarriedSet(NamedTuple):
 def mesh_names(record: Record) -> list[str]:
     """Names of the meshes; of a pair that of its only one."""
     return list(map(str, record["mesh"])) if "mesh" in record else ["mesh"]
+
+
+def by_mesh(record: Record, name: str) -> Float[Array, "sample mesh *pair"]:
+    """A dataset of every mesh; of a pair that of its only one."""
+    return record[name] if "mesh" in record else record[name][:, None]
 
 
 def carriers(record: Record) -> Int[Array, " body"]:
