@@ -20,6 +20,7 @@ from tribodyn.derivatives.numbers import Number, numbers_of
 from tribodyn.derivatives.quantities import ALSO, QUANTITIES, Fixed, PairEvaluation, quantity_of
 from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.limits.limits import beyond
+from tribodyn.input.names import named_in
 from tribodyn.input.vary import is_whole
 from tribodyn.mesh.by_compliance import in_slices
 from tribodyn.mesh.slices.fine import fine_layout
@@ -68,14 +69,14 @@ class Differentiable:
         self._case, self._names = case, tuple(ALSO.get(name, name) for name in of)
         self._quantities = [quantity_of(case, name) for name in of]
         self._numbers = numbers_of(case, schema, self.wrt.__contains__)
-        check_keys(self.wrt, self._numbers, schema)
+        keys = known_keys(self.wrt, self._numbers, schema)
         self.about = tuple(quantity.about for quantity in self._quantities)
         self.parts = tuple((case, name) for name in self.of)
         self.units = tuple(quantity.unit for quantity in self._quantities)
-        self.key_units = tuple(self._numbers[key].unit for key in self.wrt)
-        self.at = np.array([float(self._numbers[key].value) for key in self.wrt])
+        self.key_units = tuple(self._numbers[key].unit for key in keys)
+        self.at = np.array([float(self._numbers[key].value) for key in keys])
         self._all = np.array([float(number.value) for number in self._numbers.values()])
-        self._places = np.array([list(self._numbers).index(key) for key in self.wrt])
+        self._places = np.array([list(self._numbers).index(key) for key in keys])
 
     def values(self, x: Float[Array, " key"]) -> Float[Array, " value"]:
         """Quantities where the keys have the values x (SI); NaN where there is no such mesh."""
@@ -154,12 +155,16 @@ def fixed_of(case: Any) -> Fixed:
         return Fixed(pairs, vanishing, layout, parts)
 
 
-def check_keys(keys: Sequence[str], numbers: Mapping[str, Any], schema: type[BaseModel]) -> None:
-    """Refuse keys by which nothing can be differentiated, and none at all; `schema` of the scenario."""
+def known_keys(keys: Sequence[str], numbers: Mapping[str, Any], schema: type[BaseModel]) -> tuple[str, ...]:
+    """Keys by which quantities are to be differentiated, by the names of the numbers that there are.
+
+    Refuses those by which nothing can be differentiated, and none at all; `schema` is of the scenario.
+    """
     there = "; there is: " + ", ".join(numbers)
     if not keys:
         raise InputError("wrt", None, "nothing to differentiate by", "name at least one key" + there)
-    for key in keys:
+    found = tuple(named_in(numbers, key) for key in keys)
+    for key in found:
         if key in numbers:
             continue
         if is_whole(schema, key):
@@ -168,6 +173,7 @@ def check_keys(keys: Sequence[str], numbers: Mapping[str, Any], schema: type[Bas
         rule, near = "no key to differentiate by", near_name(str(key), numbers)
         mean = f'did you mean "{near}"?' if near else "use another"
         raise InputError("wrt", quoted(str(key)), rule, mean + there)
+    return found
 
 
 @dataclass(frozen=True)

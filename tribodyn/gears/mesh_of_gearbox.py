@@ -9,7 +9,9 @@ from pydantic import BaseModel
 from tribodyn.cases.assessment_part import WholeDrive, shared_names
 from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.drive import SIDES
+from tribodyn.input.names import OF_PAIR, under_one_name
 from tribodyn.input.quantity import Table
+from tribodyn.input.schema import fields_of
 from tribodyn.input.sources import SCENARIOS, find_model
 from tribodyn.input.tables.duty import LOADS, SPEEDS
 from tribodyn.input.tables.gears.model_files import GearboxTable
@@ -98,8 +100,8 @@ def _put(data: dict[str, Any], tables: Mapping[str, Any], schema: type[BaseModel
         given = dict(own or {})
         taken = {key: value for key, value in table.items() if _has(schema, name, key)}
         for group in (SPEEDS, LOADS):
-            if name == "operating" and set(group) & set(given):
-                taken = {key: value for key, value in taken.items() if key not in group}
+            if name == "operating" and set(group) & set(under_one_name(given)):
+                taken = {key: value for key, value in taken.items() if OF_PAIR.get(key, key) not in group}
         if "law" in given:  # and its own keys
             taken = {}
         found[name] = taken | given
@@ -113,6 +115,6 @@ def _has(schema: type[BaseModel], name: str, key: str) -> bool:
     tables = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
     if not tables or name in ("drive", "lubricant"):
         return True
-    known = {field for table in tables for field in table.model_fields}
+    known = {field for table in tables for field in fields_of(table)}
     laws = name in ("film", "friction") and key not in ("sliding", "reversal_width")  # of motions alone
     return laws or key in known

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from tribodyn.errors import InputError, InputErrors, quoted
+from tribodyn.input.names import key_in, same_key
 from tribodyn.input.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.input.sources import find_scenario, read_toml
 from tribodyn.input.vary import NO_TABLE, VARY, Axis, axes_of, in_si
@@ -31,7 +32,7 @@ class Grid:
         self.study = study_of(written | ({"kind": overrides["kind"]} if "kind" in overrides else {}))
         self.axes: Sequence[Axis] = axes_of(vary, self.study.table())
         for axis in self.axes:
-            if axis.key in self.overrides:
+            if same_key(axis.key) in map(same_key, self.overrides):
                 raise InputError("--set", axis.key, f"is varied too, with {VARY}", "give it once")
         # texts may name files, which have to be read before anything inside them is set
         self._texts = [i for i, axis in enumerate(self.axes) if not axis.numeric]
@@ -143,11 +144,11 @@ class Grid:
 
 def _put(data: dict[str, Any], key: str, value: Any) -> None:
     place: Any = data
-    *above, last = key.split(".")
+    *above, last = key_in(data, key)
     try:
         for part in above:
-            place = place[int(part) if isinstance(place, list) else part]
-        place[int(last) if isinstance(place, list) else last] = value
+            place = place[part if isinstance(place, list) else str(part)]
+        place[last if isinstance(place, list) else str(last)] = value
     except (IndexError, KeyError, TypeError):
         rule = "stands in a table that not all cases have"
         remedy = "vary it in a sweep of its own, where no other key picks tables"

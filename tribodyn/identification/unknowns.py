@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.input.names import named_in, same_key
 from tribodyn.input.units import Kind, NotAQuantity, to_si
 from tribodyn.input.vary import in_si, kind_at
 from tribodyn.numerics.shapes import Array, Float
@@ -46,7 +47,7 @@ def unknowns_of(case: Any, wanted: Mapping[Any, Any]) -> tuple[Unknown, ...]:
     data = tomllib.loads(case.toml)
     table = study_of(data).table(data)
     found = tuple(_unknown(key, limits, data, table) for key, limits in wanted.items())
-    every = [key for unknown in found for key in unknown.keys]
+    every = [same_key(key) for unknown in found for key in unknown.keys]
     if twice := next((key for key in every if every.count(key) > 1), ""):
         raise InputError("unknowns", quoted(twice), "is sought twice", "name it once")
     case_at(case, found, shares_of(found))  # raises where the scenario does not know a key
@@ -98,8 +99,8 @@ def _found(data: Any, key: str) -> Any:
     for part in key.split("."):
         if isinstance(data, list) and part.isdecimal() and int(part) < len(data):
             data = data[int(part)]
-        elif isinstance(data, Mapping) and part in data:
-            data = data[part]
+        elif isinstance(data, Mapping) and (name := named_in(data, part)) in data:
+            data = data[name]
         else:
             return None
     return data

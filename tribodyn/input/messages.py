@@ -11,12 +11,15 @@ from pydantic import BaseModel, ValidationError
 
 from tribodyn.errors import InputError, InputErrors, near_name, printable, quoted
 from tribodyn.input import scope
+from tribodyn.input.names import OF_PAIR, speaks_of_pair, worded
 from tribodyn.input.quantity import Reference
-from tribodyn.input.schema import holds_by_name, inner_tables, table_at
+from tribodyn.input.schema import fields_of, holds_by_name, inner_tables, table_at
 from tribodyn.input.unit_grammar import range_for_one
 from tribodyn.input.units import base_units
 
 Key = tuple[str | int, ...]
+#: What is wrong with a key that a table does not know; its remedy has the name that was nearly written.
+_UNKNOWN = "unknown key"
 #: By how much rounding changes a value that is shown with three digits.
 _ROUNDED = 5e-3
 
@@ -50,11 +53,20 @@ class Origins:
             return InputErrors([self.locate(mistake) for mistake in error.errors])
         if error.file:
             return error
+        if self._data and error.rule != _UNKNOWN:
+            names = speaks_of_pair(self._scenario_of(error.key))
+            texts = (worded(text, names) for text in (error.key, error.rule, error.remedy))
+            error = InputError(next(texts), error.value, *texts)
         key = tuple(int(part) if part.isdecimal() else part for part in error.key.split("."))
         typed = value_at(self._data, key)
         rule, value = _ranges_as_typed(error.rule, typed), _as_typed(error.value, typed)
         remedy = error.remedy + self._which_table(key)
         return InputError(error.key, _ranges_as_typed(value, typed), rule, remedy, self.of(key))
+
+    def _scenario_of(self, key: str) -> Mapping[str, Any]:
+        """The scenario that a key is of: within one of a search this one."""
+        inner = self._data.get(key.partition(".")[0])
+        return inner if isinstance(inner, Mapping) and "operating" in inner else self._data
 
     def _which_table(self, key: Key) -> str:
         """Which table of a list, counted from one, a key stands in: keys count from zero."""
@@ -165,8 +177,11 @@ def _explain_one(found: dict[str, Any], model: type[BaseModel]) -> InputError:
             return InputError(dotted, None if absent else given, context["rule"], context["remedy"])
         case "missing":
             return InputError(dotted, None, "missing", _how_to_write(model, found["loc"]))
+        case "extra_forbidden" if key[-1] in OF_PAIR and key[-1] in fields_of(table_at(model, key[:-1])):
+            rule = f"is {OF_PAIR[str(key[-1])]} by another name, and both are given"
+            return InputError(dotted, given, rule, "leave one of them out")
         case "extra_forbidden":
-            return InputError(dotted, given, "unknown key", _near_key(model, found["loc"]))
+            return InputError(dotted, given, _UNKNOWN, _near_key(model, found["loc"]))
         case "literal_error":
             expected = context["expected"].replace("'", '"')
             near = near_name(str(found["input"]), expected.replace('"', "").replace(" or ", ", ").split(", "))
@@ -206,7 +221,7 @@ def keys_in(model: type[BaseModel], key: Iterable[str]) -> list[str]:
     """Return the keys of the table that `key` leads to, dotted and whole; those of tables end in a dot."""
     above = tuple(key)
     table = None if above and holds_by_name(model, above) else table_at(model, above)
-    fields = table.model_fields if table else {}
+    fields = fields_of(table)
     return [
         ".".join((*above, name)) + ("." if any(inner_tables(field.annotation)) else "")
         for name, field in fields.items()
@@ -215,9 +230,7 @@ def keys_in(model: type[BaseModel], key: Iterable[str]) -> list[str]:
 
 def _near_key(model: type[BaseModel], key: Key) -> str:
     table = table_at(model, key[:-1])
-    described = {
-        name: field.description or "" for name, field in (table.model_fields if table else {}).items()
-    }
+    described = {name: field.description or "" for name, field in fields_of(table).items()}
     # a symbol as on a drawing, with which a description begins: "A_sne, upper deviation …"
     of_symbol = (name for name, text in described.items() if text.startswith(f"{key[-1]},"))
     near = next(of_symbol, None) or near_name(str(key[-1]), described)

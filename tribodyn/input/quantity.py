@@ -5,17 +5,18 @@ how much the rounding to their last digit may have moved them.
 """
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, cast, get_args, get_origin
+from typing import Annotated, Any, ClassVar, NamedTuple, cast, get_args, get_origin
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError, core_schema
 
 from tribodyn.errors import quoted
+from tribodyn.input.names import named_in, under_one_name, worded
 from tribodyn.input.units import Kind, NotAQuantity, factor_to_si, to_si
 
 
@@ -24,6 +25,22 @@ class Table(BaseModel):
 
     # deferred: of all tables only those that a file is validated against are built
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, defer_build=True)
+    #: further names of fields in a file, see `names`
+    other_names: ClassVar[Mapping[str, str]] = {}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _under_one_name(cls, data: Any) -> Any:
+        return under_one_name(data) if cls.other_names and isinstance(data, dict) else data
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
+        found = handler(schema)
+        keys = handler.resolve_ref_schema(found).get("properties", {})
+        for other, name in cls.other_names.items():
+            if name in keys:
+                keys[other] = {**keys[name], "description": f"{name}, as of a pair of gears"}
+        return found
 
 
 class InUnit:
@@ -220,7 +237,9 @@ def defaults_written_out(raw: dict[str, Any], table: type[Table]) -> dict[str, A
     later = [
         name for key, names in getattr(table, "COMPLETED_BY", {}).items() if key in raw for name in names
     ]
-    for key, field in table.model_fields.items():
+    of_pair = bool(table.other_names.keys() & raw.keys())
+    for name, field in table.model_fields.items():
+        key = named_in(raw, worded(name, of_pair))
         if key in later:
             continue
         if key not in full and not field.is_required():

@@ -14,6 +14,7 @@ from tribodyn.errors import InputError, printable_path, quoted
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.input import bounds, sources
 from tribodyn.input.messages import Key, Origins, value_at
+from tribodyn.input.names import key_in
 from tribodyn.input.quantity import LIKE, Reference, Table, csv_file, defaults_written_out
 from tribodyn.input.schema import expanded, family_shapes, matches, references
 
@@ -128,7 +129,7 @@ def toml_value(text: str) -> Any:
 
 def _override(known: _References, dotted: str, value: Any) -> None:
     """Put one override in, and remember that it is one."""
-    key: Key = tuple(int(part) if part.isdecimal() else part for part in dotted.split("."))
+    key = key_in(known.data, dotted)
     if not _put(known, key, toml_value(value) if isinstance(value, str) else value):
         rule = f"{'.'.join(map(str, key[:-1]))} is not a table"
         for depth, part in enumerate(key):

@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import Any, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel, Tag
+from pydantic.fields import FieldInfo
 
 from tribodyn.input.quantity import FamilyShape, Reference
 
@@ -33,6 +34,15 @@ def inner_tables(annotation: Any, held: type | None = None) -> Iterator[Inner]:
         yield from inner_tables(part, origin if origin in (dict, tuple) else held)
 
 
+def fields_of(table: type[BaseModel] | None) -> dict[str, FieldInfo]:
+    """Fields of a table by all names that a scenario may give them; none of no table."""
+    if table is None:
+        return {}
+    fields = table.model_fields
+    other: Mapping[str, str] = getattr(table, "other_names", {})
+    return {**fields, **{name: fields[own] for name, own in other.items() if own in fields}}
+
+
 def table_at(
     model: type[BaseModel], key: Iterable[str | int], wanted: str | int | None = None
 ) -> type[BaseModel] | None:
@@ -54,7 +64,7 @@ def table_at(
         branch = next((str(part) for part in key[place : place + 2] if str(part).startswith("(")), None)
         if branch is not None:
             place += key[place : place + 2].index(branch) + 1
-            inner = tagged(model.model_fields[name].annotation, branch) or inner
+            inner = tagged(fields_of(model)[name].annotation, branch) or inner
         model = inner
     return model
 
@@ -75,7 +85,7 @@ def holds_by_name(model: type[BaseModel], key: Iterable[str | int]) -> bool:
     if isinstance(last, int):
         return False
     table = table_at(model, above)
-    field = table.model_fields.get(last) if table else None
+    field = fields_of(table).get(last)
     return field is not None and any(inner.held is dict for inner in inner_tables(field.annotation))
 
 
@@ -85,8 +95,8 @@ def _step(
     """The table that a part of a key leads to, and the place after it and after a name that follows it."""
     name = str(key[place])
     following = key[place + 1] if place + 1 < len(key) else None
-    if name in model.model_fields:
-        found = list(inner_tables(model.model_fields[name].annotation))
+    if (field := fields_of(model).get(name)) is not None:
+        found = list(inner_tables(field.annotation))
     else:
         extra = _extra(model)
         return (extra, place + 1)
@@ -124,7 +134,7 @@ def family_shapes(table: type[BaseModel]) -> tuple[tuple[str, ...], ...]:
 
 def _marked(table: type[BaseModel]) -> list[tuple[tuple[str, ...], Mark]]:
     found: list[tuple[tuple[str, ...], Mark]] = []
-    for name, field in table.model_fields.items():
+    for name, field in fields_of(table).items():
         found += [((name,), mark) for mark in parts_of(field) if isinstance(mark, (Reference, FamilyShape))]
         for inner in inner_tables(field.annotation):
             above = (name,) if inner.held is None else (name, EACH)

@@ -14,9 +14,10 @@ from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.input.bounds import LONGEST_KEY, broken_bounds
+from tribodyn.input.names import same_key
 from tribodyn.input.quantity import Draws, InUnit, Reference, Weighed
 from tribodyn.input.resolve import toml_value
-from tribodyn.input.schema import parts_of, table_at
+from tribodyn.input.schema import fields_of, parts_of, table_at
 from tribodyn.input.unit_grammar import two_ends
 from tribodyn.input.units import FREQUENCY, Kind, NotAQuantity, base_units, to_si
 
@@ -75,7 +76,7 @@ def axes_of(options: list[str], table: type[BaseModel]) -> list[Axis]:
     axes: list[Axis] = []
     for option in options:
         axis = _axis(option, table)
-        if any(axis.key == other.key for other in axes):
+        if any(same_key(axis.key) == same_key(other.key) for other in axes):
             raise _refusal(option, f"{axis.key} is varied twice", "list all its values at once")
         axes.append(axis)
     return _named_apart(axes)
@@ -212,7 +213,7 @@ def _marks(table: type[BaseModel], key: str) -> list[Any]:
     if not named:
         return []
     holder = table_at(table, parts[: named[-1]], parts[named[-1]])
-    field = holder.model_fields.get(str(parts[named[-1]])) if holder else None
+    field = fields_of(holder).get(str(parts[named[-1]]))
     return list(parts_of(field)) if field else []
 
 

@@ -33,12 +33,12 @@ def test_the_same_duty_however_it_is_given(speed: dict[str, str], given: dict[st
 @pytest.mark.parametrize(
     ("given", "key", "rule"),
     [
-        ({}, "gear_torque", "missing"),
+        ({}, "output_torque", "missing"),
         ({"power": "1 kW"}, "power", "gives no torque without a speed"),
-        ({"gear_torque": "1 N*m"}, "pinion_speed", "missing"),
-        (SPEEDS[0] | SPEEDS[1] | LOADS[0], "gear_speed", "as pinion_speed does"),
-        (SPEEDS[0] | LOADS[0] | LOADS[1], "power", "as gear_torque does"),
-        (SPEEDS[0] | LOADS[2] | LOADS[1], "pinion_torque", "as gear_torque does"),
+        ({"gear_torque": "1 N*m"}, "input_speed", "missing"),
+        (SPEEDS[0] | SPEEDS[1] | LOADS[0], "output_speed", "as input_speed does"),
+        (SPEEDS[0] | LOADS[0] | LOADS[1], "power", "as output_torque does"),
+        (SPEEDS[0] | LOADS[2] | LOADS[1], "input_torque", "as output_torque does"),
     ],
 )
 def test_too_much_or_too_little_is_named(given: dict[str, str], key: str, rule: str):

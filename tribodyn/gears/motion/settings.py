@@ -30,6 +30,7 @@ from tribodyn.input.quantity import (
     csv_file,
     written,
 )
+from tribodyn.input.tables.duty import DutyTable, OiledOperatingTable
 from tribodyn.input.tables.gears.drive_data import backlash_of
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.single_teeth import ToothSampleNumber
@@ -50,6 +51,43 @@ class TorqueHarmonic(Table):
     amplitude: fields.Torque
     frequency: Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY))]
     phase: fields.Angle = written("0 deg")
+
+
+class Operating(OiledOperatingTable):
+    """How a gearbox is driven and loaded: nominal speed, constant part of the load, and more."""
+
+    source: Literal["speed", "torque"] = Field(
+        "speed", description="speed: the input's rotation is prescribed; torque: a motor with inertia"
+    )
+    output_torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
+        None, description="over time, added to the output's torque"
+    )
+    output_torque_harmonics: tuple[TorqueHarmonic, ...] = Field(
+        (), max_length=MOST_HARMONICS, description="added to the output's torque"
+    )
+    load_inertia: fields.Inertia = written("0 kg*m**2", description="of what the output drives")
+    load_damping: fields.TorsionalDamping = written(
+        "0 N*m*s/rad", description="output torque that grows with speed above nominal"
+    )
+    drive_inertia: fields.Inertia = written("0 kg*m**2", description="of the motor")
+    shaft_stiffness: fields.TorsionalStiffness | None = Field(
+        None, description="between motor and input; default: rigid"
+    )
+    shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
+    speed_regulation: fields.TorsionalDamping = written(
+        "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
+    )
+
+    @property
+    def motor_torque(self) -> float | None:
+        """Torque of the motor, given beside the load; None: it balances the load without losses."""
+        beside = self.output_torque is not None or self.power is not None
+        return self.input_torque if beside else None
+
+    @property
+    def load(self) -> DutyTable:
+        """Speed and load, without the torque of the motor."""
+        return self if self.motor_torque is None else self.model_copy(update={"input_torque": None})
 
 
 class ErrorHarmonic(Table):
@@ -194,12 +232,12 @@ def broken_solver_rules(solver: Solver) -> Iterator[InputError]:
         yield unknown_name("solver.method", solver.method, SOLVERS, "solver")
 
 
-def broken_source_rules(operating: Any, motor_torque: str) -> Iterator[InputError]:
-    """Go through what contradicts in how a drive is driven; `motor_torque` is the key of its torque."""
+def broken_source_rules(operating: Operating) -> Iterator[InputError]:
+    """Go through what contradicts in how a gearbox is driven."""
     if operating.source == "speed":
         of_motor = ("drive_inertia", "shaft_stiffness", "shaft_damping", "speed_regulation")
         given = {name: getattr(operating, name) for name in of_motor}
-        for name, value in {motor_torque: operating.motor_torque, **given}.items():
+        for name, value in {"input_torque": operating.motor_torque, **given}.items():
             if value:
                 yield InputError(
                     f"operating.{name}",
@@ -251,7 +289,7 @@ def broken_flank_rules(key: str, torque: float, back_flanks: bool, mesh: Mesh) -
         if torque < 0 and getattr(mesh.transmission_error, name):
             yield InputError(
                 f"mesh.transmission_error.{name}",
-                rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
+                rule="is of the driving flanks, but under a negative output_torque the back flanks carry",
                 remedy="leave it out, or reverse the load",
             )
     if torque < 0 and mesh.deviation_sample is not None:

@@ -1,23 +1,24 @@
-"""What a drive has to do: speed and load, each on either shaft, the load also as power; load spectra."""
+"""What a gearbox has to do: speed and load, each at either end, the load also as power; load spectra."""
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.input import units
 from tribodyn.input.fields import ScenarioHead, Temperature, Torque
+from tribodyn.input.names import OF_PAIR
 from tribodyn.input.quantity import InUnit, Positive, Table, Weighed, csv_tables
 
 Speed = Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))]
 Power = Annotated[float, InUnit(units.POWER)]
 
-SPEEDS = ("pinion_speed", "gear_speed")
-LOADS = ("gear_torque", "pinion_torque", "power")
-_SPEED_REMEDY = 'add pinion_speed = "1500 rpm", or gear_speed'
-_LOAD_REMEDY = 'add gear_torque = "500 N*m", pinion_torque or power'
+SPEEDS = ("input_speed", "output_speed")
+LOADS = ("output_torque", "input_torque", "power")
+_SPEED_REMEDY = 'add input_speed = "1500 rpm", or output_speed'
+_LOAD_REMEDY = 'add output_torque = "500 N*m", input_torque or power'
 
 
 class Duty(NamedTuple):
@@ -28,20 +29,25 @@ class Duty(NamedTuple):
 
 
 class DutyTable(Table):
-    """Speed and load, each given once: on either shaft, the load also as power."""
+    """Speed and load, each given once: at the input or at the output, the load also as power.
 
-    pinion_speed: Speed | None = Field(None, description="of the pinion")
-    gear_speed: Speed | None = Field(None, description="of the gear, in place of the pinion's")
-    gear_torque: Torque | None = Field(
-        None, description="against the gear's motion; negative where the gear drives"
+    The input of a pair of gears is its pinion, the output its gear.
+    """
+
+    other_names = OF_PAIR
+
+    input_speed: Speed | None = Field(None, description="of the input")
+    output_speed: Speed | None = Field(None, description="of the output, in place of the input's")
+    output_torque: Torque | None = Field(
+        None, description="against the output's motion; negative where it drives"
     )
-    pinion_torque: Torque | None = Field(None, description="on the pinion, in place of the gear's")
-    power: Power | None = Field(None, description="transmitted, in place of a torque")
+    input_torque: Torque | None = Field(None, description="on the input, in place of the output's")
+    power: Power | None = Field(None, description="put in, in place of a torque")
 
 
-def given_twice(table: Any, key: str, speeds: Sequence[str], loads: Sequence[str]) -> Iterator[InputError]:
-    """Go through what gives the speed or the load of the table at a key once more; by names of its fields."""
-    for what, names in (("the speed", speeds), ("the load", loads)):
+def given_twice(table: DutyTable, key: str) -> Iterator[InputError]:
+    """Go through what gives the speed or the load of the table at a key once more."""
+    for what, names in (("the speed", SPEEDS), ("the load", LOADS)):
         first, *others = [name for name in names if getattr(table, name) is not None] or [""]
         for name in others:
             rule = f"gives {what}, as {first} does"
@@ -49,23 +55,23 @@ def given_twice(table: Any, key: str, speeds: Sequence[str], loads: Sequence[str
 
 
 def broken_duty_rules(
-    table: DutyTable, key: str = "operating", speed_needed: bool = True
+    table: DutyTable, *, speed_needed: bool = True, load_needed: bool = True
 ) -> list[InputError]:
-    """Return what is missing or given more than once in the speed and load of the table at a key.
+    """Return what is missing or given more than once in the speed and load of [operating].
 
     A speed may be needed even where no power is given.
     """
     speeds, loads = (
         [name for name in names if getattr(table, name) is not None] for names in (SPEEDS, LOADS)
     )
-    errors = [*given_twice(table, key, SPEEDS, LOADS)]
-    if not loads:
-        errors.append(InputError(f"{key}.gear_torque", rule="missing: the load", remedy=_LOAD_REMEDY))
+    errors = [*given_twice(table, "operating")]
+    if load_needed and not loads:
+        errors.append(InputError("operating.output_torque", rule="missing: the load", remedy=_LOAD_REMEDY))
     if not speeds and "power" in loads:
         shown = quoted(f"{table.power:g} W")
-        errors.append(InputError(f"{key}.power", shown, "gives no torque without a speed", _SPEED_REMEDY))
+        errors.append(InputError("operating.power", shown, "gives no torque without a speed", _SPEED_REMEDY))
     elif not speeds and speed_needed:
-        errors.append(InputError(f"{key}.pinion_speed", rule="missing: the speed", remedy=_SPEED_REMEDY))
+        errors.append(InputError("operating.input_speed", rule="missing: the speed", remedy=_SPEED_REMEDY))
     return errors
 
 
@@ -86,7 +92,7 @@ def broken_driving_rules(
     if broken or (torque := duty_of(table, *teeth).gear_torque) > 0.0:
         return broken
     rule, remedy = f"must be greater than zero: {why}", f'write a torque such as "500 N*m"{remedy}'
-    return [InputError("operating.gear_torque", f"{torque:g} N*m", rule, remedy)]
+    return [InputError("operating.output_torque", f"{torque:g} N*m", rule, remedy)]
 
 
 def duty_of(table: DutyTable, pinion_teeth: float, gear_teeth: float) -> Duty:
@@ -96,14 +102,14 @@ def duty_of(table: DutyTable, pinion_teeth: float, gear_teeth: float) -> Duty:
     """
     ratio = gear_teeth / pinion_teeth
     speed = math.nan  # one object, so that equal cases are equal
-    if table.pinion_speed is not None:
-        speed = table.pinion_speed
-    elif table.gear_speed is not None:
-        speed = table.gear_speed * ratio
-    if table.gear_torque is not None:
-        return Duty(speed, table.gear_torque)
-    if table.pinion_torque is not None:
-        return Duty(speed, table.pinion_torque * ratio)
+    if table.input_speed is not None:
+        speed = table.input_speed
+    elif table.output_speed is not None:
+        speed = table.output_speed * ratio
+    if table.output_torque is not None:
+        return Duty(speed, table.output_torque)
+    if table.input_torque is not None:
+        return Duty(speed, table.input_torque * ratio)
     return Duty(speed, (table.power or 0.0) * ratio / speed)
 
 
@@ -116,10 +122,6 @@ class SpectrumDuty(DutyTable):
 
     share: Positive = Field(description="of the time; shares count by their sum")
     oil_temperature: Temperature | None = Field(None, description="in place of that of [operating]")
-
-    #: what gives its speed, and its load
-    speeds: ClassVar[tuple[str, ...]] = SPEEDS
-    loads: ClassVar[tuple[str, ...]] = LOADS
 
 
 class OperatingTable(DutyTable):
@@ -144,7 +146,7 @@ class SpectrumScenario(ScenarioHead):
     duty: Annotated[
         tuple[SpectrumDuty, ...],
         csv_tables(
-            "CSV file with a row for each duty: share [1], gear_torque [N*m], …", "share", "gear_torque"
+            "CSV file with a row for each duty: share [1], output_torque [N*m], …", "share", "output_torque"
         ),
     ] = Field((), max_length=MOST_DUTIES, description="load spectrum: duties with shares of time")
 
@@ -175,7 +177,7 @@ def broken_spectrum_rules(scenario: Any) -> Iterator[InputError]:
         has = f"the load spectrum has {len(duties)}" if duties else "there is no load spectrum"
         yield InputError("operating.duty", number, has, "add [[duty]] tables, or name another")
     for place, duty in enumerate(duties):
-        yield from given_twice(duty, f"duty.{place}", duty.speeds, duty.loads)
+        yield from given_twice(duty, f"duty.{place}")
 
 
 def unnamed_duty(scenario: Any) -> Iterator[InputError]:
@@ -198,7 +200,7 @@ def of_duty(error: InputError, number: int, scenario: Any) -> InputError:
 def _with(scenario: Any, number: int) -> Any:
     """The scenario with the keys of one of its duties in [operating]; its duties say all of theirs."""
     duties = tuple(_completed(duty, scenario.operating) for duty in scenario.duty)
-    taken = *duties[0].speeds, *duties[0].loads, "oil_temperature"
+    taken = *SPEEDS, *LOADS, "oil_temperature"
     keys = {name for name in taken if hasattr(scenario.operating, name)}
     update = {name: getattr(duties[number - 1], name) for name in keys} | {"duty": number}
     operating = scenario.operating.model_copy(update=update)
@@ -208,7 +210,7 @@ def _with(scenario: Any, number: int) -> Any:
 def _completed(duty: SpectrumDuty, operating: Any) -> SpectrumDuty:
     """A duty with what it does not give from [operating]."""
     missing: dict[str, Any] = {}
-    for names in (duty.speeds, duty.loads, ("oil_temperature",)):
+    for names in (SPEEDS, LOADS, ("oil_temperature",)):
         if all(getattr(duty, name) is None for name in names):
             missing |= {name: getattr(operating, name, None) for name in names}
     return duty.model_copy(update=missing)

@@ -7,6 +7,7 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.input.names import same_key
 from tribodyn.input.resolve import toml_value
 from tribodyn.input.units import Kind, NotAQuantity, base_units, factor_to_si, to_si
 from tribodyn.input.vary import is_drawn, is_whole, kind_at
@@ -151,10 +152,10 @@ def _twice(free: Sequence[case.Free]) -> list[InputError]:
     errors = []
     for number, entry in enumerate(free):
         for key in entry.keys:
-            if key in seen:
+            if same_key(key) in seen:
                 place = f"design.free.{number}.key"
                 errors.append(InputError(place, quoted(key), "is free twice", "give it once"))
-            seen.add(key)
+            seen.add(same_key(key))
     return errors
 
 
@@ -247,7 +248,7 @@ def _duty(place: str, table: Any, free: Sequence[case.Free], sources: Sources) -
     keys = case.flat(table.set)
     for key in keys:
         _require(f"{place}.set", (key,), (keys[key],), sources)
-        if any(key in other.keys for other in free):
+        if any(same_key(key) in map(same_key, other.keys) for other in free):
             raise InputError(f"{place}.set", quoted(key), "is free too", "choose one of them")
     name = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in keys.items())
     return case.WeightedDuty(table.weight, keys, name)

@@ -12,6 +12,7 @@ import numpy as np
 from tribodyn.cases.results import TextTable
 from tribodyn.errors import InputError
 from tribodyn.input.resolve import resolve_table
+from tribodyn.input.schema import fields_of
 from tribodyn.input.tables.duty import OiledOperatingTable
 from tribodyn.studies.ehl.along_path import PairWay, PreparedEhl, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
@@ -163,7 +164,7 @@ def case_for(case: CaseHead, positions: int) -> EhlCase:
     if missing := [name for name in _TABLES if not isinstance(data.get(name), dict)]:
         rule = f"a scenario without {' and without '.join(missing)}: there is no contact to solve"
         raise InputError("kind", case.kind, rule, "name a scenario with drive, lubricant and operating")
-    known = OiledOperatingTable.model_fields
+    known = fields_of(OiledOperatingTable)
     tables = {
         "title": case.title,
         "name": case.name,

@@ -16,6 +16,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 from tribodyn.errors import InputError, InputErrors, quoted, unknown_name
 from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.input.messages import Origins, explain
+from tribodyn.input.names import same_key
 from tribodyn.input.quantity import LIKE
 from tribodyn.input.resolve import OVERRIDES, Resolved, resolve, resolve_table, unresolved_keys
 from tribodyn.input.scope import outside
@@ -205,8 +206,8 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
         raise origins.locate(error) from None
     except ValidationError as error:
         # a reference that could not be followed has been complained of already
-        known = unresolved_keys(unresolved)
-        mistakes = [mistake for mistake in explain(error, model) if mistake.key not in known]
+        known = set(map(same_key, unresolved_keys(unresolved)))
+        mistakes = [mistake for mistake in explain(error, model) if same_key(mistake.key) not in known]
         raise _located([*unresolved, *mistakes], origins) from None
     # of a key whose value only its family knows to be a file
     if errors := unresolved or list(broken_rules(study, scenario)):

@@ -10,6 +10,7 @@ from tribodyn.gears.rating.capacity import shorter_life
 from tribodyn.gears.rating.limits import LIMITS, SAFETIES, least, worst
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
+from tribodyn.input.names import under_one_name
 from tribodyn.post.page.page import table
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES
@@ -94,7 +95,7 @@ def _asked(case: TrainAssessmentCase, summary: Mapping[str, Any]) -> str:
         gears.append(f"{group} {teeth}, module {drive.module * 1e3:.4g} mm{helix}{times}")
     pair = next(iter(meshes.values()))
     oil = first_page.oil_line(pair.lubricant, float(pair.lubricant.temperature), case.settings.lubrication)
-    typed = tomllib.loads(train.toml).get("operating", {})
+    typed = under_one_name(tomllib.loads(train.toml).get("operating", {}))
     loads = [f"{name.replace('_', ' ')} {typed[name]}" for name in _LOADS if typed.get(name) is not None]
     power = f"{summary['power_in_mean'] * 1e-3:.5g} kW"
     duty = (

@@ -19,6 +19,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.limits import LIMITS, plain_distances
+from tribodyn.input.names import named_in, same_key
 from tribodyn.input.resolve import resolve_table
 from tribodyn.input.tables.duty import LOADS, SPEEDS
 from tribodyn.numerics.processes import child
@@ -43,11 +44,11 @@ Results = list[dict[str, Any] | str]
 
 def loaded_case(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> Loaded:
     """Load the base scenario with some keys set; raises as `protocol.load.load`."""
-    data = copy.deepcopy(dict(base))
+    data, given = copy.deepcopy(dict(base)), {same_key(key) for key in overrides}
     for group in ALTERNATIVES:
-        if any(f"operating.{name}" in overrides for name in group):
+        if any(f"operating.{name}" in given for name in group):
             for name in group:  # what is given takes the place of what stands there
-                data.get("operating", {}).pop(name, None)
+                data.get("operating", {}).pop(named_in(data.get("operating", {}), name), None)
     return loaded_from(resolve_table(data, FILE, overrides, table_of), FILE)
 
 

@@ -12,8 +12,9 @@ from pydantic import ValidationError, create_model
 
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.input.messages import explain
+from tribodyn.input.names import named_in
 from tribodyn.input.quantity import Table
-from tribodyn.input.schema import holds_by_name, table_at
+from tribodyn.input.schema import fields_of, holds_by_name, table_at
 from tribodyn.input.units import base_units
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
@@ -147,7 +148,7 @@ def _fields_along(key: str, schema: type[Table]) -> Iterator[tuple[list[str], st
     parts = [int(name) if name.isdecimal() else name for name in names]
     for place, part in enumerate(parts):
         table = table_at(schema, parts[:place], part)
-        fields = table.model_fields if table else None
+        fields = fields_of(table) or None
         named = isinstance(part, int) or (place and holds_by_name(schema, parts[:place]))
         if fields and part not in fields and table_at(schema, parts[: place + 1]) is not None:
             named = True  # a table with names of its own beside its keys
@@ -163,7 +164,7 @@ def standing(scenarios: Mapping[str, Mapping[str, Any]], key: str) -> Any:
     data: Any = scenarios[name]
     for part in key.split("."):
         if isinstance(data, Mapping):
-            data = data.get(part)
+            data = data.get(named_in(data, part))
         elif isinstance(data, (list, tuple)) and part.isdecimal() and int(part) < len(data):
             data = data[int(part)]
         else:

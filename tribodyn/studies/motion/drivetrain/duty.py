@@ -3,14 +3,13 @@
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from tribodyn.errors import InputError, quoted
-from tribodyn.input.tables.duty import given_twice
+from tribodyn.errors import InputError
+from tribodyn.input.tables.duty import broken_duty_rules
 from tribodyn.studies.motion.case import LoadData
 from tribodyn.studies.motion.drivetrain.duty_tables import LoadTable, TrainOperating
 from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics, ends_of
 from tribodyn.train.statics import Torques, nominal_torques
 
-_SPEEDS, _LOADS = ("input_speed", "output_speed"), ("output_torque", "input_torque", "power")
 #: What is said of the output alone.
 _OF_OUTPUT = ("output_speed", "output_torque", "output_torque_table", "output_torque_harmonics")
 #: Share of the largest torque below which a mesh carries nothing but rounding.
@@ -26,8 +25,8 @@ class TrainDuty(NamedTuple):
     torques: Torques
 
 
-def broken_duty_rules(scenario: Any) -> Iterator[InputError]:
-    """Go through what is missing or said twice of speed and load."""
+def broken_duty(scenario: Any) -> Iterator[InputError]:
+    """Go through what is missing or said twice of ends, speed and load."""
     operating: TrainOperating = scenario.operating
     source, output = ends_of(scenario)
     if not source:
@@ -42,21 +41,7 @@ def broken_duty_rules(scenario: Any) -> Iterator[InputError]:
             if getattr(operating, name) and (name != "input_torque" or operating.source == "speed"):
                 rule = "is of the output, and there is none"
                 yield InputError(f"operating.{name}", None, rule, 'add output = "wheel", or leave it out')
-    names = [name for name in _LOADS if name != "input_torque" or operating.motor_torque is None]
-    yield from given_twice(operating, "operating", _SPEEDS, names)
-    speeds = [name for name in _SPEEDS if getattr(operating, name) is not None]
-    loads = [name for name in names if getattr(operating, name) is not None]
-    if not speeds:
-        remedy = 'add input_speed = "1500 rpm", or output_speed'
-        yield InputError("operating.input_speed", None, "missing: the speed", remedy)
-    if output is not None and not loads:
-        remedy = 'add output_torque = "500 N*m", input_torque or power'
-        yield InputError("operating.output_torque", None, "missing: the load", remedy)
-    if not any((output, *scenario.load)):
-        return
-    if operating.power is not None and not speeds:
-        shown = quoted(f"{operating.power:g} W")
-        yield InputError("operating.power", shown, "gives no torque without a speed", "add input_speed")
+    yield from broken_duty_rules(operating.load, load_needed=output is not None)
 
 
 def duty_of(scenario: Any, train: TrainKinematics) -> TrainDuty:

@@ -8,6 +8,7 @@ from tribodyn.cases.assessment_part import MeshAtDuty, Meshing, WholeDrive, shar
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.gears.rating.bearings import TurningShaft
 from tribodyn.geometry.drive import SIDES, Side
+from tribodyn.input.names import under_one_name
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
@@ -45,7 +46,8 @@ def _meshing(case: Gearbox, mesh: TrainMesh) -> tuple[Meshing, Meshing]:
 
 def at_speed(case: Gearbox, scenario: Mapping[str, Any], factor: float) -> dict[str, Any]:
     """The scenario at another speed, given at the input, and with its torque in place of a power."""
-    operating = {name: value for name, value in scenario["operating"].items() if name != "output_speed"}
+    operating = under_one_name(scenario["operating"])
+    operating.pop("output_speed", None)
     if operating.pop("power", None) is not None and case.loads:
         operating["output_torque"] = f"{case.loads[0].torque!r} N*m"
     operating["input_speed"] = f"{factor * case.source.speed!r} rad/s"

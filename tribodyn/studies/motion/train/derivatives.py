@@ -14,7 +14,7 @@ import numpy as np
 import tomli_w
 from pydantic import BaseModel
 
-from tribodyn.derivatives.differentiable import Differentiable, check_keys
+from tribodyn.derivatives.differentiable import Differentiable, known_keys
 from tribodyn.derivatives.numbers import numbers_of, unit_at
 from tribodyn.derivatives.quantities import ALSO, QUANTITIES
 from tribodyn.errors import InputError, quoted, unknown_name
@@ -83,25 +83,25 @@ class DifferentiableTrain:
             numbers = numbers_of(pair, schema, lambda key, mesh=mesh: _key(key, train, mesh) in self.wrt)
             names.append({key: own for key in numbers if (own := _key(key, train, mesh))})
             known |= {own: (float(numbers[key].value), numbers[key].unit) for key, own in names[-1].items()}
-        check_keys(self.wrt, known, schema)
-        if twice := [key for key in self.wrt if self.wrt.count(key) > 1]:
+        asked = self._keys = known_keys(self.wrt, known, schema)
+        if twice := [key for key in asked if asked.count(key) > 1]:
             raise InputError("wrt", quoted(twice[0]), "is named twice", "name every key once")
-        self.at = np.array([known[key][0] for key in self.wrt])
-        self.key_units = tuple(known[key][1] for key in self.wrt)
+        self.at = np.array([known[key][0] for key in asked])
+        self.key_units = tuple(known[key][1] for key in asked)
         self._parts = []
         # numbers of a mesh that follow from others: its duty, and at a ring the distance of the sun's mesh
         after = len(wrt) + len(_OF_DUTY) * len(pairs)
         suns = {mesh: sun for mesh in range(len(pairs)) if (sun := _distance_from(train, mesh)) is not None}
         self._distances: dict[int, tuple[Differentiable, list[int]]] = {}  # by the sun's mesh
         for mesh, pair in enumerate(pairs):
-            places = {key: self.wrt.index(own) for key, own in names[mesh].items() if own in self.wrt}
-            if mesh in suns and (keys := {k: own for k, own in names[suns[mesh]].items() if own in self.wrt}):
+            places = {key: asked.index(own) for key, own in names[mesh].items() if own in asked}
+            if mesh in suns and (keys := {k: own for k, own in names[suns[mesh]].items() if own in asked}):
                 sun = suns[mesh]
                 if sun not in self._distances:
                     distance = Differentiable(pairs[sun], schema, ["centre_distance"], list(keys))
-                    self._distances[sun] = distance, [self.wrt.index(own) for own in keys.values()]
+                    self._distances[sun] = distance, [asked.index(own) for own in keys.values()]
                 places["drive.centre_distance"] = after + list(self._distances).index(sun)
-            if not places or not self._duty.numbers.keys().isdisjoint(self.wrt):
+            if not places or not self._duty.numbers.keys().isdisjoint(asked):
                 places |= {key: len(wrt) + i * len(pairs) + mesh for i, key in enumerate(_OF_DUTY)}
             if needed := self._needed(pairs, mesh):
                 try:
@@ -142,7 +142,7 @@ class DifferentiableTrain:
         return list(dict.fromkeys(names))
 
     def _evaluated(self, x: Any, *, slopes: bool) -> tuple[Any, Any]:
-        duty, by_duty = self._duty.at(dict(zip(self.wrt, x, strict=True)))
+        duty, by_duty = self._duty.at(dict(zip(self._keys, x, strict=True)))
         numbers, by_numbers = np.concatenate([x, duty]), np.vstack([np.eye(len(x)), by_duty])
         power = numbers[-2:], by_numbers[-2:]  # that loads take and put in
         numbers, by_numbers = numbers[:-2], by_numbers[:-2]
