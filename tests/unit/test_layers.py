@@ -39,6 +39,7 @@ MAY_IMPORT["record"] = {"numerics", "signals", "quantities"}
 MAY_IMPORT["post"] = {"numerics", "signals", "quantities", "record"}
 MAY_IMPORT["drawing"] = {"numerics", "geometry", "post"}
 MAY_IMPORT["input"] = {
+    "train",
     "numerics",
     "geometry",
     "tribology",

@@ -49,14 +49,14 @@ from tribodyn.input.tables.losses import (
 )
 from tribodyn.input.tables.oil.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
 from tribodyn.input.tables.supports.bearings import Bearings, broken_bearing_rules
-from tribodyn.input.tables.supports.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
+from tribodyn.input.tables.supports.shafts import Shafts, broken_shafts, drawn_shafts, listed
 from tribodyn.mesh.table import MeshData
 from tribodyn.tribology.law import AUTO, FilmData, FrictionData
 
 Oil = Annotated[Lubricant, model_file("lubricants")]
 TemperatureKeys = Annotated[TemperatureTable | None, Field(description="bulk temperature of the teeth")]
 LossKeys = Annotated[LossesTable | None, Field(description="load-independent losses")]
-ShaftKeys = Annotated[DrawnShafts | None, Field(description="shafts as drawn, on their bearings")]
+ShaftKeys = Annotated[Shafts | None, Field(description="shafts as drawn, on their bearings")]
 #: Of studies of the teeth alone, which read matrices of it.
 MatrixKeys = Annotated[
     Bearings | None, model_file("bearings"), Field(description="matrices of shafts and bearings")
@@ -227,16 +227,19 @@ def _broken_internal_face(scenario: Any) -> Iterator[InputError]:
 def _broken_supports(scenario: Any) -> Iterator[InputError]:
     """Go through the broken rules of shafts and bearings, where the kind has such tables."""
     shafts, bearings = getattr(scenario, "shaft", None), getattr(scenario, "bearings", None)
-    if isinstance(bearings, Bearings):
-        yield from broken_bearing_rules(bearings, drawn_sides(shafts))
-    if isinstance(shafts, DrawnShafts):
-        yield from broken_shaft_rules(shafts, bearings)
+    if bearings is not None:
+        yield from broken_bearing_rules(bearings, drawn_shafts(shafts))
+    yield from broken_shafts(shafts, SIDES, bearings)
+    for number, shaft in enumerate(listed(shafts)):
+        if len(shaft.gears) > 1 and shaft.drawn is None:
+            rule = "pinion and gear mesh, and turn on two shafts"
+            yield InputError(f"shaft.{number}.gears", None, rule, "name one of them")
 
 
 def broken_support_keys(scenario: Any) -> Iterator[InputError]:
     """Refuse bearings and shafts of which a study of the teeth alone reads nothing."""
     bearings = scenario.bearings
-    if bearings is not None and not any(getattr(getattr(bearings, side), "matrix", None) for side in SIDES):
+    if bearings is not None and not any(bearing.matrix for bearing in bearings.by_name.values()):
         rule = "has no effect: of bearings the teeth alone know the tilts, by a matrix"
         remedy = "leave it out, or give [bearings.pinion] a matrix"
         yield InputError("bearings", None, rule, remedy)

@@ -18,13 +18,7 @@ from tribodyn.input.tables.duty import duty_of
 from tribodyn.input.tables.gears.drive_data import assembled_on_path
 from tribodyn.input.tables.gears.model_files import DriveTable
 from tribodyn.input.tables.supports.bearings import Bearing, Bearings, bearing_of
-from tribodyn.input.tables.supports.shafts import (
-    SPRINGS,
-    BearingOfShaft,
-    DrawnShaft,
-    DrawnShafts,
-    drawn_sides,
-)
+from tribodyn.input.tables.supports.shafts import SPRINGS, BearingOfShaft, DrawnShaft, drawn_shafts
 from tribodyn.input.tables.supports.support_matrix import matrix_of
 from tribodyn.numerics.remembered import remembered
 from tribodyn.train.links.beam import ShaftMetal, ShaftSection
@@ -80,17 +74,17 @@ def supports_of(scenario: Any) -> GearSupports:
         return known
     if not has_supports(scenario):
         return GearSupports()
-    shafts, bearings = getattr(scenario, "shaft", None), getattr(scenario, "bearings", None)
+    bearings = getattr(scenario, "bearings", None)
     matrices = {side: _with_matrix(bearings, side) for side in SIDES}
-    drawn = {side: getattr(shafts, side) if isinstance(shafts, DrawnShafts) else None for side in SIDES}
+    drawn = drawn_shafts(getattr(scenario, "shaft", None))
     drive: DriveTable = scenario.drive
     assembly = assembled_on_path(drive)
     torque = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
     loads = mean_loads(assembly, torque)
     found: dict[str, GearSupport | None] = dict.fromkeys(SIDES)
     for side, load in zip(SIDES, loads, strict=True):
-        if (shaft := drawn[side]) is not None:
-            found[side] = drawn_support(f"shaft.{side}", shaft, load)
+        if side in drawn:
+            found[side] = drawn_support(*drawn[side], load)
         elif (matrix := matrices[side]) is not None:
             found[side] = matrix_support(f"bearings.{side}.matrix", bearing_of(matrix), load)
     angle = float(assembly.path.pressure_angle(0.0))
@@ -102,8 +96,8 @@ def has_supports(scenario: Any) -> bool:
     """Whether a scenario draws a shaft or gives a matrix."""
     if (known := getattr(scenario, "supports", None)) is not None:
         return known.pinion is not None or known.gear is not None
-    shafts, bearings = getattr(scenario, "shaft", None), getattr(scenario, "bearings", None)
-    drawn = drawn_sides(shafts) if isinstance(shafts, DrawnShafts) else ()
+    bearings = getattr(scenario, "bearings", None)
+    drawn = drawn_shafts(getattr(scenario, "shaft", None))
     return bool(drawn) or any(_with_matrix(bearings, side) for side in SIDES)
 
 
@@ -111,7 +105,7 @@ def bearings_of(scenario: Any) -> tuple[BearingData, BearingData]:
     """Stiffness and damping of what holds both gears of a scenario that breaks no rule."""
     held = supports_of(scenario)
     pinion, gear = (
-        bearing_of(getattr(scenario.bearings, side)) if own is None else own.data
+        bearing_of(scenario.bearings.of(side)) if own is None else own.data
         for side, own in zip(SIDES, held[:2], strict=True)
     )
     return pinion, gear
@@ -147,7 +141,7 @@ def _of(held: GearSupport | None, what: str) -> Five:
 
 
 def _with_matrix(bearings: Any, side: str) -> Bearing | None:
-    bearing = getattr(bearings, side) if isinstance(bearings, Bearings) else None
+    bearing = bearings.of(side) if isinstance(bearings, Bearings) else None
     return bearing if bearing is not None and bearing.matrix is not None else None
 
 

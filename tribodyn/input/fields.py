@@ -14,6 +14,8 @@ TorsionalDamping = Annotated[float, InUnit(units.not_negative(units.TORSIONAL_DA
 Angle = Annotated[float, InUnit(units.ANGLE_KIND)]
 Error = Annotated[float, InUnit(units.LENGTH, "2 um")]
 Temperature = Annotated[float, InUnit(units.TEMPERATURE_KIND)]
+PartName = Annotated[str, Field(strict=True, pattern=r"^\w[\w-]*$")]
+"""Name of a gear, a shaft, a body or a sensor: keys are made of it."""
 Slices = Annotated[int, Field(strict=True, ge=1, le=501)]
 Name = Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")]
 """A scenario's name, which also names its record."""

@@ -11,6 +11,7 @@ from tribodyn.input import units
 from tribodyn.input.fields import ScenarioHead, Temperature, Torque
 from tribodyn.input.names import OF_PAIR
 from tribodyn.input.quantity import InUnit, Positive, Table, Weighed, csv_tables
+from tribodyn.input.schema import fields_of
 
 Speed = Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))]
 Power = Annotated[float, InUnit(units.POWER)]
@@ -192,7 +193,7 @@ def unnamed_duty(scenario: Any) -> Iterator[InputError]:
 def of_duty(error: InputError, number: int, scenario: Any) -> InputError:
     """Name a duty as where a mistake stands that the scenario with it has in [operating]."""
     table, _, name = error.key.partition(".")
-    known = {*type(scenario.duty[number - 1]).model_fields}
+    known = fields_of(type(scenario.duty[number - 1]))
     key = f"duty.{number - 1}.{name}" if table == "operating" and name in known else error.key
     return InputError(key, error.value, error.rule, error.remedy, error.file)
 

@@ -1,5 +1,6 @@
 """Tables that name a law and hold its own keys, such as ``[film]`` and ``[friction]`` between the flanks."""
 
+from collections.abc import Iterator
 from typing import Any, ClassVar, Self
 
 from pydantic import Field, ValidationError, model_validator
@@ -9,6 +10,8 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.input.quantity import Table, Text, broken
 from tribodyn.input.specific_keys import Owner, key_schema, own_key_errors, own_values
 from tribodyn.numerics.registry import Registry
+from tribodyn.train.links import LINK_LAWS
+from tribodyn.train.links.linear import LAW as LINEAR_LINK
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO, FilmData
@@ -75,6 +78,22 @@ class FrictionTable(LawTable):
     place = "friction"
     laws = FRICTION_LAWS
     law: Text
+
+
+class LinkTable(LawTable):
+    """The law of a torsional link, and the law's own keys."""
+
+    place = "link"
+    laws = LINK_LAWS
+    automatic = False
+    law: Text = Field("linear", description="of the torque over the twist; damping is linear")
+
+
+def broken_link_law(key: str, table: Any) -> Iterator[InputError]:
+    """Ask for the stiffness that the law of a link or of a shaft needs."""
+    if table.law != LINEAR_LINK.name and not table.stiffness:
+        rule = f"missing: law = {quoted(table.law)} needs it"
+        yield InputError(f"{key}.stiffness", table.stiffness, rule, 'add stiffness = "1e5 N*m/rad"')
 
 
 def law_errors(table: LawTable) -> list[InputError]:

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.input import units
-from tribodyn.input.fields import Angle
+from tribodyn.input.fields import Angle, PartName
 from tribodyn.input.quantity import (
     Column,
     CurveTable,
@@ -25,7 +25,6 @@ from tribodyn.sensing.data import KINDS, HousingData, HousingMode, HousingTransf
 
 MOST_SENSORS, MOST_MODES = 64, 200
 Frequency = Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY), "20 kHz")]
-PartName = Annotated[str, Field(strict=True, pattern=r"^\w[\w-]*$")]
 #: Unit of a kind of sensor -> how a level of it is written.
 _LEVELS = {
     "m/s2": Kind("acceleration", "m/s**2", "0.5 m/s**2", "not negative"),

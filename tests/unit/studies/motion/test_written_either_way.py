@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 
@@ -10,10 +11,12 @@ from tests.support.drawn_shafts import BETWEEN, OVERHUNG
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
+from tribodyn.record.schema import ANGLES
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.check import check
 from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.report import REPORTED
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.studies.protocol.run import run
 from tribodyn.train.structure import rotational_error
@@ -34,28 +37,32 @@ PINION = {"teeth": 25, "face_width": "30 mm", "bore_radius": "15 mm"}
 NETWORK = {"pinion_oil": "60 W/K", "gear_oil": "90 W/K", "oil_flow": "4 l/min"}
 #: What rounding alone makes, and what the clock says.
 OWN = "energy_residual", "wall_time"
+DRAWN = {"drive": "helical-23-47", "mesh": SLICES, "bearings": {}}
+BY_GEAR = DRAWN | {"shaft": {"pinion": OVERHUNG, "gear": BETWEEN}}
+IN_A_LIST = DRAWN | {
+    "shaft": [
+        {"name": "one", "gears": ["pinion"], "drawn": OVERHUNG, "mass": "0.4 kg", "inertia": "1e-4 kg*m**2"},
+        {"name": "two", "gears": ["gear"], "drawn": BETWEEN, "mass": "0.9 kg"},
+    ]
+}
 #: What the pair says, and what the train says in its place.
 FEATURES: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "plain": ({}, {}),
     "matrices": ({"bearings": {"pinion": ON_MATRIX, "gear": SPRINGS}},) * 2,
+    "bearings of all": ({"bearings": {"default": SPRINGS}},) * 2,
     "slices": ({"drive": "helical-23-47", "mesh": SLICES},) * 2,
     "drawn shafts": (
-        {
-            "drive": "helical-23-47",
-            "mesh": SLICES,
-            "bearings": {},
-            "shaft": {"pinion": OVERHUNG, "gear": BETWEEN},
-        },
-        {
-            "drive": "helical-23-47",
-            "mesh": SLICES,
-            "bearings": {},
+        BY_GEAR,
+        DRAWN
+        | {
             "shaft": [
                 {"name": "one", "gears": ["pinion"], "drawn": OVERHUNG},
                 {"name": "two", "gears": ["gear"], "drawn": BETWEEN},
-            ],
+            ]
         },
     ),
+    "drawn shafts in a list": (IN_A_LIST,) * 2,
+    "drawn shafts by gear": (BY_GEAR,) * 2,
     "losses": (
         {
             "losses": {
@@ -153,6 +160,9 @@ def test_it_is_one_run(feature: str, tmp_path: Path):
         records.append(result)
     with Record(records[0].path) as pair, Record(records[1].path) as train:
         of_mesh = train.summary["meshes"]["mesh"] | train.summary
+        for quantity in (one for some in REPORTED.values() for one in some):
+            assert (quantity.name in pair.summary) <= (quantity.name in train.summary), quantity.name
+        assert not {"driver", "driven"} & train.summary.keys()
         numbers = {name: value for name, value in pair.summary.items() if isinstance(value, (int, float))}
         known = {name: value for name, value in numbers.items() if name in of_mesh and name not in OWN}
         assert len(known) > 30
@@ -166,6 +176,11 @@ def test_it_is_one_run(feature: str, tmp_path: Path):
         ):
             found = train[name][:, 0] if "mesh" in train.dims_of(name) else train[name]
             np.testing.assert_allclose(found, pair[name], rtol=1e-6, err_msg=name)
+        for record, listed in ((pair, "pinion_angle"), (train, "reference_angle")):
+            np.testing.assert_array_equal(record["pinion_angle"], record["reference_angle"])
+            assert ANGLES.keys() & set(record) == {listed}
+            with h5py.File(record.path) as file:
+                assert file["pinion_angle"] == file["reference_angle"]
         if feature == "losses":
             assert {"power_churning", "power_windage", "power_bearings"} <= set(known)
             assert train.summary["efficiency_with_losses"] < train.summary["efficiency"]
@@ -250,8 +265,30 @@ def test_shafts_of_several_gears_are_not_drawn():
     keys = {"bearings": {}, "shaft": [{"name": "one", "gears": ["pinion", "gear"], "drawn": BETWEEN}]}
     with pytest.raises(InputError, match=r"shaft\.0\.drawn.*one gear between its bearings"):
         scenario_of("gear-train", keys)
-    with pytest.raises(InputError, match=r"shaft\.0\.gears.*one gear alone"):
-        scenario_of("gear-train", {"shaft": [{"name": "one", "gears": ["pinion"]}]})
+    for kind in ("gear-pair", "gear-train"):
+        with pytest.raises(InputError, match=r"shaft\.0\.gears.*one gear alone"):
+            scenario_of(kind, {"shaft": [{"name": "one", "gears": ["pinion"]}]})
+    with pytest.raises(InputError, match=r"shaft\.0\.gears.*turn on two shafts"):
+        scenario_of("gear-pair", {"shaft": [{"name": "one", "gears": ["pinion", "gear"]}]})
+
+
+@pytest.mark.parametrize("kind", ["gear-pair", "gear-train"])
+def test_what_is_wrong_with_a_shaft_is_told_of_either(kind: str):
+    def refused(keys: dict[str, Any]) -> str:
+        with pytest.raises(InputError) as error:
+            scenario_of(kind, keys)
+        return str(error.value)
+
+    one = {"name": "one", "gears": ["pinion"], "drawn": BETWEEN}
+    assert 'shaft.0.gears.0 = "pinon": ' in refused({"bearings": {}, "shaft": [one | {"gears": ["pinon"]}]})
+    assert "turns with the shaft one already" in refused({"shaft": [one, one | {"name": "two"}]})
+    assert "shaft.0.drawn: draws a shaft" in refused({"shaft": [one | {"stiffness": "1e5 N*m/rad"}]})
+    again = {"bearings": {"pinion": SPRINGS, "gear": SPRINGS}}
+    assert "bearings.pinion: gives the stiffness of the shaft of pinion again" in refused(
+        again | {"shaft": [one]}
+    )
+    assert "which [shaft.pinion] draws" in refused(again | {"shaft": {"pinion": BETWEEN}})
+    assert 'bearings.pinon = "pinon"' in refused({"bearings": {"default": SPRINGS, "pinon": SPRINGS}})
 
 
 def test_a_law_from_python_takes_the_place_of_a_trains(tmp_path: Path):

@@ -7,13 +7,16 @@ from typing import Annotated, cast
 from pydantic import Field
 
 from tribodyn.dynamics.data import ROLLERS, BearingData, BearingType, RollingBearing, radial_stiffness
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, unknown_name
+from tribodyn.geometry.drive import SIDES
 from tribodyn.input import units
 from tribodyn.input.quantity import Count, InUnit, NotNegative, Table, written
 from tribodyn.input.tables.gears.material import OWN_VALUES, Described
 from tribodyn.input.tables.supports.support_matrix import MatrixUnits, Rows, broken_matrix, matrix_of
 
 Stiffness = Annotated[float, InUnit(units.positive(units.STIFFNESS))]
+#: Name of the bearings of all that no table names.
+DEFAULT = "default"
 #: Contact angle from which a bearing carries no radial load to speak of.
 MAXIMUM_CONTACT_ANGLE = math.radians(60.0)
 
@@ -56,11 +59,22 @@ class Bearing(Table):
     damping_ratio_y: NotNegative | None = None
 
 
-class Bearings(Described):
-    """Shafts and bearings of both gears (`models/bearings/`)."""
+class Bearings(Described, extra="allow"):
+    """Bearings by what they carry: a gear, a shaft or a body, or "default" (`models/bearings/`).
 
-    pinion: Bearing | None = Field(None, description="needed where its shaft is not drawn")
-    gear: Bearing | None = Field(None, description="needed where its shaft is not drawn")
+    Those of a planet are between every planet and its pin on the carrier.
+    """
+
+    __pydantic_extra__: dict[str, Bearing]  # pyright: ignore[reportIncompatibleVariableOverride]
+
+    @property
+    def by_name(self) -> dict[str, Bearing]:
+        """The bearings by the names under which they stand."""
+        return dict(self.__pydantic_extra__ or {})
+
+    def of(self, name: str) -> Bearing | None:
+        """The bearings of that name, else those of all that none names; None: none."""
+        return self.by_name.get(name, self.by_name.get(DEFAULT))
 
     @property
     def written_out(self) -> bool:
@@ -92,18 +106,25 @@ def bearing_of(bearing: Bearing) -> BearingData:
 
 
 def broken_bearing_rules(bearings: Bearings, drawn: Collection[str] = ()) -> Iterator[InputError]:
-    """Go through what is missing in the bearings of both gears, or given twice.
+    """Go through what is wrong with the bearings of a pair of gears, and what is missing.
 
     Nothing is missing of gears whose shafts are `drawn`.
     """
-    for side in ("pinion", "gear"):
-        if (bearing := getattr(bearings, side)) is not None:
-            yield from broken_bearing(f"bearings.{side}", bearing)
-        elif side not in drawn:
+    yield from broken_bearings(bearings, [*SIDES, DEFAULT], "gear")
+    for side in SIDES:
+        if side not in drawn and bearings.of(side) is None:
             remedy = (
                 f"add [bearings.{side}] with stiffness_x, stiffness_y and damping_ratio, or [shaft.{side}]"
             )
             yield InputError(f"bearings.{side}", rule="missing", remedy=remedy)
+
+
+def broken_bearings(bearings: Bearings, known: Collection[str], what: str) -> Iterator[InputError]:
+    """Go through what is wrong with bearings, which carry something `known`; a file's are those of a pair."""
+    for name, bearing in bearings.by_name.items():
+        if name not in known and name not in SIDES:
+            yield unknown_name(f"bearings.{name}", name, known, what)
+        yield from broken_bearing(f"bearings.{name}", bearing)
 
 
 def broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:

@@ -1,15 +1,17 @@
-"""The tables ``[shaft.pinion]`` and ``[shaft.gear]``: shafts as drawn, on their bearings."""
+"""Shafts: ``[[shaft]]``, and ``[shaft.pinion]`` and ``[shaft.gear]`` for those of a pair as drawn."""
 
 import math
-from collections.abc import Iterator
-from typing import Annotated, Literal
+from collections.abc import Collection, Iterator
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
-from tribodyn.errors import InputError, quoted
+from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input import units
-from tribodyn.input.quantity import InUnit, NotNegative, Positive, Switch, Table, written
+from tribodyn.input.fields import Inertia, PartName, TorsionalDamping, TorsionalStiffness
+from tribodyn.input.quantity import InUnit, NotNegative, Positive, Switch, Table, Text, written
+from tribodyn.input.tables.laws import LinkTable, broken_link_law
 from tribodyn.input.tables.supports.bearings import Bearings, Stiffness
 from tribodyn.input.tables.supports.support_matrix import MatrixUnits, Rows, broken_matrix
 
@@ -18,6 +20,8 @@ Place = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
 Fit = Annotated[float, InUnit(units.DEVIATION, "10 um")]
 Rating = Annotated[float, InUnit(units.positive(units.FORCE), "30 kN")]
 
+#: Shafts of a gearbox.
+MOST_SHAFTS = 100
 #: Largest diameter of a shaft over the smallest, and over its length: stiffness in bending goes with the
 #: fourth power, of which rounding leaves 2e-6.
 MOST_STEPPED, THICKEST = 300.0, 30.0
@@ -111,27 +115,104 @@ class DrawnShaft(Table):
     poisson_ratio: Annotated[float, Field(strict=True, ge=0, lt=0.5)] = 0.3
 
 
+class Shaft(LinkTable):
+    """Gears that turn together: one rigid body, or two bodies with a torsional spring between them."""
+
+    name: PartName
+    gears: tuple[Text, ...] = Field(
+        min_length=1, description="that turn together; two on a compliant shaft, one on one that is drawn"
+    )
+    drawn: DrawnShaft | None = Field(None, description="of one gear between its bearings: how it bends")
+    stiffness: TorsionalStiffness | None = Field(None, description="torsional; default: rigid")
+    damping: TorsionalDamping = written("0 N*m*s/rad", description="of a compliant shaft")
+    damping_ratio: NotNegative = Field(0.0, description="of a compliant shaft, of its two gears against it")
+    mass: Annotated[float, InUnit(units.not_negative(units.MASS))] = written(
+        "0 kg", description="of the shaft; a compliant one's is halved"
+    )
+    inertia: Inertia = written("0 kg*m**2", description="of the shaft; a compliant one's is halved")
+
+
 class DrawnShafts(Table):
-    """The shafts of a pair of gears; one that is not drawn has the stiffness of its bearings."""
+    """Shafts that are drawn, by the gear that they carry, in place of a list."""
 
     pinion: DrawnShaft | None = None
     gear: DrawnShaft | None = None
 
 
-def drawn_sides(shafts: DrawnShafts | None) -> tuple[str, ...]:
-    """Gears whose shafts are drawn."""
-    return tuple(side for side in SIDES if shafts is not None and getattr(shafts, side) is not None)
+def _sort(shafts: Any) -> str:
+    return "(list)" if isinstance(shafts, (list, tuple)) else "(table)"
 
 
-def broken_shaft_rules(shafts: DrawnShafts | None, bearings: Bearings | None) -> Iterator[InputError]:
-    """Go through what is wrong with the shafts as drawn, and what is given twice."""
-    for side in SIDES:
-        if shafts is None or (shaft := getattr(shafts, side)) is None:
-            continue
-        yield from broken_shaft(f"shaft.{side}", shaft)
-        if bearings is not None and bearings.written_out and getattr(bearings, side) is not None:
-            rule = f"gives the stiffness of the {side}'s shaft again, which [shaft.{side}] draws"
-            yield InputError(f"bearings.{side}", None, rule, f"leave out the one or the other for the {side}")
+Shafts = Annotated[
+    Annotated[DrawnShafts, Tag("(table)")]
+    | Annotated[tuple[Shaft, ...], Tag("(list)"), Field(max_length=MOST_SHAFTS)],
+    Discriminator(_sort),
+]
+
+
+def listed(shafts: Any) -> tuple[Shaft, ...]:
+    """The shafts of a list; none of a table, which draws those of gears without more."""
+    return shafts if isinstance(shafts, tuple) else ()
+
+
+def drawn_shafts(shafts: Any) -> dict[str, tuple[str, DrawnShaft]]:
+    """Gears whose shafts are drawn, with the key and the drawing; of no shafts none."""
+    if isinstance(shafts, DrawnShafts):
+        known = {side: getattr(shafts, side) for side in SIDES}
+        return {side: (f"shaft.{side}", shaft) for side, shaft in known.items() if shaft is not None}
+    return {
+        shaft.gears[0]: (f"shaft.{number}.drawn", shaft.drawn)
+        for number, shaft in enumerate(listed(shafts))
+        if shaft.drawn is not None
+    }
+
+
+def broken_shafts(shafts: Any, gears: Collection[str], bearings: Bearings | None) -> Iterator[InputError]:
+    """Go through what is wrong with shafts that carry some of the `gears`."""
+    rigid: dict[str, str] = {}
+    for number, shaft in enumerate(listed(shafts)):
+        yield from _broken_in_list(f"shaft.{number}", shaft, gears)
+        for name in shaft.gears if shaft.stiffness is None else ():
+            if rigid.setdefault(name, shaft.name) != shaft.name:
+                rule = f"{name} turns with the shaft {rigid[name]} already"
+                yield InputError(f"shaft.{number}.gears", None, rule, "write all of its gears there")
+    for gear, (key, shaft) in drawn_shafts(shafts).items():
+        if gear not in gears and isinstance(shafts, DrawnShafts):
+            yield unknown_name(key, gear, gears, "gear")
+        yield from broken_shaft(key, shaft)
+        names = gear, *(one.name for one in listed(shafts) if gear in one.gears)
+        given = bearings.by_name if bearings is not None and bearings.written_out else ()
+        for name in (name for name in names if name in given):
+            rule = f"gives the stiffness of the shaft of {gear} again, which [{key}] draws"
+            yield InputError(f"bearings.{name}", None, rule, "leave out the one or the other")
+
+
+def _broken_in_list(key: str, shaft: Shaft, gears: Collection[str]) -> Iterator[InputError]:
+    for place, name in enumerate(shaft.gears):
+        if name not in gears:
+            yield unknown_name(f"{key}.gears.{place}", name, gears, "gear")
+        elif name in shaft.gears[:place]:
+            rule = f"names {name} twice"
+            yield InputError(f"{key}.gears", quoted(list(shaft.gears)), rule, "name each gear once")
+    if shaft.drawn is not None and len(shaft.gears) > 1:
+        rule = f"has {len(shaft.gears)} gears, and a shaft is drawn of one gear between its bearings"
+        yield InputError(f"{key}.drawn", None, rule, "give the bearings' stiffness in [bearings]")
+    elif shaft.drawn is not None and shaft.stiffness is not None:
+        rule = "draws a shaft that bends, and stiffness is that of a shaft between two gears"
+        yield InputError(f"{key}.drawn", None, rule, "leave the one or the other out")
+    elif shaft.drawn is None and len(shaft.gears) == 1:
+        rule, remedy = "names one gear alone", "name the gears that turn together, or draw the shaft"
+        yield InputError(f"{key}.gears", None, rule, remedy)
+    elif shaft.stiffness is not None and len(shaft.gears) > 2:
+        rule = f"a compliant shaft has two gears, and this has {len(shaft.gears)}"
+        remedy = "write one [[shaft]] for every length between two gears"
+        yield InputError(f"{key}.gears", None, rule, remedy)
+    if shaft.stiffness is None:
+        for name in ("damping", "damping_ratio"):
+            if getattr(shaft, name):
+                rule, remedy = "a rigid shaft has no damping", f"add stiffness, or leave {name} out"
+                yield InputError(f"{key}.{name}", None, rule, remedy)
+    yield from broken_link_law(key, shaft)
 
 
 def _shown(length: float) -> str:

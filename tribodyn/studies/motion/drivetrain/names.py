@@ -4,12 +4,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.input.tables.supports.bearings import DEFAULT, broken_bearings
+from tribodyn.input.tables.supports.shafts import broken_shafts, listed
 from tribodyn.studies.motion.drivetrain.structure import OF_DRIVE
-from tribodyn.studies.motion.drivetrain.tables import GROUND, Link, PlanetaryStage, Shaft
+from tribodyn.studies.motion.drivetrain.tables import GROUND, Link, PlanetaryStage
 from tribodyn.studies.motion.planetary.stages import broken_sets, planetary_stages
 
 _PLACE = "gear, shaft or body"
-_DEFAULT = "default"
 
 
 def broken_names(scenario: Any) -> Iterator[InputError]:
@@ -18,7 +19,7 @@ def broken_names(scenario: Any) -> Iterator[InputError]:
     known = list(_declared(scenario, gears))
     names = [name for name, _ in known]
     for place, (name, key) in enumerate(known):
-        if name in (GROUND, _DEFAULT):
+        if name in (GROUND, DEFAULT):
             yield InputError(key, quoted(name), "has a meaning of its own", "use another name")
         elif name in names[:place]:
             yield InputError(key, quoted(name), "names two parts of the train", "use another name")
@@ -31,7 +32,8 @@ def broken_names(scenario: Any) -> Iterator[InputError]:
     if isinstance(scenario.mesh, tuple):
         for number, mesh in enumerate(scenario.mesh):
             yield from _several(f"mesh.{number}.bodies", mesh.bodies, names, "body")
-    yield from _shafts(scenario, gears)
+    yield from broken_shafts(scenario.shaft, gears, scenario.bearings)
+    yield from _shafts(scenario)
     for number, link in enumerate(scenario.link):
         yield from _link(scenario, f"link.{number}", link, names)
     yield from _ends(scenario, names)
@@ -57,8 +59,8 @@ def _declared(scenario: Any, gears: list[str]) -> Iterator[tuple[str, str]]:
     """Names of all parts and their keys."""
     for name in gears:
         yield name, f"gear.{name}" if scenario.drive is None else f"drive.{name}"
-    for table in ("shaft", "body"):
-        for number, part in enumerate(getattr(scenario, table)):
+    for table, parts in (("shaft", listed(scenario.shaft)), ("body", scenario.body)):
+        for number, part in enumerate(parts):
             yield part.name, f"{table}.{number}.name"
 
 
@@ -70,26 +72,9 @@ def _several(key: str, given: tuple[str, ...], known: list[str], what: str) -> I
             yield InputError(key, quoted(list(given)), f"names {name} twice", f"name each {what} once")
 
 
-def _shafts(scenario: Any, gears: list[str]) -> Iterator[InputError]:
-    shaft: Shaft
-    rigid: dict[str, str] = {}
-    for number, shaft in enumerate(scenario.shaft):
-        yield from _several(f"shaft.{number}.gears", shaft.gears, gears, "gear")
-        if shaft.stiffness is None:
-            for name in shaft.gears:
-                if rigid.setdefault(name, shaft.name) != shaft.name:
-                    rule = f"{name} turns with the shaft {rigid[name]} already"
-                    yield InputError(f"shaft.{number}.gears", None, rule, "write all of its gears there")
-            for name in ("damping", "damping_ratio"):
-                if getattr(shaft, name):
-                    rule, remedy = "a rigid shaft has no damping", f"add stiffness, or leave {name} out"
-                    yield InputError(f"shaft.{number}.{name}", None, rule, remedy)
-        elif len(shaft.gears) > 2:
-            rule = f"a compliant shaft has two gears, and this has {len(shaft.gears)}"
-            remedy = "write one [[shaft]] for every length between two gears"
-            yield InputError(f"shaft.{number}.gears", None, rule, remedy)
-    for number, shaft in enumerate(scenario.shaft):
-        bodies = [rigid.get(name, name) for name in shaft.gears]
+def _shafts(scenario: Any) -> Iterator[InputError]:
+    for number, shaft in enumerate(listed(scenario.shaft)):
+        bodies = [_rigid_body(scenario, name) for name in shaft.gears]
         if shaft.stiffness is not None and len(bodies) == 2 and bodies[0] == bodies[1]:
             rule = f"its gears turn together with the rigid shaft {bodies[0]} already"
             yield InputError(f"shaft.{number}.stiffness", None, rule, "leave the one or the other out")
@@ -113,7 +98,7 @@ def _link(scenario: Any, key: str, link: Link, names: list[str]) -> Iterator[Inp
 
 
 def _rigid_body(scenario: Any, name: str) -> str:
-    rigid = (shaft for shaft in scenario.shaft if shaft.stiffness is None)
+    rigid = (shaft for shaft in listed(scenario.shaft) if shaft.stiffness is None)
     return next((shaft.name for shaft in rigid if name in shaft.gears), name)
 
 
@@ -138,19 +123,16 @@ def _compliant(scenario: Any, key: str, name: str) -> Iterator[InputError]:
         if name == stage.planet:
             rule = f"is a planet, of which there are {stage.planets}"
             yield InputError(key, quoted(name), rule, "name the sun, the ring, the carrier or another body")
-    for shaft in scenario.shaft:
+    for shaft in listed(scenario.shaft):
         if shaft.name == name and shaft.stiffness is not None:
             rule = "is a compliant shaft, which has a body at either end"
             yield InputError(key, quoted(name), rule, f"name one of its gears: {', '.join(shaft.gears)}")
 
 
 def _bearings(scenario: Any, names: list[str]) -> Iterator[InputError]:
-    known = [*names, _DEFAULT]
+    yield from broken_bearings(scenario.bearings, [*names, DEFAULT], f"{_PLACE}, or {quoted(DEFAULT)}")
     held: dict[str, str] = {}
     for name in scenario.bearings.by_name:
-        # a bearings file names those of a pair
-        if name not in known and name not in OF_DRIVE:
-            yield unknown_name(f"bearings.{name}", name, known, f"{_PLACE}, or {quoted(_DEFAULT)}")
         body = _rigid_body(scenario, name)
         if held.setdefault(body, name) != name:
             rule = f"{name} and {held[body]} are one body, which has one bearing"

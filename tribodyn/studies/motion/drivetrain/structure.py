@@ -16,14 +16,14 @@ from tribodyn.geometry.families import family
 from tribodyn.input.quantity import Printed
 from tribodyn.input.tables.gears.drive_data import drive_of
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
-from tribodyn.input.tables.supports.bearings import Bearing
+from tribodyn.input.tables.laws import LinkTable
+from tribodyn.input.tables.supports.bearings import DEFAULT, Bearing
+from tribodyn.input.tables.supports.shafts import Shaft, listed
 from tribodyn.studies.motion.drivetrain.tables import (
     GROUND,
     BareMesh,
     Link,
-    LinkTable,
     PlanetaryStage,
-    Shaft,
     Stage,
 )
 from tribodyn.studies.motion.planetary.stages import (
@@ -118,7 +118,8 @@ def structure(scenario: Any) -> Structure:
     tables: dict[str, Gear] = {name: gear for name, gear in scenario.gear.items() if name not in of_planets}
     if scenario.drive is not None:
         tables = dict(zip(OF_DRIVE, (scenario.drive.pinion, scenario.drive.gear), strict=True))
-    rigid = [(number, shaft) for number, shaft in enumerate(scenario.shaft) if shaft.stiffness is None]
+    shafts = list(enumerate(listed(scenario.shaft)))
+    rigid = [(number, shaft) for number, shaft in shafts if shaft.stiffness is None]
     bodies: list[BodyPart] = []
     places: dict[str, tuple[int, ...]] = {}
     for number, shaft in rigid:
@@ -134,7 +135,7 @@ def structure(scenario: Any) -> Structure:
         places[stage.planet] = tuple(range(len(bodies), len(bodies) + stage.planets))
         bodies += [BodyPart(name, f"gear.{stage.planet}", 0.0, 0.0) for name in planet_names(stage)]
     springs: list[LinkPart] = []
-    for number, shaft in enumerate(scenario.shaft):
+    for number, shaft in shafts:
         if shaft.stiffness is not None:
             springs.append(_spring(number, shaft, places))
             for end in springs[-1].ends:  # half of the shaft turns with either gear
@@ -329,7 +330,7 @@ def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
 def bearings_by_body(scenario: Any, parts: Structure) -> list[Bearing | None]:
     """The bearings of every body: its own, else "default", else the gear's of a bearings file; None: none."""
     by_name = scenario.bearings.by_name
-    usual = by_name.get("default", by_name.get("gear"))
+    usual = by_name.get(DEFAULT, by_name.get(OF_DRIVE[1]))
     found: list[Bearing | None] = [usual] * len(parts.bodies)
     for name, bearing in by_name.items():
         for body in parts.places.get(name, ()):

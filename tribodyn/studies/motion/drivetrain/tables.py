@@ -7,6 +7,7 @@ from pydantic import Discriminator, Field, Tag
 
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.input import fields, quantity, units
+from tribodyn.input.fields import PartName
 from tribodyn.input.quantity import (
     Count,
     InUnit,
@@ -17,7 +18,6 @@ from tribodyn.input.quantity import (
     csv_file,
     written,
 )
-from tribodyn.input.tables.gears.material import Described
 from tribodyn.input.tables.gears.model_files import (
     Angle,
     AsperityDensity,
@@ -35,13 +35,11 @@ from tribodyn.input.tables.gears.model_files import (
     PressureAngle,
     Rack,
 )
-from tribodyn.input.tables.laws import LawTable
-from tribodyn.input.tables.supports.bearings import Bearing, Stiffness
-from tribodyn.input.tables.supports.shafts import DrawnShaft
-from tribodyn.train.links import LINK_LAWS
+from tribodyn.input.tables.laws import LinkTable
+from tribodyn.input.tables.supports.bearings import Stiffness
 from tribodyn.train.planetary import CARRIER, RING, SUN
 
-#: Stages, shafts, bodies, links, meshes and loads, each: as many as any train has.
+#: Stages, bodies, links, meshes and loads, each: as many as any train has.
 MOST_PARTS = 100
 #: The other end of a link that holds a body in the housing.
 GROUND = "ground"
@@ -51,8 +49,6 @@ Azimuth = Annotated[float, InUnit(units.ANGLE_KIND, "30 deg")]
 NotNegativeMass = Annotated[float, InUnit(units.not_negative(units.MASS))]
 SpringStiffness = Annotated[float, InUnit(units.not_negative(units.STIFFNESS))]
 Damping = Annotated[float, InUnit(units.not_negative(units.DAMPING))]
-PartName = Annotated[str, Field(strict=True, pattern=r"^\w[\w-]*$")]
-"""Name of a gear, a shaft or a body: keys are made of it."""
 
 
 class TrainGear(Gear):
@@ -168,30 +164,6 @@ AnyStage = Annotated[
 ]
 
 
-class LinkTable(LawTable):
-    """The law of a torsional link, and the law's own keys."""
-
-    place = "link"
-    laws = LINK_LAWS
-    automatic = False
-    law: Text = Field("linear", description="of the torque over the twist; damping is linear")
-
-
-class Shaft(LinkTable):
-    """Gears that turn together: one rigid body, or two bodies with a torsional spring between them."""
-
-    name: PartName
-    gears: tuple[Text, ...] = Field(
-        min_length=1, description="that turn together; two on a compliant shaft, one on one that is drawn"
-    )
-    drawn: DrawnShaft | None = Field(None, description="of one gear between its bearings: how it bends")
-    stiffness: fields.TorsionalStiffness | None = Field(None, description="torsional; default: rigid")
-    damping: fields.TorsionalDamping = written("0 N*m*s/rad", description="of a compliant shaft")
-    damping_ratio: NotNegative = Field(0.0, description="of a compliant shaft, of its two gears against it")
-    mass: NotNegativeMass = written("0 kg", description="of the shaft; a compliant one's is halved")
-    inertia: fields.Inertia = written("0 kg*m**2", description="of the shaft; a compliant one's is halved")
-
-
 class BareBody(Table):
     """A body without teeth, such as a flywheel or a motor, or any body of a bare model."""
 
@@ -243,17 +215,3 @@ class BareMesh(Table):
     backlash: Backlash | None = Field(
         None, description="normal backlash at the pitch point; default: back flanks never touch"
     )
-
-
-class TrainBearings(Described, extra="allow"):
-    """Bearings by what they carry: a gear, a shaft or a body, or "default"; x and y are the train's.
-
-    Those of a planet are between every planet and its pin on the carrier.
-    """
-
-    __pydantic_extra__: dict[str, Bearing]  # pyright: ignore[reportIncompatibleVariableOverride]
-
-    @property
-    def by_name(self) -> dict[str, Bearing]:
-        """The bearings by the names under which they stand."""
-        return dict(self.__pydantic_extra__ or {})

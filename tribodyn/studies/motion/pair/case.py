@@ -1,5 +1,6 @@
 """A gear pair as its scenario gives it, in SI units, and the gearbox that it is."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import nan, pi
@@ -31,6 +32,7 @@ class Case(LubricatedCase):
     """One simulation, complete: gears, oil and laws, bearings of pinion and gear, solver, output."""
 
     bearings: tuple[BearingData, BearingData]
+    shafts: Mapping[str, tuple[float, float]]  # mass, inertia beside those of the gears: kg, kg m²
     solver: SolverData
     output: OutputData
     sensors: tuple[SensorData, ...] = ()
@@ -79,8 +81,8 @@ def _gearbox(case: Case) -> Gearbox:
                 name=side,
                 key=f"drive.{side}",
                 gears=(number,),
-                mass=0.0,
-                inertia=attached[number],
+                mass=case.shafts.get(side, (0.0, 0.0))[0],
+                inertia=attached[number] + case.shafts.get(side, (0.0, 0.0))[1],
                 ratio=(Fraction(1), ratio)[number],
                 sense=senses[number],
                 centre=((0.0, 0.0), (0.0, nan))[number],  # as far apart as its path of contact says

@@ -28,7 +28,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from of_drive
     if not of_drive:
         yield from broken_damage(scenario.damage, gears_of_pair(scenario))
-    yield from broken_source_rules(scenario.operating, "pinion_torque")
+    yield from broken_source_rules(scenario.operating)
     yield from broken_mesh_rules(scenario.mesh)
     yield from _load(scenario)
     yield from broken_solver_rules(scenario.solver)
@@ -44,4 +44,4 @@ def _load(scenario: Scenario) -> Iterator[InputError]:
         return
     torque = duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth).gear_torque
     back_flanks = mesh.backlash is not None or gives_backlash(drive)
-    yield from broken_flank_rules("operating.gear_torque", torque, back_flanks, mesh)
+    yield from broken_flank_rules("operating.output_torque", torque, back_flanks, mesh)

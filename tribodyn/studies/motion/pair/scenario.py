@@ -1,6 +1,6 @@
 """The tables of a scenario file: what is done with a drive.
 
-Field names are the interface of the command line (`--set operating.gear_torque="600 N*m"`). Defaults stand
+Field names are the interface of the command line (`--set operating.output_torque="600 N*m"`). Defaults stand
 as they would be written in TOML. Rules that tie fields together stand in `rules`; names of laws, families and
 solvers in their registries.
 """
@@ -11,12 +11,11 @@ from pydantic import Field
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.gears.motion.settings import (
-    MOST_HARMONICS,
     Friction,
     Mesh,
+    Operating,
     Output,
     Solver,
-    TorqueHarmonic,
     moving_mesh_of,
     output_data,
     solver_data,
@@ -34,51 +33,14 @@ from tribodyn.gears.scenario import (
 )
 from tribodyn.gears.supports import bearings_of
 from tribodyn.geometry.drive import SIDES
-from tribodyn.input import fields
-from tribodyn.input.quantity import csv_file, model_file, written
-from tribodyn.input.tables.duty import DutyTable, OiledOperatingTable, duty_of
+from tribodyn.input.quantity import model_file, written
+from tribodyn.input.tables.duty import OiledOperatingTable, duty_of
 from tribodyn.input.tables.gears.damage import Damages, GearPlace, damage_of
 from tribodyn.input.tables.gears.single_teeth import own_teeth_of, with_own_teeth
 from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
 from tribodyn.input.tables.supports.bearings import Bearings
+from tribodyn.input.tables.supports.shafts import listed
 from tribodyn.studies.motion.pair.case import Case
-
-
-class Operating(OiledOperatingTable):
-    """How the drive is driven and loaded: nominal speed, constant part of the load, and more."""
-
-    source: Literal["speed", "torque"] = Field(
-        "speed", description="speed: the pinion's rotation is prescribed; torque: a motor with inertia"
-    )
-    gear_torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
-        None, description="over time, added to the load"
-    )
-    gear_torque_harmonics: tuple[TorqueHarmonic, ...] = Field(
-        (), max_length=MOST_HARMONICS, description="added to the load"
-    )
-    load_inertia: fields.Inertia = written("0 kg*m**2")
-    load_damping: fields.TorsionalDamping = written(
-        "0 N*m*s/rad", description="load that grows with speed above nominal"
-    )
-    drive_inertia: fields.Inertia = written("0 kg*m**2", description="of the motor")
-    shaft_stiffness: fields.TorsionalStiffness | None = Field(
-        None, description="between motor and pinion; default: rigid"
-    )
-    shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
-    speed_regulation: fields.TorsionalDamping = written(
-        "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
-    )
-
-    @property
-    def motor_torque(self) -> float | None:
-        """Torque of the motor, given beside the load; None: it balances the load without losses."""
-        beside = self.gear_torque is not None or self.power is not None
-        return self.pinion_torque if beside else None
-
-    @property
-    def load(self) -> DutyTable:
-        """Speed and load, without the torque of the motor."""
-        return self if self.motor_torque is None else self.model_copy(update={"pinion_torque": None})
 
 
 class GearPairScenario(GearScenario):
@@ -124,6 +86,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         **gear_fields(scenario, toml, sha256) | own,
         **oil_fields(scenario),
         bearings=bearings_of(scenario),
+        shafts={shaft.gears[0]: (shaft.mass, shaft.inertia) for shaft in listed(scenario.shaft)},
         solver=solver_data(scenario.solver, scenario.drive.pinion.teeth),
         output=output_data(scenario.output, scenario.solver, scenario.drive.pinion.teeth, differ=any(teeth)),
         sensors=sensors_of(scenario.sensor),
@@ -139,15 +102,15 @@ def gears_of_pair(scenario: Scenario) -> dict[str, GearPlace]:
 
 def _operating(scenario: Scenario) -> OperatingData:
     operating, drive = scenario.operating, scenario.drive
-    curve = operating.gear_torque_table
+    curve = operating.output_torque_table
     return OperatingData(
         **duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth)._asdict(),
         pinion_torque=operating.motor_torque,
         torque_table=curve.in_si() if curve else None,
         torque_harmonics=tuple(
-            (cosine.amplitude, cosine.frequency, cosine.phase) for cosine in operating.gear_torque_harmonics
+            (cosine.amplitude, cosine.frequency, cosine.phase) for cosine in operating.output_torque_harmonics
         ),
         **operating.model_dump(
-            exclude={"gear_torque_table", "gear_torque_harmonics", *OiledOperatingTable.model_fields}
+            exclude={"output_torque_table", "output_torque_harmonics", *OiledOperatingTable.model_fields}
         ),
     )

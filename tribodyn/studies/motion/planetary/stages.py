@@ -8,6 +8,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.tables.supports.bearings import bearing_of, broken_bearing
+from tribodyn.input.tables.supports.shafts import listed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
 from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly
@@ -175,7 +176,7 @@ def _bearings(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
 
 def _joined_rigidly(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
     """Members of sets move in the frames of their carriers, others in the housing."""
-    for number, shaft in enumerate(scenario.shaft):
+    for number, shaft in enumerate(listed(scenario.shaft)):
         for name in shaft.gears:
             if name in of_sets:
                 rule = f"{name} is of a planetary stage, which moves in the frame of its carrier"

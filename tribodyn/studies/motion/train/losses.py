@@ -10,6 +10,7 @@ from dataclasses import replace
 from pydantic import Field
 
 from tribodyn.errors import InputError, unknown_name
+from tribodyn.input.fields import PartName
 from tribodyn.input.quantity import written
 from tribodyn.input.tables.losses import (
     BearingDrag,
@@ -20,7 +21,6 @@ from tribodyn.input.tables.losses import (
     drag_of,
 )
 from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics
-from tribodyn.studies.motion.drivetrain.tables import PartName
 from tribodyn.tribology.losses import LossData
 
 

@@ -15,9 +15,10 @@ from tribodyn.gears.motion.settings import (
 from tribodyn.gears.scenario import broken_gear_rules
 from tribodyn.input.tables.duty import unnamed_duty
 from tribodyn.input.tables.gears.drive_data import gives_backlash
+from tribodyn.input.tables.laws import broken_link_law
 from tribodyn.input.tables.sensors import broken_sensor_rules
-from tribodyn.input.tables.supports.bearings import broken_bearing
-from tribodyn.studies.motion.drivetrain.duty import broken_duty_rules, duty_of
+from tribodyn.input.tables.supports.shafts import drawn_shafts, listed
+from tribodyn.studies.motion.drivetrain.duty import broken_duty, duty_of
 from tribodyn.studies.motion.drivetrain.names import broken_names, broken_sort
 from tribodyn.studies.motion.drivetrain.placed_train import (
     TrainKinematics,
@@ -30,8 +31,6 @@ from tribodyn.studies.motion.train.losses import broken_losses
 from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
 from tribodyn.studies.motion.train.scenario import Scenario
 from tribodyn.studies.motion.train.single_teeth import gears_of_train
-from tribodyn.studies.motion.train.supports import broken_drawn_shafts
-from tribodyn.train.links.linear import LAW as LINEAR_LINK
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
@@ -43,11 +42,10 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         *broken_names(scenario),
         *_of_all_gears(scenario),
         *_bearings(scenario),
-        *broken_drawn_shafts(scenario),
         *_in_sets(scenario),
-        *_link_laws(scenario),
-        *broken_source_rules(scenario.operating, "input_torque"),
-        *broken_duty_rules(scenario),
+        *(e for number, link in enumerate(scenario.link) for e in broken_link_law(f"link.{number}", link)),
+        *broken_source_rules(scenario.operating),
+        *broken_duty(scenario),
         *unnamed_duty(scenario),
     ]
     if not isinstance(scenario.mesh, tuple):
@@ -159,7 +157,6 @@ def _stiffness_of_stages(stages: Any, compliance: str) -> Iterator[InputError]:
 
 def _bearings(scenario: Scenario) -> Iterator[InputError]:
     for name, bearing in scenario.bearings.by_name.items():
-        yield from broken_bearing(f"bearings.{name}", bearing)
         if bearing.matrix is not None and name in ("default", *_of_sets(scenario)) and _of_sets(scenario):
             rule = "couples directions in which bodies of planetary stages do not move"
             remedy = (
@@ -172,24 +169,16 @@ def _of_sets(scenario: Scenario) -> set[str]:
     """Names of what is in planetary stages, and of the shafts that join it."""
     stages = [stage for stage in scenario.stage if isinstance(stage, PlanetaryStage)]
     names = {name for stage in stages for name in (*stage.members.values(), stage.planet)}
-    return names | {shaft.name for shaft in scenario.shaft if names & set(shaft.gears)}
+    return names | {shaft.name for shaft in listed(scenario.shaft) if names & set(shaft.gears)}
 
 
 def _in_sets(scenario: Scenario) -> Iterator[InputError]:
     """Refuse to draw shafts of gears of planetary stages."""
     names = _of_sets(scenario)
-    for number, shaft in enumerate(scenario.shaft):
-        if shaft.drawn is not None and shaft.name in names:
+    for gear, (key, _) in drawn_shafts(scenario.shaft).items():
+        if gear in names:
             rule = "is of a planetary stage, whose bodies move in the plane"
-            yield InputError(f"shaft.{number}.drawn", None, rule, "give it a stiffness in [bearings]")
-
-
-def _link_laws(scenario: Scenario) -> Iterator[InputError]:
-    for name in ("link", "shaft"):
-        for number, table in enumerate(getattr(scenario, name)):
-            if table.law != LINEAR_LINK.name and not table.stiffness:
-                key, rule = f"{name}.{number}.stiffness", f"missing: law = {quoted(table.law)} needs it"
-                yield InputError(key, table.stiffness, rule, 'add stiffness = "1e5 N*m/rad"')
+            yield InputError(key, None, rule, "give it a stiffness in [bearings]")
 
 
 def _bare_meshes(meshes: Any) -> Iterator[InputError]:

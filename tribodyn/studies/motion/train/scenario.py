@@ -21,9 +21,9 @@ from tribodyn.gears.prepare import with_chosen_laws
 from tribodyn.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
 from tribodyn.gears.supports import GearSupport
 from tribodyn.geometry.drive import SIDES, BodyMass
-from tribodyn.input.fields import ScenarioHead, head_of
-from tribodyn.input.quantity import Count, csv_tables, model_file, written
-from tribodyn.input.tables.duty import MOST_DUTIES
+from tribodyn.input.fields import PartName, head_of
+from tribodyn.input.quantity import Count, model_file, written
+from tribodyn.input.tables.duty import SpectrumScenario
 from tribodyn.input.tables.gears.damage import Damages
 from tribodyn.input.tables.gears.drive_data import masses_of, materials_of, teeth_of
 from tribodyn.input.tables.gears.material import MaterialReference
@@ -32,7 +32,8 @@ from tribodyn.input.tables.gears.quality import grade_of, tolerances_of
 from tribodyn.input.tables.gears.single_teeth import with_own_teeth
 from tribodyn.input.tables.laws import law_values
 from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
-from tribodyn.input.tables.supports.bearings import Bearing, bearing_of
+from tribodyn.input.tables.supports.bearings import Bearing, Bearings, bearing_of
+from tribodyn.input.tables.supports.shafts import Shafts
 from tribodyn.studies.motion.case import (
     HOUSING,
     BodyData,
@@ -43,7 +44,7 @@ from tribodyn.studies.motion.case import (
     TrainMesh,
 )
 from tribodyn.studies.motion.drivetrain.duty import TrainDuty, duty_of, motor_torque
-from tribodyn.studies.motion.drivetrain.duty_tables import LoadTable, TrainOperating, TrainSpectrumDuty
+from tribodyn.studies.motion.drivetrain.duty_tables import LoadTable, TrainOperating
 from tribodyn.studies.motion.drivetrain.placed_train import (
     PlacedTrain,
     TrainKinematics,
@@ -57,9 +58,6 @@ from tribodyn.studies.motion.drivetrain.tables import (
     BareBody,
     BareMesh,
     Link,
-    PartName,
-    Shaft,
-    TrainBearings,
     TrainGear,
 )
 from tribodyn.studies.motion.planetary.links import links_of_set, set_data
@@ -90,7 +88,7 @@ class TrainSolver(Solver):
     )
 
 
-class GearTrainScenario(ScenarioHead):
+class GearTrainScenario(SpectrumScenario):
     """A scenario file."""
 
     kind: Literal["gear-train"] = "gear-train"
@@ -99,7 +97,7 @@ class GearTrainScenario(ScenarioHead):
     )
     gear: dict[PartName, TrainGear] = written({}, description="gears by name")
     stage: tuple[AnyStage, ...] = Field((), max_length=MOST_PARTS, description="which gears mesh")
-    shaft: tuple[Shaft, ...] = Field((), max_length=MOST_PARTS, description="which gears turn together")
+    shaft: Shafts = Field((), description="which gears turn together")
     body: tuple[BareBody, ...] = Field((), max_length=MOST_PARTS, description="bodies without teeth")
     link: tuple[Link, ...] = Field((), max_length=MOST_PARTS, description="springs between bodies")
     material: MaterialReference | None = Field(None, description="of all gears that name none")
@@ -107,14 +105,8 @@ class GearTrainScenario(ScenarioHead):
     quality: Grade | None = Field(None, description="tolerance class of all gears that say none")
     quality_edition: QualityEdition = Field(2013, description="edition of ISO 1328-1 of these classes")
     lubricant: Oil
-    bearings: Annotated[TrainBearings, model_file("bearings")] = written("rigid-1e9")
+    bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
     operating: TrainOperating
-    duty: Annotated[
-        tuple[TrainSpectrumDuty, ...],
-        csv_tables(
-            "CSV file with a row for each duty: share [1], output_torque [N*m], …", "share", "output_torque"
-        ),
-    ] = Field((), max_length=MOST_DUTIES, description="load spectrum: duties with shares of time")
     load: tuple[LoadTable, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
     mesh: Meshes = Field(description="of all stages; a list: the meshes of a bare model")
     temperature: TemperatureKeys = None

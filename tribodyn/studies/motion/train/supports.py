@@ -4,12 +4,11 @@ A mesh is seen as a pair of gears is drawn: x along its pitch tangent, y from th
 one's, the driver turning clockwise. Where it turns counter-clockwise, seen from +z, that is the view from -z.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from tribodyn.errors import InputError
 from tribodyn.gears.supports import (
     Five,
     GearSupport,
@@ -20,11 +19,10 @@ from tribodyn.gears.supports import (
 )
 from tribodyn.geometry.flanks.modification import misalignment_of_tilts
 from tribodyn.input.tables.supports.bearings import bearing_of
-from tribodyn.input.tables.supports.shafts import broken_shaft
+from tribodyn.input.tables.supports.shafts import drawn_shafts
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
 from tribodyn.studies.motion.drivetrain.structure import bearings_by_body
-from tribodyn.studies.motion.drivetrain.tables import Shaft
 from tribodyn.train.positions import frame_of
 
 _NOTHING = (0.0,) * 5
@@ -39,9 +37,7 @@ def supports_of_bodies(
     where a shaft is not held under the load of its gears.
     """
     drawn = {
-        train.numbers[train.parts.body(shaft.name)]: (f"shaft.{number}.drawn", shaft.drawn)
-        for number, shaft in enumerate(scenario.shaft)
-        if shaft.drawn is not None
+        train.numbers[train.parts.body(gear)]: given for gear, given in drawn_shafts(scenario.shaft).items()
     }
     matrices = {
         number: (f"bearings.{train.parts.bodies[body].name}.matrix", bearing_of(bearing))
@@ -72,29 +68,6 @@ def supports_of_mesh(
         for end, one in enumerate(ends)
     ]
     return GearSupports(seen[0], seen[1], misalignment_of_tilts((one[3:] for one in moved), angle), angle)
-
-
-def broken_drawn_shafts(scenario: Any) -> Iterator[InputError]:
-    """Go through what is wrong with shafts as drawn, and with shafts of one gear that are not."""
-    shaft: Shaft
-    for number, shaft in enumerate(scenario.shaft):
-        key = f"shaft.{number}"
-        if shaft.drawn is None:
-            if len(shaft.gears) == 1:
-                rule, remedy = "names one gear alone", "name the gears that turn together, or draw the shaft"
-                yield InputError(f"{key}.gears", None, rule, remedy)
-            continue
-        if len(shaft.gears) > 1:
-            rule = f"has {len(shaft.gears)} gears, and a shaft is drawn of one gear between its bearings"
-            yield InputError(f"{key}.drawn", None, rule, "give the bearings' stiffness in [bearings]")
-        elif shaft.stiffness is not None:
-            rule = "draws a shaft that bends, and stiffness is that of a shaft between two gears"
-            yield InputError(f"{key}.drawn", None, rule, "leave the one or the other out")
-        elif twice := [name for name in (shaft.name, *shaft.gears) if name in scenario.bearings.by_name]:
-            rule = f"gives the stiffness of the shaft {shaft.name} again, which {key}.drawn draws"
-            yield InputError(f"bearings.{twice[0]}", None, rule, "leave out the one or the other")
-        else:
-            yield from broken_shaft(f"{key}.drawn", shaft.drawn)
 
 
 def _loads(train: TrainKinematics, figure: PlacedTrain, torques: tuple[float, ...]) -> Float[Array, "body 5"]:
