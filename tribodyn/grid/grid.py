@@ -132,7 +132,7 @@ class Grid:
         """Name `--vary` as the origin of what an axis put into the scenario."""
         if isinstance(error, InputErrors):
             return InputErrors([self._as_varied(each) for each in error.errors])
-        varied = any(error.key == axis.key for axis in self.axes)
+        varied = same_key(error.key) in [same_key(axis.key) for axis in self.axes]
         if error.file not in ("", OVERRIDES) or not varied:
             return error
         return InputError(error.key, error.value, error.rule, error.remedy, VARY)
