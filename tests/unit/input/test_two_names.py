@@ -112,7 +112,7 @@ def test_sweeps_take_either_name():
     for name in ("operating.input_speed", "operating.pinion_speed"):
         grid = Grid(SCENARIO, [f"{name}=100,200rad/s"], {})
         assert grid.case((1,)).operating.pinion_speed == 200.0
-    with pytest.raises(InputError, match="^--vary: operating.gear_torque = .*must be greater than zero"):
+    with pytest.raises(InputError, match=r"^--vary: operating\.gear_torque = .*must be greater than zero"):
         Grid("crc-23-47", ["operating.output_torque=-5,5N*m"], {})
     with pytest.raises(InputError, match="varied twice"):
         Grid(SCENARIO, ["operating.input_speed=1,2rad/s", "operating.pinion_speed=1,2rad/s"], {})

@@ -85,7 +85,7 @@ def test_a_file_is_the_same_as_its_tables_written_out(tmp_path: Path):
         ("share [1],gear_torque [mm]\n1,2\n", "duty.0.gear_torque .*is not a unit of torque"),
         ("share [1],gear_torque [N*m]\n1,x\n", "duty: line 2: .*is not a number"),
         ("gear_torque [N*m],pinion_speed [rpm]\n1,2\n", "duty.0.share: missing"),
-        ("# nothing\n", r"begin it with share \[unit\],gear_torque \[unit\]"),
+        ("# nothing\n", r"begin it with share \[unit\],output_torque \[unit\]"),
     ],
 )
 def test_mistakes_name_the_file_and_the_row(tmp_path: Path, text: str, message: str):
@@ -96,5 +96,5 @@ def test_mistakes_name_the_file_and_the_row(tmp_path: Path, text: str, message: 
 
 def test_a_missing_file_says_how_one_begins(tmp_path: Path):
     path = written(tmp_path)
-    with pytest.raises(InputError, match=r'duty = "none.csv": no such file.*share \[unit\],gear_torque'):
+    with pytest.raises(InputError, match=r'duty = "none.csv": no such file.*share \[unit\],output_torque'):
         load_scenario(path, {"duty": "none.csv"})
