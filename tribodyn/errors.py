@@ -3,7 +3,7 @@
 import errno
 import os
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -174,3 +174,12 @@ def unknown_name(key: str, name: str, known: Iterable[str], what: str) -> InputE
     near = near_name(name, known)
     mean = f'did you mean "{near}"? ' if near else ""
     return InputError(key, quoted(name), f"no such {what}", f"{mean}there is: {', '.join(known)}")
+
+
+def broken_list(key: str, given: Sequence[str], known: Collection[str], what: str) -> Iterator[InputError]:
+    """Go through names in a list at a key that are not `known`, or there twice."""
+    for place, name in enumerate(given):
+        if name not in known:
+            yield unknown_name(f"{key}.{place}", name, known, what)
+        elif name in given[:place]:
+            yield InputError(key, quoted(list(given)), f"names {name} twice", f"name each {what} once")

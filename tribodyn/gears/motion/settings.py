@@ -1,6 +1,6 @@
 """Tables of scenarios that run gears over time: mesh, friction, solver, output, what drives; their rules."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import ceil
 from typing import Annotated, Any, Literal
 
@@ -51,6 +51,11 @@ class TorqueHarmonic(Table):
     amplitude: fields.Torque
     frequency: Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY))]
     phase: fields.Angle = written("0 deg")
+
+
+def harmonics_of(harmonics: Sequence[TorqueHarmonic]) -> tuple[tuple[float, float, float], ...]:
+    """Amplitude (N m), angular frequency (rad/s) and phase (rad) of cosines."""
+    return tuple((cosine.amplitude, cosine.frequency, cosine.phase) for cosine in harmonics)
 
 
 class Operating(OiledOperatingTable):

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.errors import InputError, broken_list, quoted, unknown_name
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input import units
 from tribodyn.input.fields import Inertia, PartName, TorsionalDamping, TorsionalStiffness
@@ -188,12 +188,7 @@ def broken_shafts(shafts: Any, gears: Collection[str], bearings: Bearings | None
 
 
 def _broken_in_list(key: str, shaft: Shaft, gears: Collection[str]) -> Iterator[InputError]:
-    for place, name in enumerate(shaft.gears):
-        if name not in gears:
-            yield unknown_name(f"{key}.gears.{place}", name, gears, "gear")
-        elif name in shaft.gears[:place]:
-            rule = f"names {name} twice"
-            yield InputError(f"{key}.gears", quoted(list(shaft.gears)), rule, "name each gear once")
+    yield from broken_list(f"{key}.gears", shaft.gears, gears, "gear")
     if shaft.drawn is not None and len(shaft.gears) > 1:
         rule = f"has {len(shaft.gears)} gears, and a shaft is drawn of one gear between its bearings"
         yield InputError(f"{key}.drawn", None, rule, "give the bearings' stiffness in [bearings]")

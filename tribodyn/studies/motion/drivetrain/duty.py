@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
+from tribodyn.gears.motion.settings import harmonics_of
 from tribodyn.input.tables.duty import broken_duty_rules
 from tribodyn.studies.motion.case import LoadData
 from tribodyn.studies.motion.drivetrain.duty_tables import LoadTable, TrainOperating
@@ -68,7 +69,7 @@ def duty_of(scenario: Any, train: TrainKinematics) -> TrainDuty:
                 _output_torque(operating, speed, at, loads, train),
                 operating.load_damping,
                 curve.in_si() if curve else None,
-                tuple((one.amplitude, one.frequency, one.phase) for one in operating.output_torque_harmonics),
+                harmonics_of(operating.output_torque_harmonics),
             ),
         )
         inertias.insert(0, (at, operating.load_inertia))
@@ -112,5 +113,5 @@ def _load(load: LoadTable, body: int) -> LoadData:
         load.torque,
         load.damping,
         curve.in_si() if curve else None,
-        tuple((one.amplitude, one.frequency, one.phase) for one in load.torque_harmonics),
+        harmonics_of(load.torque_harmonics),
     )

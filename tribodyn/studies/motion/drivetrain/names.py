@@ -5,7 +5,7 @@ from typing import Any
 
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.tables.supports.bearings import DEFAULT, broken_bearings
-from tribodyn.input.tables.supports.shafts import broken_shafts, listed
+from tribodyn.input.tables.supports.shafts import broken_list, broken_shafts, listed
 from tribodyn.studies.motion.drivetrain.structure import OF_DRIVE
 from tribodyn.studies.motion.drivetrain.tables import GROUND, Link, PlanetaryStage
 from tribodyn.studies.motion.planetary.stages import broken_sets, planetary_stages
@@ -27,11 +27,11 @@ def broken_names(scenario: Any) -> Iterator[InputError]:
     for number, stage in enumerate(scenario.stage):
         if not isinstance(stage, PlanetaryStage):
             single = [name for name in gears if name not in of_planets]
-            yield from _several(f"stage.{number}.gears", stage.gears, single, "gear")
+            yield from broken_list(f"stage.{number}.gears", stage.gears, single, "gear")
     yield from broken_sets(scenario, gears)
     if isinstance(scenario.mesh, tuple):
         for number, mesh in enumerate(scenario.mesh):
-            yield from _several(f"mesh.{number}.bodies", mesh.bodies, names, "body")
+            yield from broken_list(f"mesh.{number}.bodies", mesh.bodies, names, "body")
     yield from broken_shafts(scenario.shaft, gears, scenario.bearings)
     yield from _shafts(scenario)
     for number, link in enumerate(scenario.link):
@@ -64,14 +64,6 @@ def _declared(scenario: Any, gears: list[str]) -> Iterator[tuple[str, str]]:
             yield part.name, f"{table}.{number}.name"
 
 
-def _several(key: str, given: tuple[str, ...], known: list[str], what: str) -> Iterator[InputError]:
-    for place, name in enumerate(given):
-        if name not in known:
-            yield unknown_name(f"{key}.{place}", name, known, what)
-        elif name in given[:place]:
-            yield InputError(key, quoted(list(given)), f"names {name} twice", f"name each {what} once")
-
-
 def _shafts(scenario: Any) -> Iterator[InputError]:
     for number, shaft in enumerate(listed(scenario.shaft)):
         bodies = [_rigid_body(scenario, name) for name in shaft.gears]
@@ -81,7 +73,7 @@ def _shafts(scenario: Any) -> Iterator[InputError]:
 
 
 def _link(scenario: Any, key: str, link: Link, names: list[str]) -> Iterator[InputError]:
-    yield from _several(f"{key}.ends", link.ends, [*names, GROUND], f"{_PLACE}, or {quoted(GROUND)}")
+    yield from broken_list(f"{key}.ends", link.ends, [*names, GROUND], f"{_PLACE}, or {quoted(GROUND)}")
     for place, name in enumerate(link.ends):
         yield from _compliant(scenario, f"{key}.ends.{place}", name)
     springs = link.stiffness_x, link.stiffness_y, link.stiffness

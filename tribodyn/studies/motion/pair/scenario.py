@@ -16,6 +16,7 @@ from tribodyn.gears.motion.settings import (
     Operating,
     Output,
     Solver,
+    harmonics_of,
     moving_mesh_of,
     output_data,
     solver_data,
@@ -107,9 +108,7 @@ def _operating(scenario: Scenario) -> OperatingData:
         **duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth)._asdict(),
         pinion_torque=operating.motor_torque,
         torque_table=curve.in_si() if curve else None,
-        torque_harmonics=tuple(
-            (cosine.amplitude, cosine.frequency, cosine.phase) for cosine in operating.output_torque_harmonics
-        ),
+        torque_harmonics=harmonics_of(operating.output_torque_harmonics),
         **operating.model_dump(
             exclude={"output_torque_table", "output_torque_harmonics", *OiledOperatingTable.model_fields}
         ),
