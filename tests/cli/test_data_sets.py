@@ -29,6 +29,7 @@ PAIR = {
     "operating": {"pinion_speed": "1500 rpm", "gear_torque": "200 N*m"},
     "mesh": {"damping_ratio": 0.05, "tooth_sample": 1},
     "friction": {"law": "coulomb", "coefficient": 0.05},
+    "film": {"law": "masjedi-khonsari"},
     "damage": [
         {"gear": "pinion", "tooth": 5, "kind": "crack", "depth": "2 mm"},
         {"gear": "gear", "tooth": 7, "kind": "broken-tip", "height": 0.9},

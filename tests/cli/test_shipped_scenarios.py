@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
+from tests.support.passed_before import unless_passed
 from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import in_a_process, sets
 from tribodyn.input.sources import names, shipped
@@ -58,6 +59,10 @@ ALIKE = {
 #: What makes a run of a kind, or of a name, short.
 SHORTER = {
     "gear-pair": ("solver.cycles=2",),
+    "gear-train": ("solver.cycles=2",),
+    "efficiency": ("output.samples_per_cycle=40",),
+    "irefc": ("output.samples_per_cycle=8",),
+    "backlash-oscillator": ("frequency.step=0.1",),
     "sensors-18-36": ("solver.revolutions=3", "output.window=[2.0, 3.0]"),  # a signal has to be as long
     "load-contact": ("output.positions_per_cycle=8",),
     "wear": ("output.positions_per_cycle=12",),
@@ -71,12 +76,15 @@ SHORTER = {
 
 
 @pytest.mark.parametrize("name", all_in_soak(SEARCHES, QUICK_SEARCHES))
-def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
-    ended = forked("run", name, *sets(*FEW, *REACHED.get(name, ())), "--json", "--no-plot", folder=tmp_path)
-    assert ended.returncode == 0, ended.stderr
-    result = json.loads(ended.stdout)
-    assert (result["status"], result["evaluations"]) == ("complete", 3)
-    assert load_scenario(tmp_path / f"{name}-best.toml").kind == load_scenario(name).base["kind"]
+def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs, request):
+    with unless_passed(request, name):
+        ended = forked(
+            "run", name, *sets(*FEW, *REACHED.get(name, ())), "--json", "--no-plot", folder=tmp_path
+        )
+        assert ended.returncode == 0, ended.stderr
+        result = json.loads(ended.stdout)
+        assert (result["status"], result["evaluations"]) == ("complete", 3)
+        assert load_scenario(tmp_path / f"{name}-best.toml").kind == load_scenario(name).base["kind"]
 
 
 @pytest.mark.parametrize(
@@ -92,7 +100,12 @@ def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
         names=2,
     ),
 )
-def test_it_runs(name: str, drawn: bool, tmp_path: Path, forked: ForkedVerbs):
+def test_it_runs(name: str, drawn: bool, tmp_path: Path, forked: ForkedVerbs, request):
+    with unless_passed(request, name):
+        run_shortened(name, drawn, tmp_path, forked)
+
+
+def run_shortened(name: str, drawn: bool, tmp_path: Path, forked: ForkedVerbs) -> None:
     shorter = sets(*SHORTER.get(name, SHORTER.get(load_scenario(name).kind, ())))
     words = (name, *shorter, *(() if drawn else ("--no-plot",)))
     ended = forked("run", *words, "--json", folder=tmp_path)

@@ -16,8 +16,8 @@ def slope(sizes, errors) -> float:
 
 def test_heuns_steps_are_of_second_order_in_the_change_of_load():
     """Fourfold fewer changes of load, about sixteenfold smaller errors of the depths."""
-    exact = worn(study_of(wear__revolutions=FAR, wear__load_change=0.001))[0].depths[0]
-    changes = np.array([0.04, 0.02, 0.01, 0.005])
+    exact = worn(study_of(wear__revolutions=FAR, wear__load_change=0.002))[0].depths[0]
+    changes = np.array([0.04, 0.02, 0.01])
     errors = [
         np.max(np.abs(worn(study_of(wear__revolutions=FAR, wear__load_change=change))[0].depths[0] - exact))
         for change in changes

@@ -17,7 +17,12 @@ from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.train.structure import displacements, place_in_space, turn_of, velocities
 
-COULOMB = {"friction.law": "coulomb", "friction.coefficient": 0.06, "operating.pinion_speed": "300 rad/s"}
+COULOMB = {
+    "friction.law": "coulomb",
+    "film.law": "masjedi-khonsari",
+    "friction.coefficient": 0.06,
+    "operating.pinion_speed": "300 rad/s",
+}
 
 
 def pair(**more):
@@ -114,7 +119,9 @@ def test_even_slices_and_a_whole_overlap_make_no_transmission_error():
     }
     errors = []
     for slices in (5, 10):
-        model = pair(**width, **{"friction.law": "none", "mesh.slices": slices}).model
+        model = pair(
+            **width, **{"friction.law": "none", "film.law": "masjedi-khonsari", "mesh.slices": slices}
+        ).model
         model = altered(model, links={"stiffness_in_space": 1e7 * model.links.stiffness_in_space})
         turn = turn_of(1, model.layout)
         turned = [static_equilibrium(model, phase)[turn] for phase in np.linspace(0.01, 0.93, 13)]
@@ -125,7 +132,7 @@ def test_even_slices_and_a_whole_overlap_make_no_transmission_error():
 def test_mean_error_converges_with_the_square_of_the_slices_width():
     found = []
     for slices in (12, 24, 48):  # with 6 errors of either sign still cancel
-        model = pair(**{"mesh.slices": slices, "friction.law": "none"}).model
+        model = pair(**{"mesh.slices": slices, "friction.law": "none", "film.law": "masjedi-khonsari"}).model
         turn, tilt = turn_of(1, model.layout), place_in_space(0, 4, model.layout)
         last = marched(model, cycles=10)[-40:]
         found.append([np.mean(last[:, turn]), np.mean(last[:, tilt])])

@@ -39,7 +39,9 @@ def band(summary, what="film"):
 
 @pytest.fixture(scope="module")
 def solved():
-    return td.run({"title": "one", "kind": "ehl", **PAIR, "output": {"positions": 6}}).summary
+    return td.run(
+        {"title": "one", "kind": "ehl", **PAIR, "output": {"positions": 6}, "contact": {"step": 0.25}}
+    ).summary
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -4,20 +4,32 @@ import numpy as np
 import pytest
 
 from tests.support.creeping_drive import SLOW, creep, statics
+from tests.support.soak_parameters import all_in_soak
 
 
 @pytest.mark.parametrize(
-    ("name", "samples", "within", "compared"),
-    [
-        ("crc-23-47", 100, 2e-4, {1: 42, 2: 48}),
-        ("high-contact-ratio", 60, 5e-4, {2: 5, 3: 5}),
-        ("parabolic-23-47", 60, 5e-4, {2: 5, 3: 5}),
-    ],
+    ("name", "samples", "within", "compared", "coefficient"),
+    all_in_soak(
+        [
+            (*case, coefficient)
+            for coefficient in (0.0, 0.1)
+            for case in (
+                ("crc-23-47", 100, 2e-4, {1: 42, 2: 48}),
+                ("high-contact-ratio", 60, 5e-4, {2: 5, 3: 5}),
+                ("parabolic-23-47", 60, 5e-4, {2: 5, 3: 5}),
+            )
+        ],
+        lambda case: case[0] == "crc-23-47" or case[-1] > 0.0,
+        names=5,
+    ),
 )
-@pytest.mark.parametrize("coefficient", [0.0, 0.1])
 def test_loads_at_creep_equal_the_quasi_static_ones(prepared, name, samples, within, compared, coefficient):
-    law = {"friction.law": "coulomb", "friction.coefficient": coefficient} if coefficient else {}
-    case = prepared(name, **SLOW, **({"friction.law": "none"} | law))
+    law = (
+        {"friction.law": "coulomb", "film.law": "masjedi-khonsari", "friction.coefficient": coefficient}
+        if coefficient
+        else {}
+    )
+    case = prepared(name, **SLOW, **({"friction.law": "none", "film.law": "masjedi-khonsari"} | law))
     assert case.cycle.front_pairs == max(compared)
     found = creep(case, samples=samples)
     boundary = np.asarray(case.model.meshes[0].table.boundary)
@@ -39,7 +51,7 @@ def test_loads_at_creep_equal_the_quasi_static_ones(prepared, name, samples, wit
 
 def test_single_contact_carries_the_torque(prepared):
     """F_n = T_g/(r_g cos α), frictionless."""
-    case = prepared("crc-23-47", **SLOW, **{"friction.law": "none"})
+    case = prepared("crc-23-47", **SLOW, **{"friction.law": "none", "film.law": "masjedi-khonsari"})
     found = creep(case)
     single = (np.sum(found["normal_load"] > 0, axis=1) == 1) & (np.arange(101) > 55)
     arm = case.cycle.gear_pitch_radius * np.cos(found["pressure_angle"][single, 1])

@@ -17,7 +17,7 @@ from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.structure import displacements
 
-CYCLES, SAMPLES = 3, 40
+CYCLES, SAMPLES = 1, 40
 
 
 def differences(name, share, overrides=None, bare=False):

@@ -183,7 +183,7 @@ def test_another_solver_comes_back_after_a_common_period(rubbing):
 
 
 def test_multipliers_are_those_of_differences_of_the_map(rubbing):
-    """Central differences of SciPy's marches over the period.
+    """Central differences of SciPy's marches over the period, along directions at random.
 
     At a tolerance of 1e-11 a march may pass over a reversal of friction and miss by 1e-4; at 1e-13
     differences over 3e-5, 1e-4 and 3e-4 are within 4e-7 of the derivative.
@@ -192,19 +192,21 @@ def test_multipliers_are_those_of_differences_of_the_map(rubbing):
     model, steady = trains[1].model, steadies[1]
     moving = list(moving_states(model).states)
     scale = state_scales(model, steady.state)[moving]
-    jacobian = np.empty((len(moving), len(moving)))
-    for column, place in enumerate(moving):
+    ways = np.random.default_rng(4).standard_normal((3, len(moving)))
+    slopes = []
+    for way in ways:
         ends = []
         for sign in (1.0, -1.0):
             state = steady.state.copy()
-            state[place] += sign * 1e-4 * scale[column]
+            state[moving] += sign * 1e-4 * scale * way
             ends.append(by_another_solver(model, state, model.schedule.period, 1e-13)[moving])
-        jacobian[:, column] = (ends[0] - ends[1]) / scale / 2e-4
+        slopes.append((ends[0] - ends[1]) / scale / 2e-4)
     settings: dict[str, Any] = {"solver": "auto", "rtol": 1e-6, "fine_rtol": 1e-10, "max_steps": 10**6}
     period_map = GearMap([model], steady.state[None], moving_states(model), workers=1, **settings)
     exact = period_map.tangent(steady.state[None][:, moving], np.zeros(1, dtype=int), 1).jacobian[0]
-    assert np.max(np.abs(exact * scale / scale[:, None] - jacobian)) < 1e-5
-    found = np.linalg.eigvals(jacobian)
+    exact *= scale / scale[:, None]
+    assert np.max(np.abs(ways @ exact.T - slopes)) < 1e-5
+    found = np.linalg.eigvals(exact)
     for multiplier in steady.multipliers[np.abs(steady.multipliers) > 0.01]:
         assert np.min(np.abs(found - multiplier)) < 1e-5
 
@@ -231,7 +233,7 @@ def test_a_lightly_damped_train_need_not_repeat():
     light = {"mesh.backlash": "20 um", "mesh.damping_ratio": 0.005, "bearings.default.damping_ratio": 0.003}
     light["mesh.body"] = "held"  # this speed is in a resonance of these
     model = at_speed(REDUCER, 7800, **RUBBING, **light, **{"operating.output_torque": "150 N*m"}).model
-    (steady,) = steady_states([model], samples=10, max_cycles=150)
+    (steady,) = steady_states([model], samples=10, max_cycles=60)
     assert steady.period == 0
     # whether a shot then meets the unstable motion of one period depends on where the march happens to end
     assert "unstable state of period 1" in steady.message or "Lyapunov exponent +" in steady.message

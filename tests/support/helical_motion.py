@@ -2,7 +2,12 @@
 
 import numpy as np
 
-EVEN = {"mesh.compliance": "constant", "mesh.stiffness": "4e8 N/m", "friction.law": "none"}
+EVEN = {
+    "mesh.compliance": "constant",
+    "mesh.stiffness": "4e8 N/m",
+    "friction.law": "none",
+    "film.law": "masjedi-khonsari",
+}
 HELICAL = {"drive.helix_angle": "20 deg", "mesh.slices": 5, **EVEN}
 
 

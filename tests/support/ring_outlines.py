@@ -38,11 +38,15 @@ def penetration(pair: Assembly) -> np.ndarray:
     order = np.argsort(ring_size)
     half = CubicSpline(*_distinct(ring_size[order], ring_angle[order]))
     ring_at_pitch = -float(thickness_half_angle(ring, -r_g))
-    deepest = np.full(81, -np.inf)
+    deepest, farthest, apart = np.full(81, -np.inf), float(size.max()), r_g - r_p
     for place, roll in enumerate(np.linspace(-0.5, 0.5, 81) * 2 * math.pi / teeth):
         for tooth in range(-9, 10):
             # clockwise from the line of centres, towards the ring; the planet's tooth lies left of P
-            turned = roll - at_pitch + tooth * 2 * math.pi / teeth + angle
+            axis = roll - at_pitch + tooth * 2 * math.pi / teeth
+            nearest = max(0.0, math.cos(max(0.0, abs(axis) - float(angle.max()))))
+            if math.hypot(farthest, apart) ** 2 + 2 * farthest * apart * nearest < ring.tip_radius**2:
+                continue  # inside the ring's tips
+            turned = axis + angle
             x, y = size * np.sin(turned), size * np.cos(turned) - r_p + r_g
             at, where = np.hypot(x, y), np.arctan2(x, y)
             # the ring's tooth to the right of P: its axis at the half thickness

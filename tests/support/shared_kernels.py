@@ -19,8 +19,8 @@ from tribodyn.numerics.files.cache import cache_folder
 SHORT: dict[str, Any] = {"solver.cycles": 1, "output.samples_per_cycle": 16}
 LAWS: dict[str, dict[str, Any]] = {
     "default": {},
-    "none": {"friction.law": "none"},
-    "coulomb": {"friction.law": "coulomb", "friction.coefficient": 0.05},
+    "none": {"friction.law": "none", "film.law": "masjedi-khonsari"},
+    "coulomb": {"friction.law": "coulomb", "film.law": "masjedi-khonsari", "friction.coefficient": 0.05},
 }
 
 

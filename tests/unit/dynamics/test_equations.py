@@ -40,7 +40,7 @@ OVERRIDES = [
     {},
     {"friction.sliding": "dynamic"},
     {"mesh.hertz": "load-dependent"},
-    {"friction.law": "coulomb", "friction.coefficient": 0.08},
+    {"friction.law": "coulomb", "film.law": "masjedi-khonsari", "friction.coefficient": 0.08},
     {"mesh.backlash": "12 um"},
 ]
 

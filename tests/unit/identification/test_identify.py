@@ -15,6 +15,7 @@ PAIR = {
     "operating": {"pinion_speed": "1500 rpm", "gear_torque": "200 N*m"},
     "mesh": {"damping_ratio": 0.05},
     "friction": {"law": "coulomb", "coefficient": 0.05},
+    "film": {"law": "masjedi-khonsari"},
     "solver": {"revolutions": 3},
     "sensor": [
         {"name": "e", "kind": "transmission-error", "rate": "5 kHz", "noise": "0.2 um"},
@@ -41,8 +42,13 @@ def rig(tmp_path_factory: pytest.TempPathFactory):
         return path, read_sensed(record)
 
 
-def test_a_record_gives_the_eccentricity_that_it_was_made_with(rig):
-    found = td.identify(PAIR, rig[0], RANGE, **QUIET)
+@pytest.fixture(scope="module")
+def identified(rig):
+    return td.identify(PAIR, rig[0], RANGE, **QUIET)
+
+
+def test_a_record_gives_the_eccentricity_that_it_was_made_with(identified):
+    found = identified
     low, high = found.intervals[KEY]
     assert low <= 8e-6 <= high or abs(found[KEY] - 8e-6) < high - low
     assert high - low < 0.5e-6
@@ -55,13 +61,11 @@ def test_a_record_gives_the_eccentricity_that_it_was_made_with(rig):
     assert KEY in found._repr_html_()
 
 
-def test_arrays_and_records_give_the_same(rig):
-    path, sensed = rig
-    arrays = {"e": sensed["e"].values}
-    one = td.identify(PAIR, arrays, RANGE, start=f"{float(sensed['e'].time[0])!r} s", **QUIET)
-    alone = {"sensor": PAIR["sensor"][:1]}
-    two = td.identify(PAIR, path, RANGE, alone, **QUIET)
-    assert one[KEY] == pytest.approx(two[KEY], rel=1e-3)
+def test_arrays_and_records_give_the_same(rig, identified):
+    _, sensed = rig
+    arrays = {name: sensed[name].values for name in ("e", "a")}
+    found = td.identify(PAIR, arrays, RANGE, start=f"{float(sensed['e'].time[0])!r} s", **QUIET)
+    assert found[KEY] == pytest.approx(identified[KEY], rel=1e-3)
 
 
 def test_a_model_that_lacks_something_is_said(rig):

@@ -18,8 +18,9 @@ SCENARIO = {
     "operating": {"pinion_speed": "1500 rpm", "gear_torque": "200 N*m"},
     "mesh": {"damping_ratio": 0.05},
     "friction": {"law": "coulomb", "coefficient": 0.05},
+    "film": {"law": "masjedi-khonsari"},
     "sensor": [{"name": "te", "kind": "transmission-error", "rate": "5 kHz"}],
-    "solver": {"revolutions": 4.5},
+    "solver": {"revolutions": 2.75},
 }
 UNKNOWNS = {
     "mesh.damping_ratio": (0.01, 0.2),
@@ -32,7 +33,7 @@ TRUTH = {
     "bearings.gear.stiffness_x": "6e8 N/m",
     "bearings.gear.stiffness_y": "6e8 N/m",
 }
-RUN_IN, NOISE = 1.5, 2e-7
+RUN_IN, NOISE = 0.75, 2e-7
 
 
 @pytest.fixture(scope="module")

@@ -14,9 +14,10 @@ from tribodyn.numerics.processes.work import foretold
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario
 
-SWEEP = (
-    "import tribodyn as td\ntd.sweep('backlash-oscillator', {'damping': [0.05, 0.08]}, progress=PROGRESS)\n"
-)
+SWEEP = """
+import tribodyn as td
+td.sweep('backlash-oscillator', {'damping': [0.05, 0.08]}, {'frequency.step': 0.1}, progress=PROGRESS)
+"""
 JUDGE = "import tribodyn as td\ntd.judge('crc-23-47', positions=4, progress=PROGRESS)\n"
 #: What a notebook's kernel has: IPython is no dependency, and this says what the bar needs of it.
 NOTEBOOK = """

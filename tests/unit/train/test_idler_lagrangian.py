@@ -13,6 +13,7 @@ from tests.support.idler_lagrangian import (
     sliding,
     wound,
 )
+from tests.support.soak_parameters import all_in_soak
 from tests.support.train_matrices import (
     Bearing,
     Body,
@@ -54,7 +55,7 @@ def train(idler):
     return Train(bodies, bearings, meshes=meshes)
 
 
-@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("place", all_in_soak(PLACES, PLACES[:2]))
 def test_the_approach_of_involutes_is_that_along_the_line_of_action(place):
     idler, rng = placed(*place), np.random.default_rng(3)
     q = rng.normal(size=(3, 3)) * 1e-5
@@ -69,7 +70,7 @@ def test_the_approach_of_involutes_is_that_along_the_line_of_action(place):
         assert abs(whole - expected[mesh]) < 20 * np.max(np.abs(q)) ** 2 / 0.07
 
 
-@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("place", all_in_soak(PLACES, PLACES[:2]))
 def test_lagranges_equations_are_those_of_the_assembled_matrices(place):
     """Without friction, which the matrices have not."""
     idler, rng = placed(*place)._replace(friction=np.zeros(2)), np.random.default_rng(5)
@@ -81,7 +82,7 @@ def test_lagranges_equations_are_those_of_the_assembled_matrices(place):
     np.testing.assert_allclose(accelerations(q, v, idler), expected, rtol=1e-9)
 
 
-@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("place", all_in_soak(PLACES, PLACES[:2]))
 def test_sliding_of_the_flanks_is_the_sum_of_the_speeds_times_the_distance(place):
     """v_s = (ω_1 + ω_2) r; the driver's flank slides along −tangent in recess."""
     idler, speed = placed(*place), 31.0
@@ -93,7 +94,7 @@ def test_sliding_of_the_flanks_is_the_sum_of_the_speeds_times_the_distance(place
         assert sliding(idler, mesh, speed) == pytest.approx(expected, rel=1e-10)
 
 
-@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("place", all_in_soak(PLACES, PLACES[:2]))
 def test_friction_cancels_between_bodies_and_dissipates(place):
     """By the arms of physics: L = r + r_p sin α on the driver, r_g sin α − r on the driven gear."""
     idler, speed = placed(*place), 31.0

@@ -15,7 +15,12 @@ DUTIES = [
 ]
 #: Shafts out of line by this: the load leans more on one end of the face the smaller it is.
 LEANING = {"mesh.misalignment.in_plane": "0.2 mrad"}
-SMALL = {"assessment.speeds": 8, "assessment.samples": 0, "assessment.friction_laws": ["niemann"]}
+SMALL = {
+    "assessment.speeds": 8,
+    "assessment.torque_shares": [0.5, 1.0],
+    "assessment.samples": 0,
+    "assessment.friction_laws": ["niemann"],
+}
 
 
 def test_safety_and_life_by_the_standard_do_not_depend_on_the_duty_that_is_assessed(tmp_path: Path):

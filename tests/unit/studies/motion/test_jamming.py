@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.optimize import linprog
+from scipy.optimize import brentq, linprog
 
 from tests.support.planet_sets import planet_set, set_case
 from tests.support.train_scenarios import case_of_table
@@ -84,9 +84,7 @@ def test_radial_errors_against_the_backlash_at_another_distance(member: str, sig
         nearer = assembly.drive._replace(centre_distance=distance + sign * error * np.sign(distance))
         return float(normal_backlash(Assembly(assembly.family, nearer)))
 
-    errors = np.linspace(0.0, 200e-6, 2001)
-    eaten = errors[np.argmax([left(error) <= 0.0 for error in errors])]
-    assert 20e-6 < eaten < 180e-6
+    eaten = brentq(left, 20e-6, 180e-6)
     for share, jammed in ((0.97, False), (1.03, True)):
         said = jams(thinner(radial_pin_errors=[f"{sign * share * eaten} m", "0 m", "0 m"]))
         assert bool(said) == jammed
