@@ -1,4 +1,7 @@
-"""One gearbox written as a pair and as a train: the same numbers, whatever the feature."""
+"""One gearbox written as a pair and as a train: the same numbers, whatever the feature.
+
+And the features of a pair, a reducer of two stages and a planetary set: each has them, or it is said why not.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -6,17 +9,25 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+import tomli_w
 
 from tests.support.drawn_shafts import BETWEEN, OVERHUNG
+from tests.support.planet_sets import planet_set
+from tests.support.train_scenarios import REDUCER
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import ANGLES
+from tribodyn.record.sensors import read_sensed
+from tribodyn.sensing.data import KINDS
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.studies import STUDIES
+from tribodyn.studies.design.short_form import loaded_search
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.check import check
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.report import REPORTED
+from tribodyn.studies.pages import drawable, figure
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.studies.protocol.run import run
 from tribodyn.train.structure import rotational_error
@@ -46,7 +57,7 @@ IN_A_LIST = DRAWN | {
     ]
 }
 #: What the pair says, and what the train says in its place.
-FEATURES: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+FEATURES: dict[str, tuple[dict[str, Any], ...]] = {
     "plain": ({}, {}),
     "matrices": ({"bearings": {"pinion": ON_MATRIX, "gear": SPRINGS}},) * 2,
     "bearings of all": ({"bearings": {"default": SPRINGS}},) * 2,
@@ -112,7 +123,7 @@ INVOLUTE: dict[str, Any] = {
 
 def scenario_of(kind: str, keys: dict[str, Any]) -> Gearbox:
     names = ("pinion_speed", "gear_torque") if kind == "gear-pair" else ("input_speed", "output_torque")
-    operating = {names[0]: "1500 rpm", names[1]: "150 N*m", "oil_temperature": "70 degC"}
+    operating: dict[str, Any] = {names[0]: "1500 rpm", names[1]: "150 N*m", "oil_temperature": "70 degC"}
     keys = dict(keys)
     if "duty" in keys:
         operating["duty"] = 2
@@ -298,3 +309,214 @@ def test_a_law_from_python_takes_the_place_of_a_trains(tmp_path: Path):
     box = scenario_of("gear-train", {})
     summary = run(box, tmp_path / "own.h5", friction=half).summary
     assert summary["meshes"]["mesh"]["friction_coefficient_mean"] == pytest.approx(0.05, rel=1e-9)
+
+
+#: What the gearboxes of the table below have alike.
+ALIKE: dict[str, Any] = {
+    "lubricant": {"like": "iso-vg-220-mineral", "fzg_micropitting_stage": 9},
+    "mesh": MESH,
+    "friction": {"law": "xu"},
+    "solver": {"cycles": 4},
+    "output": {"samples_per_cycle": 80},
+}
+GEAR_BEARINGS = {"default": SPRINGS}
+#: A pair, a reducer of two stages, a planetary set: their scenarios.
+GEARBOXES: dict[str, dict[str, Any]] = {
+    "pair": {
+        "title": "A pair",
+        "kind": "gear-pair",
+        "drive": INVOLUTE | {"quality": 6},
+        "bearings": "rigid-1e9",
+        "operating": {"pinion_speed": "1480 rpm", "gear_torque": "150 N*m", "oil_temperature": "70 degC"},
+        **ALIKE,
+    },
+    "reducer": REDUCER | {"quality": 6, "bearings": GEAR_BEARINGS} | ALIKE,
+    "planetary": planet_set() | {"quality": 6, "bearings": GEAR_BEARINGS} | ALIKE,
+}
+#: N m.
+GEARBOX_LOADS = {"pair": 150.0, "reducer": 1800.0, "planetary": 600.0}
+#: What of a feature's tables differs: a body that bearings hold, its gear, a mesh, the name of the load.
+PLACES = {
+    "pair": ("gear", "gear", None, "gear_torque"),
+    "reducer": ("middle", "wheel-1", "pinion-1-wheel-1", "output_torque"),
+    "planetary": ("carrier", "planet-1", "set-sun-1", "output_torque"),
+}
+
+
+def heard(gearbox: str) -> list[dict[str, Any]]:
+    """A sensor of every kind; of rings where there is one."""
+    body, _, mesh, _ = PLACES[gearbox]
+    at = {
+        "housing": "top",
+        "torque": "output",
+        "transmission-error": mesh,
+        "ring": "set" if gearbox == "planetary" else None,
+    }
+    kinds = [kind for kind in KINDS if kind != "ring" or gearbox == "planetary"]
+    return [
+        {"name": kind, "kind": kind, "rate": "20 kHz"}
+        | ({"at": place} if (place := at.get(kind, body)) else {})
+        for kind in kinds
+    ]
+
+
+def everything(gearbox: str) -> dict[str, Any]:
+    """Tables of what a run has at once: losses, a load spectrum, sensors, a bulk temperature."""
+    body, gear, _, load = PLACES[gearbox]
+    formulas = {"churning": "iso-14179-1", "windage": "anderson-loewenthal", "bearings": "palmgren"}
+    losses = {
+        "pair": formulas | {"gear_immersion": "20 mm", "gear_bearings": DRAG},
+        "reducer": formulas | {"immersion": {gear: "20 mm"}, "shaft_bearings": {body: DRAG}},
+        # gears of a planetary stage churn by no formula that is known
+        "planetary": {"bearings": "palmgren", "shaft_bearings": {body: DRAG}},
+    }
+    shape = {body: [0.3, 0.9]}
+    mode = {"frequency": "0.9 kHz", "damping_ratio": 0.03, "mass": "160 kg", "shape": shape}
+    base = GEARBOXES[gearbox]
+    return base | {
+        "losses": losses[gearbox],
+        "duty": [{"share": 1.0, load: "120 N*m"}, {"share": 3.0}],
+        "operating": base["operating"] | {"duty": 2},
+        "sensor": heard(gearbox),
+        "housing": {"mode": [mode | {"points": {"top": 1.0}}]},
+        "temperature": {"model": "network", **NETWORK},
+    }
+
+
+@pytest.fixture(scope="module")
+def of_everything(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Record]:
+    folder = tmp_path_factory.mktemp("everything")
+    records = {}
+    for name in GEARBOXES:
+        result = run(load_data(everything(name), name).case, folder / f"{name}.h5")
+        assert result.status == "complete"
+        records[name] = Record(result.path)
+    return records
+
+
+KINDS_OF_MOTION = [STUDIES["gear-pair"], STUDIES["gear-train"]]
+#: Quantities of planets, which the others have not; churning and windage, see `everything`.
+OF_PLANETS = {"mesh_load_factor", "planet_load_factor_max"}
+#: Figures of what these records have not: slices, helical teeth, a speed that changes, whole revolutions.
+OF_OTHERS = {"line-load", "in-space", "orders", "revolutions", "synchronous-average"}
+#: Figures that a gearbox has in another place: the teeth of every mesh are in the figure of the train.
+ELSEWHERE = {"pair": {"train"}, "reducer": {"path-of-contact"}, "planetary": {"path-of-contact"}}
+
+
+@pytest.mark.parametrize("gearbox", GEARBOXES)
+def test_every_quantity_of_every_gearbox(gearbox: str, of_everything: dict[str, Record]):
+    """Whatever a sweep of one of them keeps, the run of each says, of itself or of every mesh."""
+    summary = of_everything[gearbox].summary
+    meshes = list(summary["meshes"].values()) if "meshes" in summary else [summary]
+    further = {"S_B", "S_lambda", "dynamic_factor_iso", "efficiency_with_losses", "power_bearings"}
+    names = further.union(*(study.swept() for study in KINDS_OF_MOTION))
+    for name in names - (set() if gearbox == "planetary" else OF_PLANETS):
+        assert summary.get(name) is not None or all(mesh.get(name) is not None for mesh in meshes), name
+    shares = np.reshape(summary["mode_shares"], (len(summary["mode_frequencies"]), -1))
+    np.testing.assert_allclose(np.sum(shares, axis=1), 1.0, rtol=1e-9)
+    assert summary["efficiency_with_losses"] < summary["efficiency"]
+
+
+@pytest.mark.parametrize("gearbox", GEARBOXES)
+def test_every_figure_of_every_gearbox(gearbox: str, of_everything: dict[str, Record]):
+    every = set().union(*(study.drawings() for study in KINDS_OF_MOTION))
+    without = ELSEWHERE[gearbox] | (set() if gearbox == "planetary" else {"planet-load", "orbit"})
+    record = of_everything[gearbox]
+    assert set(drawable([record])) == every - OF_OTHERS - without
+    for name in ("mesh-force", "displacement", "loss", "film-parameter", "bearing-load", "modes"):
+        figure(name, [record]).draw_without_rendering()
+
+
+@pytest.mark.parametrize("gearbox", GEARBOXES)
+def test_every_sensor_of_every_gearbox(gearbox: str, of_everything: dict[str, Record]):
+    signals = read_sensed(of_everything[gearbox]).signals
+    assert [signal.kind for signal in signals] == [sensor["kind"] for sensor in heard(gearbox)]
+    assert all(np.ptp(signal.values) > 0.0 for signal in signals)
+
+
+def test_the_force_of_a_pair_is_drawn_from_its_torque(of_everything: dict[str, Record]):
+    """Base and pitch circle: Σ F_n cos α along the pitch tangent, friction aside."""
+    record = of_everything["pair"]
+    along = np.nansum(record["normal_load"] * np.cos(record["pressure_angle"]), axis=1)
+    (line,) = figure("mesh-force", [record], cycles=None).axes[0].lines
+    assert np.mean(np.asarray(line.get_ydata())) == pytest.approx(np.mean(along), rel=0.02)
+
+
+SPALLED = {"tooth": 3, "kind": "spall", **SPALL}
+#: Features that `check` reaches, by tables of the gearboxes.
+CHECKED: dict[str, dict[str, dict[str, Any]]] = {
+    "bearing matrices": {
+        "pair": {"bearings": {"pinion": ON_MATRIX, "gear": SPRINGS}},
+        "reducer": {"bearings": {"default": SPRINGS, "middle": ON_MATRIX}},
+    },
+    "drawn shafts": {
+        "pair": {"bearings": {"gear": SPRINGS}, "shaft": {"pinion": OVERHUNG}},
+        "reducer": {
+            "bearings": {"wheel-2": SPRINGS, "middle": SPRINGS},
+            "shaft": [*REDUCER["shaft"], {"name": "in", "gears": ["pinion-1"], "drawn": OVERHUNG}],
+        },
+    },
+    "damage": {
+        gearbox: {"damage": [{"gear": gear, **SPALLED}]}
+        for gearbox, gear in zip(GEARBOXES, ("gear", "wheel-1", "ring"), strict=True)
+    },
+    "network of temperatures": {
+        gearbox: {"temperature": {"model": "network", **NETWORK}} for gearbox in GEARBOXES
+    },
+}
+#: What has no meaning in a planetary stage, and why.
+REFUSED: dict[str, tuple[dict[str, Any], str]] = {
+    "bearing matrices": (
+        {"bearings": {"default": SPRINGS, "carrier": ON_MATRIX}},
+        "couples directions in which bodies of planetary stages do not move",
+    ),
+    "drawn shafts": (
+        {"shaft": [{"name": "in", "gears": ["sun"], "drawn": OVERHUNG}]},
+        "is of a planetary stage, whose bodies move in the plane",
+    ),
+    "slices": (
+        {"mesh": {"compliance": "fem", "slices": 5, "damping_ratio": 0.05}},
+        "internal pairs are even along the face",
+    ),
+    "formula of temperatures": ({"temperature": {"model": "iso"}}, "is of external gears"),
+    "churning": (
+        {"losses": {"churning": "iso-14179-1", "immersion": {"ring": "20 mm"}}},
+        "the formulas are of gears on fixed axes",
+    ),
+}
+
+
+@pytest.mark.parametrize(
+    ("feature", "gearbox"), [(feature, gearbox) for feature in CHECKED for gearbox in CHECKED[feature]]
+)
+def test_features_that_are_checked(feature: str, gearbox: str):
+    """Shafts that bend have bearings with lives, and every gearbox a Campbell table and shares of modes."""
+    loaded = load_data(GEARBOXES[gearbox] | CHECKED[feature][gearbox], gearbox)
+    checked = loaded.study.check(loaded.case)
+    titles = " ".join(table.title for table in checked.every)
+    assert "Campbell" in titles
+    assert "shares of the kinetic energy" in titles
+    if feature == "drawn shafts":
+        assert all("rating_life" in bearing for bearing in checked.data["bearings"].values())
+
+
+@pytest.mark.parametrize("feature", REFUSED)
+def test_what_planetary_stages_do_not_have_is_said(feature: str):
+    tables, reason = REFUSED[feature]
+    with pytest.raises(InputError, match=reason):
+        load_data(GEARBOXES["planetary"] | tables, "planetary")
+
+
+@pytest.mark.parametrize("gearbox", GEARBOXES)
+def test_searches_and_slopes_take_the_keys_of_every_gearbox(gearbox: str, tmp_path: Path):
+    """A profile shift is free in a search, and the load is a number that quantities have slopes by."""
+    shift = {"pair": "drive.gear", "reducer": "gear.wheel-2", "planetary": "gear.sun"}[gearbox]
+    free = [{"key": f"{shift}.profile_shift", "from": -0.05, "to": 0.05}]
+    file = tmp_path / f"{gearbox}.toml"
+    file.write_text(tomli_w.dumps(GEARBOXES[gearbox]))
+    search = loaded_search(str(file), {"free": free, "minimise": ["loss"]}, {}).case
+    assert [each.keys for each in search.free] == [(f"{shift}.profile_shift",)]
+    loaded = load_data(GEARBOXES[gearbox], gearbox)
+    load = f"operating.{PLACES[gearbox][-1]}"
+    slopes = loaded.study.differentiable(loaded.case, ["efficiency"], [load])
+    assert slopes.at == pytest.approx([GEARBOX_LOADS[gearbox]])
