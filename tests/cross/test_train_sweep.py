@@ -4,8 +4,10 @@ from importlib import import_module
 
 import numpy as np
 import pytest
+import tomli_w
 
 import tribodyn as td
+from tests.support.planet_sets import planet_set
 from tribodyn.errors import InputError
 from tribodyn.grid.grid import Grid
 from tribodyn.record.sweep_schema import DONE, FAILED
@@ -86,13 +88,50 @@ def test_one_law_for_all_cases():
     assert len(laws) == 1
 
 
+def same_as_alone(rows, cases, transient=None):
+    """Whether the rows of cases have what each has in a sweep of its own, and NaN for meshes it has not."""
+    names = [mesh.name for mesh in max((case.meshes for case in cases), key=len)]
+    for i, case in enumerate(cases):
+        alone = evaluated([case], transient)
+        for name in ("dynamic_factor", "transmission_error_rms", "efficiency"):
+            assert rows[name][i] == pytest.approx(alone[name][0], rel=1e-9), name
+        places = [names.index(mesh.name) for mesh in case.meshes]
+        found = rows["dynamic_factor_of_mesh"][i]
+        np.testing.assert_allclose(found[places], alone["dynamic_factor_of_mesh"][0], rtol=1e-9)
+        assert np.all(np.isnan(np.delete(found, places)))
+
+
+def test_cases_of_other_common_periods():
+    """Three and two cycles of the first mesh: wheels of 69 and 46 teeth on the shaft of a pinion of 23."""
+    cases = [case_at(1480), case_at(1480, **{"gear.wheel-1.teeth": 46})]
+    rows = evaluated(cases)
+    assert rows["status"].tolist() == [DONE, DONE]
+    assert rows["common_period"].tolist() == [3, 2]
+    same_as_alone(rows, cases)
+
+
+def test_sets_of_other_numbers_of_planets(tmp_path):
+    """Three and four planets in one record; the second does not begin where the first has no states."""
+    file = tmp_path / "set.toml"
+    table = planet_set() | {"output": {"samples_per_cycle": 24}}
+    file.write_text(tomli_w.dumps(table), encoding="utf-8")
+    swept = td.sweep(
+        file, {"stage.0.planets": [3, 4]}, transient=8, direction="up", output=tmp_path / "planets.h5"
+    )
+    rows = {name: np.asarray(values).reshape(2, *values.shape[2:]) for name, values in swept.items()}
+    same_as_alone(rows, [load_scenario(file, {"stage.0.planets": number}) for number in (3, 4)], 8)
+
+
 def test_a_long_common_period_and_another_structure_are_refused():
     long = load_scenario("two-stage-reducer-hunting", {**KEYS, "solver.max_period": 60})
     with pytest.raises(InputError, match="again after 61 cycles"):
         BATCH.settings([long], None, "native")
-    rows = evaluated([case_at(1480), case_at(1480, **{"gear.wheel-1.teeth": 70})])
+    motor = {"operating.source": "torque", "operating.shaft_stiffness": "1e5 N*m/rad"}
+    motor |= {"operating.drive_inertia": "0.1 kg*m**2"}
+    cases = [case_at(1480), case_at(1480, **motor)]
+    rows = BATCH.evaluate(Chunk(np.arange(2), tuple(cases)), BATCH.settings(cases[:1], 4, "native"), 1)
     assert rows["status"].tolist() == [DONE, FAILED]
-    assert "not those of the first case" in rows["message"][1]
+    assert "has states that none of the cases has" in rows["message"][1]
 
 
 def held(**keys):

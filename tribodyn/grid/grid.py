@@ -1,7 +1,10 @@
 """The grid of a sweep: from a place on the axes to a case."""
 
 import copy
+import itertools
+import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
@@ -10,12 +13,15 @@ from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.input.names import key_in, same_key
 from tribodyn.input.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.input.sources import find_scenario, read_toml
-from tribodyn.input.vary import NO_TABLE, VARY, Axis, axes_of, in_si
+from tribodyn.input.vary import NO_TABLE, VARY, Axis, axes_of, in_si, is_whole
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import OneByOne
 from tribodyn.studies.protocol.load import loaded_from, put_chosen, table_of
 from tribodyn.studies.sweeping.batch import Batch
 from tribodyn.studies.sweeping.signals import SignalRequest
+
+#: Cases that are looked at for their structure: of several varied keys together, else of each by itself.
+MOST_STRUCTURES = 64
 
 
 class Grid:
@@ -136,6 +142,29 @@ class Grid:
         if error.file not in ("", OVERRIDES) or not varied:
             return error
         return InputError(error.key, error.value, error.rule, error.remedy, VARY)
+
+    def structures(self) -> list[Any]:
+        """Cases that may differ in structure: at the ends, and at varied texts, tables and whole numbers."""
+        found = self.ends()
+        if not self.batch.states:
+            return found
+        shown = [range(1)] * len(self.axes)
+        for i, axis in enumerate(self.axes):
+            if not axis.numeric or (is_whole(self.study.table(), axis.key) and not axis.drawn):
+                shown[i] = range(len(axis.values))
+        if math.prod(map(len, shown)) > MOST_STRUCTURES:
+            few = [range(0, len(every), -(-len(every) // MOST_STRUCTURES)) for every in shown]
+            places = [
+                tuple(index if i == axis else 0 for i in range(len(shown)))
+                for axis, every in enumerate(few)
+                for index in every
+            ]
+        else:
+            places = list(itertools.product(*shown))
+        for place in places[1:]:
+            with suppress(InputError):  # such a case fails by itself
+                found.append(self.case(place))
+        return found
 
     def ends(self) -> list[Any]:
         """Cases at the first and the last values of all axes."""

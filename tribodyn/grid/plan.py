@@ -105,7 +105,9 @@ def chained_steps(
         yield chunks
         status, final, period = recorded(numbers)
         good = status == DONE
-        states[good, : final.shape[1]] = final[good]  # a record has the states of its own structure
+        room = max(0, final.shape[1] - states.shape[1])  # a record has the states of its own structures
+        states = np.pad(states, ((0, 0), (0, room)), constant_values=np.nan)
+        states[good, : final.shape[1]] = final[good]
         for lane in np.flatnonzero(good):
             behind[lane] = places[lane], int(period[lane])
 

@@ -39,7 +39,7 @@ class SweepResult(NamedTuple):
 
 def settings_of(grid: Grid, transient: int | None = None, engine: str = "native") -> Any:
     """How the cases of a sweep are evaluated; see `sweeping.batch.Batch.settings`."""
-    return grid.batch.settings(grid.ends(), transient, engine)
+    return grid.batch.settings(grid.structures(), transient, engine)
 
 
 def cases_at_most(grid: Grid, refinement: Refinement | None, directions: int) -> int:

@@ -29,9 +29,11 @@ from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.studies.motion.batch.gearboxes import (
     REFERENCE,
     keys_of_tables,
+    mesh_places,
     places_of,
     quantities_over,
     refuse_steady,
+    states_of,
     warmer,
 )
 from tribodyn.studies.motion.batch.steady import (
@@ -120,7 +122,7 @@ def evaluate(
     """Return a row for every case of a chunk, for all datasets of its layout; by default by all cores."""
     rows = _evaluate(layout, chunk, settings, workers)
     for _ in range(MOST_MOTIONS - 1):
-        again = _at_own_temperature(chunk, rows)
+        again = _at_own_temperature(chunk, rows, settings)
         if not again:
             break
         places = np.array(list(again))
@@ -134,7 +136,7 @@ def evaluate(
     return rows
 
 
-def _at_own_temperature(chunk: Chunk, rows: dict[str, np.ndarray]) -> dict[int, Any]:
+def _at_own_temperature(chunk: Chunk, rows: dict[str, np.ndarray], settings: SweepSettings) -> dict[int, Any]:
     """Cases, by their place, that are to be solved again at the bulk temperature of their own motion.
 
     Those that follow a branch stay at the temperature of the quasi-static loss, which their neighbours have.
@@ -144,7 +146,7 @@ def _at_own_temperature(chunk: Chunk, rows: dict[str, np.ndarray]) -> dict[int, 
         followed = chunk.ways is not None and chunk.ways[i] is not None
         if isinstance(case, str) or followed or rows["status"][i] != DONE:
             continue
-        again = warmer(case, {name: values[i] for name, values in rows.items()})
+        again = warmer(case, {name: values[i] for name, values in rows.items()}, settings)
         if again is not None:
             found[i] = again
     return found
@@ -165,8 +167,10 @@ def _evaluate(
                 refuse_steady(case)
             prepared = prepare(at_length(case, settings))
             places = places_of(prepared, settings)
-            given = None if chunk.states is None or np.isnan(chunk.states[i, 0]) else chunk.states[i]
-            ready[i] = prepared, _start(prepared, settings) if given is None else given[places]
+            given = None if chunk.states is None else chunk.states[i][places]
+            # a neighbour of another structure lacks states
+            start = _start(prepared, settings) if given is None or np.isnan(given).any() else given
+            ready[i] = prepared, start
             frequencies = natural_frequencies(prepared.model, [made.cycle for made in prepared.made])
             rows["mode_frequency"][i, : len(frequencies)] = frequencies
         except (InputError, SimulationError) as error:
@@ -192,10 +196,11 @@ def at_length(case: Any, settings: SweepSettings) -> Any:
 
 
 def _alike(cases: dict[int, Any]) -> list[list[int]]:
-    """Numbers of the cases, grouped by their solver's tolerance, method and limit, which a batch shares."""
+    """Numbers of the cases, grouped by structure, common period and settings of the solver."""
     groups: dict[tuple[Any, ...], list[int]] = {}
     for i, case in cases.items():
-        groups.setdefault((case.solver.rtol, case.solver.method, case.solver.max_steps), []).append(i)
+        solver = case.solver.rtol, case.solver.method, case.solver.max_steps
+        groups.setdefault((states_of(case), case.period, *solver), []).append(i)
     return list(groups.values())
 
 
@@ -206,11 +211,12 @@ def _solve(
     settings: SweepSettings,
     workers: int | None,
 ) -> list[Outcome]:
-    solver = cases[0][0].case.solver
+    solver, period = cases[0][0].case.solver, cases[0][0].case.period
+    window = settings.window_of(period)
     common: dict[str, Any] = {
         "cycles": settings.cycles,
         "points": settings.points,
-        "common": settings.common,
+        "common": period,
         "samples": settings.samples,
         "rtol": solver.rtol,
         "max_steps": solver.max_steps,
@@ -226,8 +232,8 @@ def _solve(
             # all ways of a chunk are along the same values
             span = next((way.span for way in ways if way is not None), (0.0, 0.0))
             common["unstable"] = UnstableRange(span, MOTIONS)
-        return steady(models, states, wandering=2 * settings.window, **common)
-    return marched(models, states, window=settings.window, **common)
+        return steady(models, states, wandering=2 * window, **common)
+    return marched(models, states, window=window, **common)
 
 
 def _fill(
@@ -244,8 +250,12 @@ def _fill(
         rows["status"][i] = FAILED
         return
     quantities, of_meshes, trust = window_quantities(prepared, outcome.window, settings.samples)
-    for name, value in (quantities | (of_meshes if settings.meshes else {})).items():
+    for name, value in quantities.items():
         rows[name][i] = value
+    for name, value in of_meshes.items():
+        rows[name][i, mesh_places(prepared.case, settings)] = value
+    if settings.periods_differ:
+        rows["common_period"][i] = prepared.case.period
     warning = warning_of(quantities["friction_work_on_vibration"], prepared.pairs[0].friction.sliding)
     texts = [*jams(prepared), *remarks(trust | {"warning": warning})]
     texts += prepared.case.remarks_in_brief()
@@ -254,7 +264,7 @@ def _fill(
     model, section = prepared.model, outcome.section
     error = rotational_error(outcome.window.states, REFERENCE, model)
     room = settings.window * settings.samples
-    whole = room if outcome.period == 0 else room // error.size * error.size
+    whole = min(room, error.size) if outcome.period == 0 else room // error.size * error.size
     rows["transmission_error_rotational"][i, :whole] = np.resize(error, whole)
     rows["poincare_error"][i, : len(outcome.section)] = rotational_error(section, REFERENCE, model)
     rows["poincare_rate"][i, : len(outcome.section)] = rotational_error_rate(section, REFERENCE, model)

@@ -47,21 +47,19 @@ class RunSpeed(NamedTuple):
 class SweepShape(NamedTuple):
     """What the cases of a sweep have in common."""
 
-    modes: int
-    states: tuple[str, ...]  # names
-    common: int = 1  # mesh cycles after which all meshes are at their phases again
-    meshes: tuple[str, ...] = ()  # names, where files name them
+    modes: int  # at most
+    states: tuple[str, ...]  # names of all
+    periods: tuple[int, ...] = (1,)  # mesh cycles after which all meshes are at their phases again, of each
+    meshes: tuple[str, ...] = ()  # names of all, where files name them
 
 
 def shape_of(cases: Sequence[AnyCase]) -> SweepShape:
-    """States and modes of all cases; common period and meshes of the first."""
-    boxes = [case.gearbox() for case in cases]
-    found = [states_of(box) for box in boxes]
-    states = tuple(
-        dict.fromkeys(name for names, _ in sorted(found, key=lambda one: -len(one[0])) for name in names)
-    )
-    meshes = tuple(mesh.name for mesh in boxes[0].meshes) if boxes[0].named else ()
-    return SweepShape(max(modes for _, modes in found), states, boxes[0].period, meshes)
+    """States, modes, common periods and meshes of all cases, of the one with most states first."""
+    boxes = sorted((case.gearbox() for case in cases), key=lambda box: -len(states_of(box)[0]))
+    states = tuple(dict.fromkeys(name for box in boxes for name in states_of(box)[0]))
+    meshes = tuple(dict.fromkeys(mesh.name for box in boxes for mesh in box.meshes if box.named))
+    periods = tuple(sorted({box.period for box in boxes}))
+    return SweepShape(max(states_of(box)[1] for box in boxes), states, periods, meshes)
 
 
 def states_of(case: Gearbox) -> tuple[tuple[str, ...], int]:
@@ -107,10 +105,17 @@ def run_speed_of(case: AnyCase) -> RunSpeed:
 def places_of(prepared: PreparedGearbox, settings: SweepSettings) -> list[int]:
     """Places of a case's states among those of the sweep; InputError where they do not fit."""
     names, _ = states_of(prepared.case)
-    if not set(names) <= set(settings.states) or prepared.case.period != settings.common:
-        rule = "the bodies, the meshes or the common period are not those of the first case"
+    if new := set(names).difference(settings.states):
+        rule = (
+            f"has states that none of the cases has by which the sweep was laid out: {', '.join(sorted(new))}"
+        )
         raise InputError("vary", None, rule, "sweep it apart, or run it alone")
     return [settings.states.index(name) for name in names]
+
+
+def mesh_places(case: Gearbox, settings: SweepSettings) -> list[int]:
+    """Places of a case's meshes among those of the sweep."""
+    return [settings.meshes.index(mesh.name) for mesh in case.meshes]
 
 
 def quantities_over(
@@ -132,11 +137,14 @@ def quantities_over(
     return concluded(prepared, whole, each), found, each
 
 
-def warmer(case: AnyCase, row: Mapping[str, Any]) -> Gearbox | None:
+def warmer(case: AnyCase, row: Mapping[str, Any], settings: SweepSettings) -> Gearbox | None:
     """The case with every mesh at the temperature of its own loss, `row` of a sweep; None: all are."""
     box = case.gearbox()
     if box.meshes[0].pair.temperature is None:
         return None
     names = ("bulk_temperature", "power_friction_mean")
-    warm, lost = (row[name + OF_MESH].tolist() if box.named else [float(row[name])] for name in names)
+    warm, lost = (
+        row[name + OF_MESH][mesh_places(box, settings)].tolist() if box.named else [float(row[name])]
+        for name in names
+    )
     return at_own_temperatures(box, warm, lost)

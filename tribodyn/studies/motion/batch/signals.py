@@ -6,6 +6,7 @@ damaged tooth does is then not at the same place of every signal.
 
 import dataclasses
 from collections.abc import Hashable, Sequence
+from itertools import chain
 from math import pi
 from typing import Any, NamedTuple
 
@@ -22,7 +23,7 @@ from tribodyn.record.sensors import Sensed
 from tribodyn.record.sweep_schema import CASE, DONE, FAILED, OF_EVERY_SWEEP, SweepLayout
 from tribodyn.record.withheld_efficiency import remarked, warned
 from tribodyn.sensing.data import KINDS
-from tribodyn.studies.motion.batch.gearboxes import MOST_STATES, keys_of_tables, run_speed_of
+from tribodyn.studies.motion.batch.gearboxes import MOST_STATES, keys_of_tables, run_speed_of, states_of
 from tribodyn.studies.motion.batch.stretch import (
     HeardStretch,
     ListenedStretch,
@@ -102,6 +103,9 @@ class SignalBatch:
                 "--signals", f"{duration:g} s", rule, f"use at least {FEWEST / min(rates):.3g} s"
             )
         placed = listener.sensors
+        structures = {states_of(case.gearbox()): case for case in reversed(cases)}
+        del structures[states_of(base.gearbox())]
+        listeners = [listener, *(listener_of(self._prepared(case, plain)) for case in structures.values())]
         return plain._replace(
             names=tuple(one.sensor.name for one in placed),
             units=tuple(KINDS[one.sensor.kind].units for one in placed),
@@ -109,7 +113,7 @@ class SignalBatch:
                 KINDS[one.sensor.kind].about.format(at=one.at, direction=one.sensor.direction)
                 for one in placed
             ),
-            lines=tuple(line.name for line in listener.lines),
+            lines=tuple(dict.fromkeys(line.name for each in listeners for line in each.lines)),
         )
 
     def following(self, settings: SignalSettings, unstable: bool) -> SignalSettings:
@@ -200,15 +204,20 @@ class SignalBatch:
                 ready[i] = Heard(prepared.model, listener, solver, stretch.first, stretch.blocks, finer)
             except (InputError, SimulationError) as error:
                 _fail(rows, i, str(error))
-        heard = listen(list(ready.values()), workers)
-        for i, sensed in zip(ready, heard, strict=True):
+        alike: dict[Any, list[int]] = {}  # by structure
+        for i in ready:
+            alike.setdefault(states_of(chunk.cases[i].gearbox()), []).append(i)
+        heard = (zip(some, listen([ready[i] for i in some], workers), strict=True) for some in alike.values())
+        for i, sensed in chain.from_iterable(heard):
             if isinstance(sensed, str):
                 _fail(rows, i, sensed)
                 continue
             rows["noise_seed"][i] = stretches[i].noise_seed
             operation = ready[i].model.operation
             shaft = float(operation.nominal_speed) / (2.0 * pi)
-            rows["line_frequency"][i] = [line.order * shaft for line in sensed.lines]
+            for line in sensed.lines:
+                if line.name in settings.lines:  # of a structure that was looked at before
+                    rows["line_frequency"][i, settings.lines.index(line.name)] = line.order * shaft
             _fill(rows, i, sensed, stretches[i].start, settings, chunk.cases[i])
         return rows
 

@@ -62,6 +62,10 @@ SAMPLE = Variable(("sample",), "1", "phase of the mesh in mesh cycles, from the 
 CYCLE = Variable(
     ("cycle",), "1", "mesh cycle, of several meshes of the first, counted from the first that was kept"
 )
+COMMON_CYCLE = Variable(("cycle",), "1", "common period of a case's meshes, counted from the first kept")
+COMMON_PERIOD = Variable(
+    (), "1", "mesh cycles of the first mesh after which all meshes are at their phases again", "<i4", 0
+)
 MODE = Variable(("mode",), "1", "mode of vibration, lowest first")
 RETURN = Variable(("return",), "1", "mesh cycle of an unstable motion")
 STATE_VARIABLE = Variable(("state_variable",), "1", "state of the model, see tribodyn.train.structure")
@@ -82,8 +86,13 @@ class SweepSettings(NamedTuple):
     #: whether steady motions are followed from case to case, to the ends of their branches
     followed: bool = False
     unstable: bool = False  # whether branches are continued beyond these
-    common: int = 1  # mesh cycles after which all meshes are at their phases again
+    common: int = 1  # mesh cycles after which all meshes are at their phases again, of all cases the most
+    periods_differ: bool = False  # whether these are not the same for all cases
     meshes: tuple[str, ...] = ()  # names of several meshes
+
+    def window_of(self, period: int) -> int:
+        """Mesh cycles of the window of a case of a common period: whole periods where one fits."""
+        return self.window // period * period or self.window
 
 
 def layout_of(
@@ -93,11 +102,15 @@ def layout_of(
     phase = np.arange(settings.window * settings.samples) / settings.samples
     scales = {
         "sample": (SAMPLE, phase),
-        "cycle": (CYCLE, settings.common * np.arange(settings.points)),
+        "cycle": (COMMON_CYCLE, np.arange(settings.points))
+        if settings.periods_differ
+        else (CYCLE, settings.common * np.arange(settings.points)),
         "mode": (MODE, np.arange(1, settings.modes + 1)),
         "state_variable": (STATE_VARIABLE, settings.states),
     }
     variables = {quantity.name: quantity.variable() for quantity in swept} | CASES
+    if settings.periods_differ:
+        variables["common_period"] = COMMON_PERIOD
     if settings.meshes:
         scales["mesh"] = MESH, settings.meshes
         variables |= of_meshes
