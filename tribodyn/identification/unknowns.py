@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.input.names import named_in, same_key
+from tribodyn.input.names import same_key
 from tribodyn.input.units import Kind, NotAQuantity, to_si
-from tribodyn.input.vary import in_si, kind_at
+from tribodyn.input.vary import given_at, in_si, kind_at
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.load import load_data
@@ -71,7 +71,7 @@ def _unknown(key: Any, limits: Any, data: Mapping[str, Any], table: Any) -> Unkn
     low, high = (_in_si(name, end, kind) for end in limits)
     if not low < high:
         raise InputError(name, f"{low:g} to {high:g}", "the range is empty", "write the lower end first")
-    own = _found(data, keys[0])
+    own = given_at(data, keys[0])
     try:
         start = None if own is None else _in_si(name, own, kind)
     except InputError:
@@ -93,17 +93,6 @@ def _in_si(key: str, value: Any, kind: Any) -> float:
             if math.isfinite(value):
                 return float(value)
     raise InputError(key, quoted(value), "a number is due", "only numbers can be sought")
-
-
-def _found(data: Any, key: str) -> Any:
-    for part in key.split("."):
-        if isinstance(data, list) and part.isdecimal() and int(part) < len(data):
-            data = data[int(part)]
-        elif isinstance(data, Mapping) and (name := named_in(data, part)) in data:
-            data = data[name]
-        else:
-            return None
-    return data
 
 
 def case_at(case: Any, unknowns: Sequence[Unknown], shares: Float[Array, " unknown"]) -> Any:

@@ -6,6 +6,7 @@
 
 import math
 import re
+from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -14,7 +15,7 @@ from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.input.bounds import LONGEST_KEY, broken_bounds
-from tribodyn.input.names import same_key
+from tribodyn.input.names import named_in, same_key
 from tribodyn.input.quantity import Draws, InUnit, Reference, Weighed
 from tribodyn.input.resolve import toml_value
 from tribodyn.input.schema import fields_of, parts_of, table_at
@@ -204,6 +205,18 @@ def kind_at(table: type[BaseModel], key: str) -> Any:
     references = [mark for mark in marks if isinstance(mark, Reference) and not inside_list]
     kinds = [mark.kind for mark in marks if isinstance(mark, InUnit)]
     return next(iter(references or kinds or filter(_is_table, marks)), None)
+
+
+def given_at(data: Any, key: str) -> Any:
+    """What a scenario's data have at a dotted key; None where nothing stands there."""
+    for part in key.split("."):
+        if isinstance(data, Mapping):
+            data = data.get(named_in(data, part))
+        elif isinstance(data, (list, tuple)) and part.isdecimal() and int(part) < len(data):
+            data = data[int(part)]
+        else:
+            return None
+    return data
 
 
 def _marks(table: type[BaseModel], key: str) -> list[Any]:

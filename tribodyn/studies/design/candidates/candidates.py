@@ -19,8 +19,8 @@ from tribodyn.studies.design.case import DRAWN, DesignCase, Free, Tolerance
 _FINEST = 1e-7
 #: Names at the end of keys whose values are lists and curves: errors of each tooth, and along the profile.
 PITCH_ERRORS, PROFILE_ERROR = "pitch_errors", "profile_error"
-#: The distance of the axes, which is that of nominal teeth where a drive does not say it.
-CENTRE_DISTANCE = "drive.centre_distance"
+#: End of the key of the distance of axes, which is that of nominal teeth where a pair does not say it.
+CENTRE_DISTANCE = ".centre_distance"
 #: Points of a profile that deviates, and by how much of the path they go beyond its ends on either side.
 POINTS, BEYOND = 7, 0.25
 
@@ -144,11 +144,23 @@ class Nominal:
         return self.keys.get(key, standing(self.case.scenarios, key))
 
     @cached_property
-    def gears(self) -> Assembly | None:
-        """The pair put together; None where it cannot be, for the evaluation to say why."""
+    def _loaded(self) -> Any:
         try:
-            case = loaded_source(self.case.scenarios, BASE, self.keys).case
-            return assemble(family(case.family), case.drive)
+            return loaded_source(self.case.scenarios, BASE, self.keys).case
+        except InputError:
+            return None
+
+    def gears(self, key: str) -> Assembly | None:
+        """The pair put together, of a train one whose gear or stage has the key.
+
+        None where there is none, for the evaluation to say why.
+        """
+        pairs = [self._loaded] if hasattr(self._loaded, "drive") else []
+        for mesh in () if pairs else getattr(self._loaded, "meshes", ()):
+            owners = mesh.key, *(self._loaded.gears[number].key for number in mesh.gears)
+            pairs += [mesh.pair] if key.startswith(tuple(f"{owner}." for owner in owners)) else []
+        try:
+            return assemble(family(pairs[0].family), pairs[0].drive) if pairs else None
         except InputError:
             return None
 
@@ -172,18 +184,18 @@ def deviating(tolerance: Tolerance, deviation: float, nominal: Nominal) -> dict[
     si = base_units(f"1 {tolerance.unit}") if tolerance.unit else None
     factor = si[0] if si else 1.0
     number = in_unit(nominal.at(tolerance.key), tolerance.unit, factor)
-    if number is None and tolerance.key == CENTRE_DISTANCE and nominal.gears is not None:
-        path = nominal.gears.path
-        number = float(path.pinion_pitch_radius + path.gear_pitch_radius) / factor
+    if number is None and tolerance.key.endswith(CENTRE_DISTANCE):
+        if (gears := nominal.gears(tolerance.key)) is not None:
+            number = abs(float(gears.path.pinion_pitch_radius + gears.path.gear_pitch_radius)) / factor
     value = (number or 0.0) + deviation * tolerance.plus_minus
     return {tolerance.key: f"{value!r} {tolerance.unit}" if tolerance.unit else value}
 
 
 def _profile(tolerance: Tolerance, draw: np.random.Generator, nominal: Nominal) -> dict[str, Any]:
     """A profile with an error drawn at points of the path, linear between, added to the one that stands."""
-    if nominal.gears is None:
+    if (gears := nominal.gears(tolerance.key)) is None:
         return {}
-    start, end = (float(limit) for limit in nominal.gears.roll_limits)
+    start, end = (float(limit) for limit in gears.roll_limits)
     roll = np.linspace(start - BEYOND * (end - start), end + BEYOND * (end - start), POINTS)
     error = draw.uniform(-tolerance.plus_minus, tolerance.plus_minus, POINTS)
     if isinstance(given := nominal.at(tolerance.key), Mapping):

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.derivatives.differentiable import Differentiable
 from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies import study_of
@@ -217,10 +216,10 @@ class Derivatives:
         self.names = tuple(dict.fromkeys(case.quantities))
         self.keys = tuple(key for free in case.free for key in free.keys)
 
-    def function(self, overrides: dict[str, Any]) -> Differentiable:
-        """The quantities of a case as a function of the keys; raises InputError where there is none."""
+    def function(self, overrides: dict[str, Any]) -> Any:
+        """A `Differentiable` of a case's quantities by the keys; raises InputError where there is none."""
         loaded = loaded_case(self.case.base, overrides)
-        return Differentiable(loaded.case, loaded.study.table(), self.names, self.keys)
+        return loaded.study.differentiable(loaded.case, self.names, self.keys)
 
     def at(self, shares: Sequence[float] | np.ndarray) -> Slopes:
         """Slopes of the quantities of all cases of a candidate."""

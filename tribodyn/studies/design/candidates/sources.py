@@ -12,10 +12,10 @@ from pydantic import ValidationError, create_model
 
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.input.messages import explain
-from tribodyn.input.names import named_in
 from tribodyn.input.quantity import Table
 from tribodyn.input.schema import fields_of, holds_by_name, table_at
 from tribodyn.input.units import base_units
+from tribodyn.input.vary import given_at
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
 from tribodyn.studies.protocol.study import Study
@@ -161,15 +161,7 @@ def _fields_along(key: str, schema: type[Table]) -> Iterator[tuple[list[str], st
 def standing(scenarios: Mapping[str, Mapping[str, Any]], key: str) -> Any:
     """What stands at a dotted key of the scenarios of a search; None where nothing does."""
     name, key = split(key, [scenario for scenario in scenarios if scenario != BASE])
-    data: Any = scenarios[name]
-    for part in key.split("."):
-        if isinstance(data, Mapping):
-            data = data.get(named_in(data, part))
-        elif isinstance(data, (list, tuple)) and part.isdecimal() and int(part) < len(data):
-            data = data[int(part)]
-        else:
-            return None
-    return data
+    return given_at(scenarios[name], key)
 
 
 def in_unit(value: Any, unit: str, si: float) -> float | None:
