@@ -22,6 +22,7 @@ from tools.by_schema.values import (
 )
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES
+from tribodyn.input.names import named_in
 from tribodyn.input.quantity import FamilyShape
 from tribodyn.input.resolve import resolve_table, toml_value
 from tribodyn.input.schema import EACH, matches, parts_of
@@ -78,10 +79,10 @@ def changed(random: Random, data: dict[str, Any], key: SchemaKey) -> tuple[str, 
     place: Any = data
     concrete: list[str] = []
     for depth, part in enumerate(key.pattern[:-1], start=1):
-        name = _chosen(random, place, tables.get(depth), around) if part == EACH else part
+        name = _chosen(random, place, tables.get(depth), around) if part == EACH else named_in(place, part)
         place = _entered(random, place, name, (key.pattern, depth), tables, around)
         concrete.append(str(name))
-    last = key.pattern[-1]
+    last = named_in(place, key.pattern[-1])
     if key.owner and issubclass(key.holder, LawTable):
         kept = {name: value for name, value in place.items() if name in key.holder.model_fields}
         place.clear()
