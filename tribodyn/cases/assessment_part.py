@@ -27,7 +27,7 @@ class Request(NamedTuple):
     #: over which steady states are asked for, rad/s, increasing; that of the duty is one of them
     speeds: Sequence[float]
     laws: Sequence[str]  # friction laws, the first of them for everything but the spread of the losses
-    pitch_deviation: float  # base pitch deviation f_pb − y_α of the drive's tolerance class, m
+    pitch_deviation: float  # base pitch deviation f_pb − y_α of the drive's tolerance class, m; 0: none
     #: samples of what is not known, whose scatter is asked for: keys of a scenario with these tables and the
     #: values that take the place of theirs. Those of `of_teeth` concern the gears, the others their motion
     samples: Sequence[Mapping[str, Any]]
@@ -122,6 +122,8 @@ class Contribution(NamedTuple):
     tasks: Callable[[Request], Sequence[Task]]  # request -> its tasks
     #: (Request, results of its tasks by name) -> Findings
     answer: Callable[[Request, Mapping[str, TaskResult]], Findings]
+    #: whether it is of the teeth of a mesh alone: then a train's assessment asks it of every mesh
+    of_teeth: bool = False
 
 
 class Meshing(NamedTuple):
@@ -163,3 +165,5 @@ class WholeDrive(NamedTuple):
     #: case -> shares of the time, their sum 1, and cases of the duties of its load spectrum; empty: none
     duties: Callable[[Any], Sequence[tuple[float, Any]]]
     shafts: Callable[[Any], Sequence[Any]]  # case -> its drawn shafts, see `gears.rating.bearings`
+    #: (record of a run, case, name of a mesh) -> `gears.motion.tooth_loads.ToothLoads` at its end
+    loads: Callable[[Any, Any, str], Any]

@@ -57,11 +57,12 @@ def tasks(request: Request) -> tuple[Task, ...]:
     }
     found = [Task(_TASK, "loaded error, pressures, root stresses", scenario)]
     at_duty = scenario | {"operating": {"gear_torque": operating["gear_torque"]}}
-    deviating = at_duty | {
-        "drive": _with_deviating_tooth(at_duty["drive"], request.pitch_deviation),
-        "output": {"cycles": _CYCLES},
-    }
-    found.append(Task(_DEVIATING, "load sharing with a pitch deviation", deviating, needed=False))
+    if request.pitch_deviation:
+        deviating = at_duty | {
+            "drive": _with_deviating_tooth(at_duty["drive"], request.pitch_deviation),
+            "output": {"cycles": _CYCLES},
+        }
+        found.append(Task(_DEVIATING, "load sharing with a pitch deviation", deviating, needed=False))
     if request.spectrum_torques:
         others = [{"operating.gear_torque": f"{torque!r} N*m"} for torque in request.spectrum_torques]
         found.append(Task(_SPECTRUM, "loads along the face of the spectrum's duties", at_duty, others))
@@ -96,7 +97,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         ratios = done[_SPECTRUM].rows["face_load_factor"] / summary["face_load_factor"]
         found["face_load_ratios"] = [float(ratio) if np.isfinite(ratio) else 1.0 for ratio in ratios]
     accurate = summary.get("shared_load_max")
-    deviating = done[_DEVIATING].summary.get("shared_load_max")
+    deviating = done[_DEVIATING].summary.get("shared_load_max") if _DEVIATING in done else None
     if deviating is not None and accurate is not None:
         found["transverse_load_factor"] = transverse_load_factor(deviating, accurate)
     rows = done[_SAMPLES].rows if _SAMPLES in done else {}
@@ -118,4 +119,4 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     return Findings(found, along, (curve,), scattered)
 
 
-ROLE = Contribution(1, "Loaded contact", tasks, answer)
+ROLE = Contribution(1, "Loaded contact", tasks, answer, of_teeth=True)

@@ -28,6 +28,7 @@ from tribodyn.gears.scenario import (
 from tribodyn.input import units
 from tribodyn.input.quantity import Count, InUnit, NotNegative, Table, written
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
+from tribodyn.input.tables.gears.internal_gear import driving_internal
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.studies.load_contact.case import LoadContactCase
 
@@ -96,7 +97,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
-    yield from broken_gear_rules(scenario)
+    yield from broken_gear_rules(scenario, internal=True)
+    yield from driving_internal(scenario.drive)
     yield from broken_support_keys(scenario)
     drive, operating, oiled = scenario.drive, scenario.operating, scenario.lubricant is not None
     yield from broken_driving_rules(operating, (drive.pinion.teeth, drive.gear.teeth), speed_needed=oiled)

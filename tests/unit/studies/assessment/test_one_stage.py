@@ -25,7 +25,7 @@ from tribodyn.gears.rating.standard import rated_duty, standard_of
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
-from tribodyn.studies.motion.train import assessable as whole
+from tribodyn.studies.motion.train import whole
 from tribodyn.studies.protocol.load import load_data, load_scenario
 from tribodyn.studies.protocol.run import run
 
@@ -176,3 +176,41 @@ def test_an_assessment_takes_any_gearbox(tmp_path: Path):
     assert long.case.subject.case.toml == loaded.case.subject.case.toml
     with pytest.raises(InputError, match=r"assessment\.speedz"):
         load_data(data | {"assessment": {"speedz": 0}}, "x")
+
+
+def test_stresses_of_the_simulation_are_those_of_the_pair(tmp_path: Path):
+    """Spur teeth pressed and in motion: a train whose motion is by finite elements, and a pair."""
+    teeth = {name: value for name, value in TEETH.items() if name != "helix_angle"}
+    spur = {
+        **TRAIN,
+        "gear": {name: {**gear, "hand": None} for name, gear in TRAIN["gear"].items()},
+        "stage": [{"gears": ["pinion", "wheel"], **teeth}],
+        "mesh": {"compliance": "fem", "damping_ratio": 0.05},
+        "solver": {"cycles": 60},
+        "output": {"samples_per_cycle": 80},
+    }
+    for gear in spur["gear"].values():
+        del gear["hand"]
+    asked = {"application_factor": 1.25, "speeds": 0}
+    data = {"title": "x", "kind": "train-assessment", "scenario": spur, "assessment": asked}
+    found = run(load_data(data, "x").case, tmp_path / "x.h5").summary["meshes"]["pinion-wheel"]
+    sides = {
+        side: {**gear, "bore_radius": bore}
+        for side, gear, bore in zip(("pinion", "gear"), GEARS, ("10 mm", "35 mm"), strict=True)
+    }
+    pair = {
+        "title": "y",
+        "kind": "assessment",
+        **OIL,
+        "drive": {"family": "involute", **FLANKS, **teeth, **sides},
+        "bearings": "rigid-1e9",
+        "operating": {"pinion_speed": "1480 rpm", **DUTY},
+        "assessment": asked | {"speeds": 8, "samples": 0, "friction_laws": ["xu"]},
+    }
+    other = run(load_data(pair, "y").case, tmp_path / "y.h5").summary
+    for name in ("sigma_H", "sigma_F", "S_H", "S_F"):
+        for side in ("pinion", "gear"):
+            assert found["simulated"][name][side] == pytest.approx(other["simulated"][name][side], rel=5e-3)
+            assert found["iso"][name][side] == pytest.approx(other["iso"][name][side], rel=1e-6)
+    for name in ("K_Hbeta", "K_Halpha", "c_prime", "c_gamma_alpha"):
+        assert found["simulated"][name] == pytest.approx(other["simulated"][name], rel=1e-9)

@@ -65,9 +65,9 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
         f"shafts{scatter}. Its K_Hα is that of one tooth with the base pitch deviation of the standard."
     )
     of_standards = "The standards' formulas are for involutes: this drive has none beside the simulation."
-    if by_standard:
+    if by_standard and (quality := case.quality) is not None:
         of_standards = (
-            f"Standards: deviations of class {case.quality.grade:g} by ISO 1328-1:{case.quality.edition}, "
+            f"Standards: deviations of class {quality.grade:g} by ISO 1328-1:{quality.edition}, "
             "K_v and K_Hα by method B, flanks without credited tip relief, case-hardened running-in, new oil."
         )
     return [*sentences, of_standards]

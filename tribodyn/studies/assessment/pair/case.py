@@ -7,15 +7,14 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.cases import cost
-from tribodyn.gears.by_standard import Quality
 from tribodyn.gears.case import GearCase, LubricatedCase, OiledCase
 from tribodyn.gears.prepare import with_chosen_laws
-from tribodyn.gears.rating.settings import RatingTable
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.input.quantity import NotNegative, Positive, Text, written
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.assessment.pair.unknowns import UnknownsTable
+from tribodyn.studies.assessment.settings import AssessedTable
 from tribodyn.tribology.law import AUTO, FrictionData
 
 _ALONG = ("roll_angle",)
@@ -40,7 +39,7 @@ SAMPLES: dict[str, Variable] = {
 LAYOUT = Layout(ROLL, SAMPLES, groups={"geometry": GEOMETRY})
 
 
-class AssessmentTable(RatingTable):
+class AssessmentTable(AssessedTable):
     """What is asked beyond the duty, and what the standards need to know."""
 
     standard: Literal["iso", "agma"] = Field(
@@ -79,7 +78,6 @@ class AssessmentCase(OiledCase):
     """One assessment, complete."""
 
     oil_temperature: float  # of the duty, K
-    quality: Quality  # deviations of the gears by ISO 1328-1
     settings: AssessmentTable
     limits: Mapping[str, Any]  # name of a limit -> its value, SI units
     #: duties of the load spectrum: share of the time, pinion speed rad/s, gear torque N m; empty: none

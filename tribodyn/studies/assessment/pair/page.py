@@ -52,7 +52,7 @@ def page(record: Record) -> str:
     taking_part = parts.parts(request)
     behind = tasks.folder_of(Path(record.path))
     done = tasks.kept(parts.tasks_of(taking_part), behind)
-    answers = parts.answers(taking_part, request, done) if done is not None else ()
+    answers = parts.answers(taking_part, done) if done is not None else ()
     curves = [curve for answer in answers for curve in answer.curves]
     picture = inline(pictures(record, curves), "error, vibration, film, losses")
     body = [
@@ -110,12 +110,13 @@ def _asked(case: AssessmentCase) -> str:
     drive = as_written(family(case.family), case.drive)
     centre = f", a {drive.centre_distance * 1e3:.6g} mm" if drive.centre_distance is not None else ""
     helix = f"β {math.degrees(drive.helix_angle):.6g}°, " if drive.helix_angle else ""
-    ratio = float(drive.gear.teeth / drive.pinion.teeth)
+    ratio, quality = float(drive.gear.teeth / drive.pinion.teeth), case.quality
+    assert quality is not None, "refused by the rules"
     gears = (
         f"{case.family} {drive.pinion.teeth:.0f}/{drive.gear.teeth:.0f}, module {drive.module * 1e3:.4g} mm, "
         f"{helix}x {drive.pinion.profile_shift:g}/{drive.gear.profile_shift:g}{centre}, "
         f"b {drive.pinion.face_width * 1e3:.4g}/{drive.gear.face_width * 1e3:.4g} mm, "
-        f"grade {case.quality.grade:g}, Ra {case.mean_roughness * 1e6:.3g} µm"
+        f"grade {quality.grade:g}, Ra {case.mean_roughness * 1e6:.3g} µm"
     )
     speed, torque = case.operating.pinion_speed, case.operating.gear_torque / ratio
     duty = (

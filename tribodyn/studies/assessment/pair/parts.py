@@ -24,6 +24,7 @@ class Part(NamedTuple):
     study: Study
     role: Contribution
     tasks: tuple[Task, ...]
+    request: Request  # what it was asked
 
 
 def request_of(case: AssessmentCase) -> Request:
@@ -45,7 +46,9 @@ def request_of(case: AssessmentCase) -> Request:
     assembly = Assembly(family(case.family), case.drive)
     speed = case.operating.pinion_speed * abs(float(reference_radius(case.drive, "pinion")))
     gears = running_in_of(case.materials, speed)
-    _, pitch_deviation = base_pitch_deviation(assembly, case.quality, gears)
+    pitch_deviation = 0.0
+    if case.quality is not None:
+        _, pitch_deviation = base_pitch_deviation(assembly, case.quality, gears)
     return Request(
         case.title,
         tables,
@@ -79,12 +82,13 @@ def draws_of(case: AssessmentCase) -> list[Draw]:
     return drawn(case, settings.unknowns, settings.damping_ratio, settings.samples, settings.seed)
 
 
-def parts(request: Request) -> tuple[Part, ...]:
-    """Studies of the registry that take part, in order, with their tasks."""
+def parts(request: Request, of_teeth: bool = False) -> tuple[Part, ...]:
+    """Studies of the registry that take part, in order, with their tasks; those `of_teeth` alone, or all."""
     found = [(study, role) for _, study in STUDIES.items() if (role := study.role()) is not None]
     return tuple(
-        Part(study, role, tuple(role.tasks(request)))
+        Part(study, role, tuple(role.tasks(request)), request)
         for study, role in sorted(found, key=lambda pair: pair[1].order)
+        if role.of_teeth or not of_teeth
     )
 
 
@@ -93,9 +97,7 @@ def tasks_of(all_parts: Sequence[Part]) -> list[tuple[Study, Task]]:
     return [(part.study, task) for part in all_parts for task in part.tasks]
 
 
-def answers(
-    all_parts: tuple[Part, ...], request: Request, done: Mapping[str, TaskResult]
-) -> Iterator[Findings]:
+def answers(all_parts: tuple[Part, ...], done: Mapping[str, TaskResult]) -> Iterator[Findings]:
     """What every study says of its results."""
     for part in all_parts:
-        yield part.role.answer(request, {task.name: done[task.name] for task in part.tasks})
+        yield part.role.answer(part.request, {task.name: done[task.name] for task in part.tasks})

@@ -50,7 +50,9 @@ def nominal_load(assembly: Assembly) -> NominalLoad:
     """What ISO 6336-2 takes for a pair; other families than the involute count as they are pressed."""
     start, end = map(float, assembly.roll_limits)
     angles = point_angles(assembly)
-    pitch = min(max(0.0, start), end)
+    single = sorted((float(angles[2]), float(angles[4])))
+    # the whole load presses where one pair touches alone: a pitch point beside counts at the nearest place
+    pitch = min(max(min(max(0.0, single[0]), single[1]), start), end)
     inner = min(max(float(angles[2]), start), pitch), max(min(float(angles[4]), end), pitch)
     teeth = assembly.drive.pinion.teeth, assembly.drive.gear.teeth
     # an internal gear is rated at the pitch point

@@ -1,11 +1,10 @@
 """From a case of an assessment to its record: the other studies' parts, then the standards beside them."""
 
 import tomllib
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from functools import partial
 from pathlib import Path
 from time import perf_counter
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -17,15 +16,13 @@ from tribodyn.gears.plausibility import checks_gears
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.american import agma_part
 from tribodyn.gears.rating.bearings import bearing_part, shafts_of_pair
-from tribodyn.gears.rating.capacity import Capacity, capacity_of, life_bins, required
+from tribodyn.gears.rating.capacity import Capacity, required
 from tribodyn.gears.rating.limits import not_judged
-from tribodyn.gears.rating.margins import strength_of
 from tribodyn.gears.rating.rating_text import numbered
 from tribodyn.gears.rating.sheet import COLUMNS, rating_rows
 from tribodyn.gears.rating.spectrum import spectrum_part, spectrum_tables
-from tribodyn.gears.rating.standard import Standard, iso_part, rated_duty, standard_of
+from tribodyn.gears.rating.standard import Standard
 from tribodyn.gears.rating.strength import metal_remarks
-from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
@@ -33,15 +30,9 @@ from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment.pair import parts
 from tribodyn.studies.assessment.pair.assessment_text import assumed, extrapolated
 from tribodyn.studies.assessment.pair.case import LAYOUT, AssessmentCase
-from tribodyn.studies.assessment.pair.margins import (
-    LocalValues,
-    largest_stresses,
-    local_of,
-    margins_and_limits,
-    simulated_part,
-)
-from tribodyn.studies.assessment.pair.reasons import compared
-from tribodyn.studies.assessment.pair.scatter import Conclusion, put_in, samples_of
+from tribodyn.studies.assessment.pair.conclusion import by_standard, concluded
+from tribodyn.studies.assessment.pair.margins import LocalValues
+from tribodyn.studies.assessment.pair.scatter import put_in, samples_of
 from tribodyn.studies.drive_file import sheet_of
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.scratch import scratch
@@ -65,7 +56,7 @@ def check(case: AssessmentCase) -> CheckResult:
     found = with_oil(CheckResult(data, sheet_tables(sheet)), case.lubricant)
     if not assembly.family.involute:
         return found
-    iso, standard, capacity = _by_standard(case, assembly, face=1.0)
+    iso, standard, capacity = by_standard(case, assembly, face=1.0)
     american = _by_agma(case, standard, capacity)
     face = "given" if case.settings.face_load_factor else "1, until the contact is analysed"
     table = TextTable(f"ISO 6336, K_Hβ {face}", COLUMNS, rating_rows(iso))
@@ -90,17 +81,6 @@ def _by_agma(case: AssessmentCase, standard: Standard | None, capacity: Capacity
     if case.settings.standard != "agma" or standard is None or capacity is None:
         return {}
     return agma_part(case, assembled(case), standard.factors, capacity)
-
-
-def _by_standard(
-    case: AssessmentCase, assembly: Assembly, face: float, faces: Sequence[float] = ()
-) -> tuple[dict[str, Any], Standard, Capacity | None]:
-    """The standards by name and as they are, with a K_Hβ, and those of the duties, where none is given."""
-    standard = standard_of(case, assembly, rated_duty(case.settings, case.oil_temperature, face=face))
-    own = () if case.settings.face_load_factor else faces
-    bins = life_bins(case, assembly, standard.factors, case.spectrum, own)
-    capacity = capacity_of(case, assembly, standard.factors, bins, case.settings)
-    return iso_part(case, standard) | (capacity.by_name() if capacity else {}), standard, capacity
 
 
 def run(
@@ -145,13 +125,13 @@ def assessed(
     along: dict[str, Any] = {}
     motion: dict[str, Any] = {}
     rows: dict[str, np.ndarray] = {}
-    for answer in parts.answers(taking_part, request, done):
+    for answer in parts.answers(taking_part, done):
         found |= answer.quantities
         along |= answer.along
         motion |= answer.motion
         rows |= answer.spread
     outcome = concluded(case, along, found, motion)
-    local, by_standard = outcome.local, outcome.by_standard
+    local, standard = outcome.local, outcome.by_standard
     summary: dict[str, Any] = {
         "duty": {
             "pinion_speed": case.operating.pinion_speed,
@@ -161,10 +141,10 @@ def assessed(
         **found,
         "contact_temperature_max": float(local.films.bulk_temperature + np.nanmax(local.films.flash_rise)),
         "specific_film_min": outcome.simulated["lambda_GF"]["worst"],
-        **({"transverse_load_factor_method_b": by_standard.factors.transverse_b} if by_standard else {}),
+        **({"transverse_load_factor_method_b": standard.factors.transverse_b} if standard else {}),
         **outcome.least(),
         "iso": outcome.iso,
-        "agma": _by_agma(case, outcome.by_standard, outcome.capacity),
+        "agma": _by_agma(case, standard, outcome.capacity),
         "simulated": outcome.simulated,
         "rests_on": outcome.rests,
         "not_judged": not_judged(case.limits, case.lubricant.fzg),
@@ -179,7 +159,7 @@ def assessed(
         samples = samples_of(case, parts.draws_of(case), rows, (along, found), like)
         summary = put_in(summary, samples)
     summary |= {
-        "assumed": numbered(assumed(case, by_standard is not None)),
+        "assumed": numbered(assumed(case, standard is not None)),
         "extrapolated": numbered([*extrapolated(taking_part, done), *_outside(outcome.capacity)]),
         **_trust(done, {task.name for _, task in parts.tasks_of(taking_part) if task.needed}),
         "wall_time": perf_counter() - begun,
@@ -190,44 +170,6 @@ def assessed(
 
 def _outside(capacity: Capacity | None) -> tuple[str, ...]:
     return capacity.remarks if capacity else ()
-
-
-def concluded(
-    case: AssessmentCase,
-    along: Mapping[str, Any],
-    found: Mapping[str, Any],
-    motion: Mapping[str, Any] = MappingProxyType({}),
-    *,
-    accurate: Conclusion | None = None,
-) -> Conclusion:
-    """Put together what the studies found of a case: arrays along the path, quantities, loads in motion.
-
-    A sample has no loads in motion: its stresses in motion are those of `accurate` teeth, by how the largest
-    in slow rotation, with its dynamic factor, are to theirs.
-    """
-    assembly = assembled(case)
-    local = local_of(case, assembly, along, found)
-    iso, by_standard, capacity = {}, None, None
-    if assembly.family.involute:
-        iso, by_standard, capacity = _by_standard(
-            case, assembly, found["face_load_factor"], parts.faces_of(case, found)
-        )
-    factors = by_standard.factors if by_standard else None
-    beside = compared(case, assembly, (along, motion), capacity, factors, found)
-    stresses = largest_stresses(case, local, found)
-    strength = beside.strength if accurate is None else accurate.strength_under(stresses)
-    judged = margins_and_limits(
-        case,
-        by_standard,
-        capacity,
-        strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor, case.materials),
-        strength.safeties() if strength else {},
-        local,
-        found,
-    )
-    simulated = simulated_part(case, assembly, local, found) | (strength.by_name() if strength else {})
-    outcome = Conclusion(local, by_standard, capacity, iso, simulated, judged)
-    return outcome._replace(stresses=stresses, strength=strength, parted=beside.parted, rests=beside.rests)
 
 
 def units_of(summary: Mapping[str, Any]) -> dict[str, str]:

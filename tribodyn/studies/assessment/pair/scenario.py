@@ -25,6 +25,7 @@ from tribodyn.input.fields import Temperature
 from tribodyn.input.quantity import InUnit, Table, model_file, written
 from tribodyn.input.tables.duty import OperatingTable, broken_driving_rules, duty_of, spectrum_of
 from tribodyn.input.tables.gears.drive_data import materials_of
+from tribodyn.input.tables.gears.internal_gear import driving_internal
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.quality import tolerances_of
 from tribodyn.input.tables.losses import LossesTable, TemperatureTable
@@ -36,6 +37,9 @@ from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO
 
 Length = Annotated[float, InUnit(units.positive(units.LENGTH), "5 um")]
+
+
+KIND = "assessment"
 
 
 class AssessmentOperating(OperatingTable):
@@ -98,7 +102,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks."""
     drive, data_sheet = scenario.drive, scenario.lubricant.viscosity_40 is not None
-    yield from broken_gear_rules(scenario, oil=data_sheet)
+    yield from broken_gear_rules(scenario, oil=data_sheet, internal=True)
+    yield from driving_internal(drive)
     if None in tolerances_of(drive):
         yield InputError(
             "drive.quality",

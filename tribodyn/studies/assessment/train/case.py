@@ -2,16 +2,17 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Field
 
 from tribodyn.cases import cost
 from tribodyn.cases.assessment_part import WholeDrive
-from tribodyn.gears.rating.settings import AtLeastOne, RatingTable
+from tribodyn.gears.rating.settings import AtLeastOne
 from tribodyn.input.quantity import Positive, Text
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
+from tribodyn.studies.assessment.settings import AssessedTable
 from tribodyn.studies.protocol.load import Loaded
 from tribodyn.studies.protocol.study import CaseHead
 
@@ -38,20 +39,14 @@ def of_mesh(name: str, mesh: str) -> bool:
     return mesh == name or mesh.startswith(f"{name}-")
 
 
-class TrainRatingTable(RatingTable):
+class TrainRatingTable(AssessedTable):
     """What is asked beyond the duty, and what the standards need to know of every mesh."""
 
-    face_load_factor: AtLeastOne = Field(  # pyright: ignore[reportIncompatibleVariableOverride]
-        1.0, description="K_Hβ of every mesh: the face is taken as aligned"
-    )
     face_load_factors: dict[Text, AtLeastOne] = Field(
         {}, description="K_Hβ of single meshes, by the name of a mesh or what names of several begin with"
     )
     mesh_load_factor: AtLeastOne | None = Field(
         None, description="K_gamma of the planetary stages; default: each one's own, of the simulation"
-    )
-    ring_root: Literal["as-cut", "formula"] = Field(
-        "as-cut", description="root of internal gears: the fillet as cut, or by the formula of ISO 6336-3"
     )
     speed_range: tuple[Positive, Positive] = Field(
         (0.5, 1.25), description="first and last speed of further runs, over the duty's; torques stay"
@@ -63,13 +58,8 @@ class TrainRatingTable(RatingTable):
         (), max_length=10, description="further friction laws, a run each: for the spread of the losses"
     )
 
-    @property
-    def root_by_formula(self) -> bool:
-        """Whether roots of internal gears are those of the standard's formula."""
-        return self.ring_root == "formula"
-
-    def face_of(self, mesh: str) -> float:
-        """K_Hβ of a mesh: by the longest name that it has or begins with, else that of all meshes."""
+    def face_of(self, mesh: str) -> float | None:
+        """K_Hβ of a mesh: by the longest name that it has or begins with, else that of all, where given."""
         known = [name for name in self.face_load_factors if of_mesh(name, mesh)]
         return self.face_load_factors[max(known, key=len)] if known else self.face_load_factor
 

@@ -19,8 +19,9 @@ from tribodyn.post.report import EXCEEDED
 from tribodyn.post.verdict import outside
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
+from tribodyn.studies.assessment.pair import parts
 from tribodyn.studies.assessment.train.case import LAYOUT, SAMPLES, TrainAssessmentCase
-from tribodyn.studies.assessment.train.meshes import STAGES, rated_mesh, spectra_of, worst_margins
+from tribodyn.studies.assessment.train.meshes import STAGES, assessed_mesh, pairs_of, parts_of, worst_margins
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.scratch import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
@@ -82,7 +83,8 @@ def tasks_of(case: TrainAssessmentCase) -> list[tuple[Study, Task]]:
     for law in settings.friction_laws:
         about, other = f"motion with friction by {law}", {**scenario, "friction": {"law": law}}
         found.append(Task(f"friction-{law}", about, other, needed=False))
-    return [(subject.study, task) for task in found]
+    every = [part for of_mesh in parts_of(pairs_of(case)).values() for part in of_mesh]
+    return [*((subject.study, task) for task in found), *parts.tasks_of(every)]
 
 
 def factors_of(case: TrainAssessmentCase) -> list[float]:
@@ -106,8 +108,16 @@ def assessed(
     own = done[DUTY].summary
     along = _over_speed(case, done)
     subject, whole = case.subject.case, case.whole
-    spectra = spectra_of(case)
-    meshes = {mesh.name: rated_mesh(case, mesh, own, spectra) for mesh in whole.meshes(subject)}
+    pairs = pairs_of(case)
+    duties = max((len(pair.rated.spectrum) for pair in pairs.values()), default=0)
+    asked = parts_of(pairs)
+    with Record(done[DUTY].path) as record:
+        meshes = {
+            mesh.name: assessed_mesh(
+                case, mesh, pairs.get(mesh.name), own, (asked.get(mesh.alike or mesh.name, ()), done), record
+            )
+            for mesh in whole.meshes(subject)
+        }
     oil = whole.meshes(subject)[0].pair.lubricant
     summary: dict[str, Any] = {
         "input_speed": case.whole.speed(case.subject.case),
@@ -124,7 +134,7 @@ def assessed(
         ),
         "not_judged": _not_judged(case),
         "in_doubt": numbered(_in_doubt(own)),
-        "assumed": numbered(list(_assumed(case, meshes, len(next(iter(spectra.values()), ()))))),
+        "assumed": numbered(list(_assumed(case, meshes, duties))),
         "extrapolated": numbered([*_extrapolated(every, done), *_outside(meshes)]),
         **{name: own[name] for name in (TRUST, REASONS) if own.get(name)},
         "wall_time": perf_counter() - begun,

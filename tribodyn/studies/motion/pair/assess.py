@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.cases.assessment_part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
+from tribodyn.gears.motion.tooth_loads import tooth_loads
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion import PAIR as STUDY
 
@@ -14,8 +15,6 @@ _TASK, _SAMPLES, _AT_DUTY = "steady-states", "steady-states-samples", "steady-du
 #: Mesh cycles until the motion at the duty counts as steady, and samples of each, for vibrations of some ten
 #: times the mesh frequency.
 _CYCLES, _RESOLVED = 60, 80
-#: Cycles that its loads are of where they do not repeat from one to the next; change that counts as none.
-_LAST, _REPEATED = 4, 1e-3
 #: Slices of the face of the samples, which are inclined to each other: dynamic factors within 0.02 % of 21.
 _SLICES = 11
 #: Rise of the dynamic factor over both neighbours' minimum from which a maximum counts as a resonance.
@@ -144,16 +143,9 @@ def _speed(case: Mapping[str, Any], duty: float) -> float:
 def _loads(run: TaskResult) -> dict[str, np.ndarray]:
     """Roll angles (position, pair) and loads (cycle, position, pair) of the driving flanks, last cycles."""
     with Record(run.path) as record:
-        table, front = record.mesh_cycle, [n for n, pair in enumerate(record.pairs) if pair <= 1]
-        loads = record["normal_load"][-1 - _LAST * _RESOLVED : -1][:, front]
-        ages = np.array([1 - record.pairs[n] for n in front])
-    loads = loads.reshape(_LAST, _RESOLVED, len(front))
-    if np.max(np.abs(loads[-1] - loads[-2])) < _REPEATED * np.max(loads):
-        loads = loads[-1:]
-    phase = np.arange(_RESOLVED) / _RESOLVED
-    pitch = 2.0 * math.pi / float(table["pinion_teeth"])
-    roll = float(table["roll_start"]) + pitch * (phase[:, None] + ages)
-    return {"roll_angle": roll, "normal_load": loads}
+        loads = record["normal_load"]
+        phase = np.arange(len(loads)) / _RESOLVED
+        return tooth_loads(phase, loads, record.pairs, record.mesh_cycle, _RESOLVED)._asdict()
 
 
 def maxima(values: np.ndarray) -> list[int]:

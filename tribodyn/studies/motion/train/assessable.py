@@ -6,10 +6,12 @@ from typing import Any
 
 from tribodyn.cases.assessment_part import MeshAtDuty, Meshing, WholeDrive, shared_names
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.gears.motion.tooth_loads import ToothLoads, tooth_loads
 from tribodyn.gears.rating.bearings import TurningShaft
 from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.input.names import under_one_name
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
+from tribodyn.record.reader import Record
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
 from tribodyn.studies.motion.drivetrain.structure import stiffness_key
@@ -168,4 +170,19 @@ def shafts(case: Gearbox) -> list[TurningShaft]:
     ]
 
 
-WHOLE = WholeDrive(meshes, at_speed, lambda case: case.source.speed, pair_of, meshes_of_gear, duties, shafts)
+#: Positions of a mesh cycle at which the loads of its teeth are taken.
+_POSITIONS = 80
+
+
+def loads(record: Record, case: Gearbox, name: str) -> ToothLoads:
+    """Loads of a mesh in the last common period, or its last cycles."""
+    m = [mesh.name for mesh in case.meshes].index(name)
+    period = float(case.laid_out * case.meshes[m].rate)
+    table = record.of_mesh(name, "mesh_cycle")
+    phase, load = record["mesh_phase"][:, m], record["normal_load"][:, m]
+    return tooth_loads(phase, load, record.pairs, table, _POSITIONS, period)
+
+
+WHOLE = WholeDrive(
+    meshes, at_speed, lambda case: case.source.speed, pair_of, meshes_of_gear, duties, shafts, loads
+)
