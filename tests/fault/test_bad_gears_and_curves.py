@@ -108,7 +108,6 @@ def test_an_internal_gear_has_one_key(refused: Refused, scenario: Path, setting:
 
 #: What a study says of an internal gear: scenario, settings, key, and a part of the message.
 INTERNAL = [
-    ("load-contact-18-36", [], "drive.gear.internal", "over time"),
     ("ehl-involute-23-47", [], "drive.gear.internal", "external gears alone"),
     ("ring-36-93", ["drive.pinion.internal=true"], "drive.pinion.internal", "[drive.gear]"),
     ("involute-18-36", [], "drive.gear.bore_radius", "outer_diameter"),

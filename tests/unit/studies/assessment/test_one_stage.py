@@ -25,7 +25,7 @@ from tribodyn.gears.rating.standard import rated_duty, standard_of
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
-from tribodyn.studies.motion.train import whole
+from tribodyn.studies.motion.train import assessable as whole
 from tribodyn.studies.protocol.load import load_data, load_scenario
 from tribodyn.studies.protocol.run import run
 
@@ -178,6 +178,7 @@ def test_an_assessment_takes_any_gearbox(tmp_path: Path):
         load_data(data | {"assessment": {"speedz": 0}}, "x")
 
 
+@pytest.mark.soak
 def test_stresses_of_the_simulation_are_those_of_the_pair(tmp_path: Path):
     """Spur teeth pressed and in motion: a train whose motion is by finite elements, and a pair."""
     teeth = {name: value for name, value in TEETH.items() if name != "helix_angle"}

@@ -8,6 +8,7 @@ from typing import Any
 
 from tribodyn.gears.rating.capacity import shorter_life
 from tribodyn.gears.rating.limits import LIMITS, SAFETIES, least, worst
+from tribodyn.gears.rating.rating_text import numbered
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
 from tribodyn.input.names import under_one_name
@@ -64,6 +65,7 @@ def page(record: Record) -> str:
         f'<div class="pictures"><p>{picture}</p></div>',
         _meshes(summary, "simulated"),
         _meshes(summary, "iso"),
+        _reasons(summary),
         _spectrum(summary),
         first_page.bearings_table(summary),
         first_page.part_section(study, "Motion at the duty", [done[DUTY]] if done else []),
@@ -73,6 +75,17 @@ def page(record: Record) -> str:
         first_page.origin(record),
     ]
     return first_page.written(record, body)
+
+
+def _reasons(summary: Mapping[str, Any]) -> str:
+    """Why simulation and standard part, of every kind of mesh the one with the largest dynamic factor."""
+    found = []
+    for group, names in groups_of(summary[MESHES]).items():
+        every = [summary[MESHES][name] for name in names]
+        mesh = max(every, key=lambda mesh: mesh["simulated"].get("dynamic_factor", 0.0))
+        found += [f"Mesh {group}: {text}" for text in mesh.get("reasons", {}).values()]
+    heading = "Where standard and simulation part by more than 5 %"
+    return listed(heading, numbered(found)) if found else ""
 
 
 def _spectrum(summary: Mapping[str, Any]) -> str:
@@ -156,11 +169,12 @@ def _holds(summary: Mapping[str, Any]) -> str:
     limits, meshes = summary.get("limits", {}), summary[MESHES]
     columns = [name for name in _HOLDS if any(_worst(mesh, name) is not None for mesh in meshes.values())]
     heads = [Judged(""), *(Judged(_short(name)) for name in columns)]
-    rows = []
-    for group, names in groups_of(meshes).items():
-        rows.append(
-            [Judged(group), *(_cell([meshes[mesh] for mesh in names], name, limits) for name in columns)]
+    rows = [
+        [Judged(group), *(_cell([meshes[mesh] for mesh in names], name, limits) for name in columns)]
+        for group, names in sorted(
+            groups_of(meshes).items(), key=lambda one: _room([meshes[mesh] for mesh in one[1]], limits)
         )
+    ]
     bounds = (limits.get(name, {}).get("limit") for name in columns)
     required = [
         "" if bound is None else f"≥ {LIMITS[name].quantity.written(bound)}"
@@ -172,9 +186,21 @@ def _holds(summary: Mapping[str, Any]) -> str:
 
 def _cell(meshes: Sequence[Mapping[str, Any]], limit: str, limits: Mapping[str, Any]) -> Judged:
     """The worst of some meshes."""
-    life = shorter_life(*(mesh.get("iso", {}) for mesh in meshes)) if limit == "life" else {}
+    parts = [mesh.get(part, {}) for mesh in meshes for part in ("iso", "simulated")]
+    life = shorter_life(*parts) if limit == "life" else {}
     known = [value for mesh in meshes if (value := _worst(mesh, limit)) is not None]
     return judged_cell(min(known, default=None), limit, limits, unlimited=bool(life.get("life_unlimited")))
+
+
+def _room(meshes: Sequence[Mapping[str, Any]], limits: Mapping[str, Any]) -> float:
+    """The smallest value over what is required of it: the worst mesh stands first."""
+    over = [
+        value / float(limits[limit]["limit"])
+        for mesh in meshes
+        for limit in _HOLDS
+        if limit in limits and (value := _worst(mesh, limit)) is not None
+    ]
+    return min(over, default=math.inf)
 
 
 def _worst(mesh: Mapping[str, Any], limit: str) -> float | None:

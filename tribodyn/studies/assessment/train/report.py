@@ -37,7 +37,8 @@ PANELS = ("dynamic_factor", "efficiency")
 OF_A_MESH: dict[str, tuple[Quantity, ...]] = {
     "simulated": quantities(
         *("power_in_mean", "power_friction_mean", "efficiency", "dynamic_factor", "hertz_pressure_max"),
-        *("film_min", "film_parameter_min", "contact_temperature_max", "S_B", "S_lambda"),
+        *("film_min", "film_parameter_min", "contact_temperature_max", "K_Hbeta", "K_Halpha"),
+        *("sigma_H", "S_H", "sigma_F", "S_F", "life", "lambda_GF", "S_B", "S_lambda"),
     ),
     "iso": quantities(
         *("K_v", "K_Halpha", "K_gamma", "sigma_H", "S_H", "sigma_F", "S_F", "life"),
@@ -94,9 +95,10 @@ def mesh_rows(summary: Mapping[str, Any], part: str) -> tuple[list[str], list[li
 def heading(part: str, summary: Mapping[str, Any]) -> str:
     """What stands above the table of meshes, simulated or by the standards."""
     factors = [float(mesh["load_factors"]["K_A"]) for mesh in summary.get(MESHES, {}).values()]
-    by = "simulated, without K_A"
+    factor = f"K_A {max(factors, default=1.0):g}"
+    by = f"simulated, stresses, temperatures along the path and safeties with {factor}"
     if part == "iso":
-        by = f"by the standards with K_A {max(factors, default=1.0):g}"
+        by = f"by the standards with {factor}"
     return f"Each mesh, {by}; of several planets the worst"
 
 

@@ -225,8 +225,9 @@ def _assumed(
     if settings.mesh_load_factor is None and any("alike" in mesh for mesh in meshes.values()):
         yield "K_γ of each planetary stage is that of the simulation."
     yield (
-        "The efficiency is that of tooth friction alone: bearings, seals and churning are not in it. K_A is "
-        "in stresses and safeties by the standards; the simulation runs without it."
+        "The efficiency is that of tooth friction alone: bearings, seals and churning are not in it. The "
+        "motion runs without K_A; stresses, film, temperatures and safeties, simulated too, count with it "
+        "and with K_γ of planetary stages."
     )
     yield "Accurate teeth in the simulation but for modifications and pin errors of the scenario."
     rated = [name for name, mesh in meshes.items() if "iso" in mesh]
