@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -64,6 +64,7 @@ class LoadContactOutput(Table):
 class LoadContactScenario(GearScenario):
     """A scenario file of a load contact study."""
 
+    internal_gears: ClassVar[bool] = True
     kind: Literal["load-contact"]
     lubricant: Oil | None = Field(None, description="for the film over the face; default: none is computed")
     operating: LoadContactOperating
@@ -97,7 +98,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
-    yield from broken_gear_rules(scenario, internal=True)
+    yield from broken_gear_rules(scenario)
     yield from driving_internal(scenario.drive)
     yield from broken_support_keys(scenario)
     drive, operating, oiled = scenario.drive, scenario.operating, scenario.lubricant is not None

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -67,6 +67,7 @@ class AssessmentLimits(OilLimits):
 class AssessmentScenario(GearScenario):
     """A scenario file of an assessment."""
 
+    internal_gears: ClassVar[bool] = True
     kind: Literal["assessment"]
     lubricant: Oil
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
@@ -102,7 +103,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks."""
     drive, data_sheet = scenario.drive, scenario.lubricant.viscosity_40 is not None
-    yield from broken_gear_rules(scenario, oil=data_sheet, internal=True)
+    yield from broken_gear_rules(scenario, oil=data_sheet)
     yield from driving_internal(drive)
     if None in tolerances_of(drive):
         yield InputError(
