@@ -244,7 +244,7 @@ def test_equal_meshes_of_planets_count_once(tmp_path: Path):
 
 
 def test_a_kind_without_rings_leaves_them_out():
-    data = {"title": "x", "kind": "load-contact", "gearbox": {"scenario": "planetary-24-84"}}
+    data = {"title": "x", "kind": "ehl", "gearbox": {"scenario": "planetary-24-84"}}
     every = every_from(resolved(data, None)[0], Path("x.toml"))
     assert list(every.cases) == ["set-sun"]
     assert every.remarks() == ["mesh set-ring is left out: this kind of study has external gears alone"]

@@ -92,7 +92,6 @@ def _pair_of(
     teeth = float(pair.drive.pinion.teeth), float(pair.drive.gear.teeth)
     speed, torque, ratio = duty.pinion_speed, duty.gear_torque, 1.0
     if teeth[0] < 0.0:
-        drive = {**drive, "pinion": drive["gear"], "gear": drive["pinion"]}
         ratio = abs(teeth[0] / teeth[1])
     title = f"{case.title}: {mesh.name}"
     data = {
