@@ -40,24 +40,39 @@ def with_pair(
 
 
 def with_every_pair(
-    data: Mapping[str, Any], schema: type[BaseModel], referring: Path, opened: Opened, *, internal: bool
+    data: Mapping[str, Any],
+    schema: type[BaseModel],
+    referring: Path,
+    opened: Opened,
+    *,
+    driven_rings: bool,
+    driving_rings: bool,
 ) -> dict[str, dict[str, Any] | None]:
     """The data as `with_pair` gives them for every mesh by name, where there are several and none is named.
 
-    Meshes that differ by their planet alone count once. Those with an internal gear are None unless
-    `internal` says that the study knows them, or there is no other. Raises as `with_pair`.
+    Meshes that differ by their planet alone count once. Those with an internal gear that is driven, or drives,
+    are None unless the study is said to know these, or there is no other. Raises as `with_pair`.
     """
     mesh, whole, case = _gearbox_of(data, referring, opened)
     names = [] if mesh else list(dict.fromkeys(shared_names(whole.meshes(case))))
     if len(names) < 2:
         return {}
     every = {name: _with_mesh(data, schema, whole, case, name) for name in names}
-    rings = {
-        name for name, each in every.items() if any(each["drive"][side].get("internal") for side in SIDES)
+    unknown = {
+        name
+        for name, each in every.items()
+        if any(each["drive"][side].get("internal") for side in SIDES)
+        and not (driving_rings if _ring_drives(each) else driven_rings)
     }
-    if internal or rings == set(every):
+    if unknown == set(every):
         return dict(every)
-    return {name: None if name in rings else each for name, each in every.items()}
+    return {name: None if name in unknown else each for name, each in every.items()}
+
+
+def _ring_drives(data: Mapping[str, Any]) -> bool:
+    """Whether the load of a pair turns its ring forwards."""
+    operating = under_one_name(data["operating"])
+    return any(str(operating[key]).startswith("-") for key in LOADS if key in operating)
 
 
 def _gearbox_of(data: Mapping[str, Any], referring: Path, opened: Opened) -> tuple[str, WholeDrive, Any]:

@@ -93,6 +93,8 @@ class GearScenario(SpectrumScenario):
 
     #: whether the kind knows internal gears
     internal_gears: ClassVar[bool] = False
+    #: whether it knows them where they drive, which a negative torque says
+    driving_rings: ClassVar[bool] = True
     #: tables that `completed` fills, before the defaults of this kind
     COMPLETED_BY: ClassVar = {
         "gearbox": ("operating", "mesh", "lubricant", "film", "friction", "temperature")
@@ -117,7 +119,8 @@ class GearScenario(SpectrumScenario):
         """Data of every mesh of a `gearbox` that names none; see `mesh_of_gearbox.with_every_pair`."""
         if "gearbox" not in data:
             return {}
-        every = with_every_pair(data, cls, referring, opened, internal=cls.internal_gears)
+        knows = cls.internal_gears, cls.driving_rings
+        every = with_every_pair(data, cls, referring, opened, driven_rings=knows[0], driving_rings=all(knows))
         return {mesh: each and defaults_written_out(each, cls) for mesh, each in every.items()}
 
 

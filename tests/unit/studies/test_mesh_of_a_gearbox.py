@@ -247,7 +247,7 @@ def test_a_kind_without_rings_leaves_them_out():
     data = {"title": "x", "kind": "ehl", "gearbox": {"scenario": "planetary-24-84"}}
     every = every_from(resolved(data, None)[0], Path("x.toml"))
     assert list(every.cases) == ["set-sun"]
-    assert every.remarks() == ["mesh set-ring is left out: this kind of study has external gears alone"]
+    assert every.remarks() == ["mesh set-ring is left out: this kind of study takes no such ring"]
 
 
 def test_the_exit_status_is_the_worst_of_all_meshes(tmp_path: Path):

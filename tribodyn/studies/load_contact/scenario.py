@@ -65,6 +65,7 @@ class LoadContactScenario(GearScenario):
     """A scenario file of a load contact study."""
 
     internal_gears: ClassVar[bool] = True
+    driving_rings: ClassVar[bool] = False
     kind: Literal["load-contact"]
     lubricant: Oil | None = Field(None, description="for the film over the face; default: none is computed")
     operating: LoadContactOperating

@@ -117,7 +117,7 @@ class EveryMesh(NamedTuple):
 
     def remarks(self) -> list[str]:
         """What is left out, if anything."""
-        rule = "is left out: this kind of study has external gears alone"
+        rule = "is left out: this kind of study takes no such ring"
         return [f"mesh {mesh} {rule}" for mesh in self.left_out]
 
 

@@ -10,7 +10,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.studies.assessment.pair.case import AssessmentCase
-from tribodyn.studies.assessment.pair.simulated_strength import (
+from tribodyn.studies.assessment.simulated_strength import (
     GivenFactors,
     LoadedTeeth,
     SimulatedStrength,

@@ -14,8 +14,8 @@ from tribodyn.gears.rating.standard import Standard
 from tribodyn.quantities.catalogue import SPREAD, scatter
 from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.assessment.pair.margins import LocalValues
-from tribodyn.studies.assessment.pair.simulated_strength import SimulatedStrength
 from tribodyn.studies.assessment.pair.unknowns import Draw
+from tribodyn.studies.assessment.simulated_strength import SimulatedStrength
 
 #: Quantity of the simulation -> its name by the standards.
 _NAMES = {"dynamic_factor": "K_v", "transverse_load_factor": "K_Halpha", "face_load_factor": "K_Hbeta"}

@@ -68,6 +68,7 @@ class AssessmentScenario(GearScenario):
     """A scenario file of an assessment."""
 
     internal_gears: ClassVar[bool] = True
+    driving_rings: ClassVar[bool] = False
     kind: Literal["assessment"]
     lubricant: Oil
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")

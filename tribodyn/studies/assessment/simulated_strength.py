@@ -28,7 +28,7 @@ from tribodyn.standards.bending import mean_stress_influence, pulsating_stress
 from tribodyn.standards.fatigue import Bin, damage
 from tribodyn.standards.rainflow import rainflow_repeated
 from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.assessment.pair.rated_flank import NominalLoad, RatedFlank, nominal_load, rated_flanks
+from tribodyn.studies.assessment.rated_flank import NominalLoad, RatedFlank, nominal_load, rated_flanks
 
 
 class LoadedTeeth(NamedTuple):
