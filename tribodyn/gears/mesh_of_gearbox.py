@@ -50,8 +50,8 @@ def with_every_pair(
 ) -> dict[str, dict[str, Any] | None]:
     """The data as `with_pair` gives them for every mesh by name, where there are several and none is named.
 
-    Meshes that differ by their planet alone count once. Those with an internal gear that is driven, or drives,
-    are None unless the study is said to know these, or there is no other. Raises as `with_pair`.
+    Meshes that differ by their planet alone count once. Those with an internal gear that is driven, or
+    that drives, are None unless the study is said to know these, or there is no other. Raises as `with_pair`.
     """
     mesh, whole, case = _gearbox_of(data, referring, opened)
     names = [] if mesh else list(dict.fromkeys(shared_names(whole.meshes(case))))
