@@ -40,8 +40,10 @@ def tooth_loads(
     table: dict[str, Any],
     positions: int,
     period: float = 1.0,
-) -> ToothLoads:
+) -> ToothLoads | None:
     """Loads at so many positions of a cycle: of the last one where they repeat, else of the most loaded.
+
+    None of a run without a whole cycle of the mesh.
 
     Parameters
     ----------
@@ -54,6 +56,8 @@ def tooth_loads(
     known = np.nan_to_num(load)
     last = math.floor(phase[-1] + 1e-9)
     first = max(last - max(LAST, math.ceil(period - 1e-9)), math.ceil(phase[0] - 1e-9))
+    if last <= first:
+        return None
     wanted = (np.arange(first * positions, last * positions)) / positions
     at = np.clip(np.searchsorted(phase, wanted, side="right") - 1, 0, len(phase) - 2)
     begun = np.floor(phase + 1e-12).astype(int)

@@ -225,8 +225,8 @@ def assessed_mesh(
     if standard.standard is not None:
         found |= _by_name(case, rated, standard)
         found["load_factors"] |= factors_by_name(standard.standard.factors)
-    if along:
-        loads = case.whole.loads(record, case.subject.case, mesh.name)
+    loads = case.whole.loads(record, case.subject.case, mesh.name) if along else None
+    if loads is not None:
         of_both = quantities | {name: of_run[name] for name in _FOR_PAIR if of_run.get(name) is not None}
         names = found["driver"], found["driven"]
         beside = _beside(rated, pressed, standard, along, of_both, loads, names)

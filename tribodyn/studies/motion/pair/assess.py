@@ -145,7 +145,9 @@ def _loads(run: TaskResult) -> dict[str, np.ndarray]:
     with Record(run.path) as record:
         loads = record["normal_load"]
         phase = np.arange(len(loads)) / _RESOLVED
-        return tooth_loads(phase, loads, record.pairs, record.mesh_cycle, _RESOLVED)._asdict()
+        of_teeth = tooth_loads(phase, loads, record.pairs, record.mesh_cycle, _RESOLVED)
+    assert of_teeth is not None  # a run of many cycles
+    return of_teeth._asdict()
 
 
 def maxima(values: np.ndarray) -> list[int]:
