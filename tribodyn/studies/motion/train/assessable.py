@@ -175,7 +175,7 @@ _POSITIONS = 80
 
 
 def loads(record: Record, case: Gearbox, name: str) -> ToothLoads | None:
-    """Loads of a mesh in the last common period, or its last cycles; None: the run has no whole cycle of it."""
+    """Loads of a mesh in the last common period, or its last cycles; None: no whole cycle of it was run."""
     m = [mesh.name for mesh in case.meshes].index(name)
     period = float(case.laid_out * case.meshes[m].rate)
     table = record.of_mesh(name, "mesh_cycle")
