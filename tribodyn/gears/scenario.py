@@ -5,7 +5,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from tribodyn.compliance.foundation import Support
 from tribodyn.dynamics.data import OperatingData
@@ -54,35 +54,17 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.tribology.law import AUTO, FilmData, FrictionData
 
 Oil = Annotated[Lubricant, model_file("lubricants")]
-TemperatureKeys = Annotated[TemperatureTable | None, Field(description="bulk temperature of the teeth")]
-LossKeys = Annotated[LossesTable | None, Field(description="load-independent losses")]
-ShaftKeys = Annotated[Shafts | None, Field(description="shafts as drawn, on their bearings")]
+TemperatureKeys = TemperatureTable | None
+LossKeys = LossesTable | None
+ShaftKeys = Shafts | None
 #: Of studies of the teeth alone, which read matrices of it.
-MatrixKeys = Annotated[
-    Bearings | None, model_file("bearings"), Field(description="matrices of shafts and bearings")
-]
-FilmKeys = Annotated[FilmTable | None, Field(description="which law gives the film")]
-FaceSlices = Annotated[
-    Slices | None,
-    BeforeValidator(lambda value: None if value == "auto" else value),
-    Field(
-        description='of the face; "auto", the default: of helical gears as many as 1 % of the transmission '
-        "error needs, else 21 where anything varies along the face, or 1"
-    ),
-]
-SliceCoupling = Annotated[Switch, Field(description="slices of one tooth hold each other")]
-FoundationCoupling = Annotated[Switch, Field(description="pairs that share a body share its foundation")]
-GearBodySupport = Annotated[
-    Support,
-    Field(
-        description="what a gear body's deflection counts from: the body's own mean motion, "
-        "or its bore, which is held"
-    ),
-]
-SampleNumber = Annotated[
-    DeviationSample | None,
-    Field(description="number of the sample of deviations drawn from the quality; default: none"),
-]
+MatrixKeys = Annotated[Bearings | None, model_file("bearings")]
+FilmKeys = FilmTable | None
+FaceSlices = Annotated[Slices | None, BeforeValidator(lambda value: None if value == "auto" else value)]
+SliceCoupling = Switch
+FoundationCoupling = Switch
+GearBodySupport = Support
+SampleNumber = DeviationSample | None
 
 #: Where a table [mesh] has no keys of misalignment, and neither does the drive's quality add any.
 _ALIGNED = MisalignmentTable(from_quality=0.0)
@@ -100,9 +82,7 @@ class GearScenario(SpectrumScenario):
         "gearbox": ("operating", "mesh", "lubricant", "film", "friction", "temperature")
     }
     kind: Any
-    gearbox: GearboxTable | None = Field(
-        None, description="a mesh of a train, with its duty, in place of drive, and of other tables left out"
-    )
+    gearbox: GearboxTable | None = None
     drive: Annotated[DriveTable, model_file("drives")]
 
     @classmethod

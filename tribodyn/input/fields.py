@@ -24,8 +24,8 @@ Name = Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")]
 class ScenarioHead(Table):
     """The first keys of every scenario; each kind of study adds its `kind` and its tables."""
 
-    title: Text = Field(description="what it shows, in a line")
-    name: Name | None = Field(None, description="names the record; default: the file's own name")
+    title: Text
+    name: Name | None = None
 
 
 def head_of(scenario: Any, toml: str, sha256: str) -> dict[str, str]:

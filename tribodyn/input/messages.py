@@ -11,6 +11,7 @@ from pydantic import BaseModel, ValidationError
 
 from tribodyn.errors import InputError, InputErrors, near_name, printable, quoted
 from tribodyn.input import scope
+from tribodyn.input.key_meanings import meaning
 from tribodyn.input.names import OF_PAIR, speaks_of_pair, worded
 from tribodyn.input.quantity import Reference
 from tribodyn.input.schema import fields_of, holds_by_name, inner_tables, table_at
@@ -230,7 +231,7 @@ def keys_in(model: type[BaseModel], key: Iterable[str]) -> list[str]:
 
 def _near_key(model: type[BaseModel], key: Key) -> str:
     table = table_at(model, key[:-1])
-    described = {name: field.description or "" for name, field in fields_of(table).items()}
+    described = {name: meaning(table, name) if table else "" for name in fields_of(table)}
     # a symbol as on a drawing, with which a description begins: "A_sne, upper deviation …"
     of_symbol = (name for name, text in described.items() if text.startswith(f"{key[-1]},"))
     near = next(of_symbol, None) or near_name(str(key[-1]), described)

@@ -16,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError, core_schema
 
 from tribodyn.errors import quoted
+from tribodyn.input.key_meanings import meaning
 from tribodyn.input.names import named_in, under_one_name, worded
 from tribodyn.input.units import Kind, NotAQuantity, factor_to_si, to_si
 
@@ -37,6 +38,9 @@ class Table(BaseModel):
     def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
         found = handler(schema)
         keys = handler.resolve_ref_schema(found).get("properties", {})
+        for key, schema_of_key in keys.items():
+            if text := meaning(cls, key):
+                schema_of_key["description"] = text
         for other, name in cls.other_names.items():
             if name in keys:
                 keys[other] = {**keys[name], "description": f"{name}, as of a pair of gears"}
@@ -175,8 +179,8 @@ Text = Annotated[str, Field(strict=True)]
 class Column(Table):
     """One column of a table of numbers, with its unit."""
 
-    unit: Text = Field(description="unit of every value", examples=["s"])
-    values: tuple[Number, ...] = Field(min_length=2, description="the numbers")
+    unit: Text = Field(examples=["s"])
+    values: tuple[Number, ...] = Field(min_length=2)
 
     def in_si(self, kind: Kind) -> NDArray[np.float64]:
         """Return the values in the SI unit of `kind`."""

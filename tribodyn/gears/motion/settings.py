@@ -61,27 +61,15 @@ def harmonics_of(harmonics: Sequence[TorqueHarmonic]) -> tuple[tuple[float, floa
 class Operating(OiledOperatingTable):
     """How a gearbox is driven and loaded: nominal speed, constant part of the load, and more."""
 
-    source: Literal["speed", "torque"] = Field(
-        "speed", description="speed: the input's rotation is prescribed; torque: a motor with inertia"
-    )
-    output_torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
-        None, description="over time, added to the output's torque"
-    )
-    output_torque_harmonics: tuple[TorqueHarmonic, ...] = Field(
-        (), max_length=MOST_HARMONICS, description="added to the output's torque"
-    )
-    load_inertia: fields.Inertia = written("0 kg*m**2", description="of what the output drives")
-    load_damping: fields.TorsionalDamping = written(
-        "0 N*m*s/rad", description="output torque that grows with speed above nominal"
-    )
-    drive_inertia: fields.Inertia = written("0 kg*m**2", description="of the motor")
-    shaft_stiffness: fields.TorsionalStiffness | None = Field(
-        None, description="between motor and input; default: rigid"
-    )
+    source: Literal["speed", "torque"] = "speed"
+    output_torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = None
+    output_torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), max_length=MOST_HARMONICS)
+    load_inertia: fields.Inertia = written("0 kg*m**2")
+    load_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
+    drive_inertia: fields.Inertia = written("0 kg*m**2")
+    shaft_stiffness: fields.TorsionalStiffness | None = None
     shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
-    speed_regulation: fields.TorsionalDamping = written(
-        "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
-    )
+    speed_regulation: fields.TorsionalDamping = written("0 N*m*s/rad")
 
     @property
     def motor_torque(self) -> float | None:
@@ -98,7 +86,7 @@ class Operating(OiledOperatingTable):
 class ErrorHarmonic(Table):
     """A cosine in the static transmission error, over the mesh cycle."""
 
-    order: Count = Field(description="1: mesh frequency, 2: twice that, …")
+    order: Count
     amplitude: fields.Error
     phase: fields.Angle = written("0 deg")
 
@@ -115,26 +103,16 @@ class Mesh(Table):
 
     damping_ratio: NotNegative
     compliance: Literal["energy", "fem", "constant", "table"] = "energy"
-    hertz: Literal["linear", "load-dependent"] = Field(
-        "linear", description="contact part of the energy method's compliance"
-    )
-    foundation: Foundation = Field(
-        "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
-    )
+    hertz: Literal["linear", "load-dependent"] = "linear"
+    foundation: Foundation = "sainsot-velex"
     foundation_coupling: FoundationCoupling = True
     body: GearBodySupport = "free"
-    stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
-    table: Annotated[fields.StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = Field(
-        None, description='of a single pair, with compliance = "table"'
-    )
-    formulation: Literal["classical", "energy-consistent"] = Field(
-        "classical", description="whether the varying stiffness acts on the rotations"
-    )
-    contact_width: Smoothing = written("0.1 um", description="deflection over which contact sets in")
-    backlash: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.1 mm")] | None = Field(
-        None, description="normal backlash at the pitch point; default: the drive's, see there"
-    )
-    points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
+    stiffness: Stiffness | None = None
+    table: Annotated[fields.StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = None
+    formulation: Literal["classical", "energy-consistent"] = "classical"
+    contact_width: Smoothing = written("0.1 um")
+    backlash: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.1 mm")] | None = None
+    points: Annotated[int, Field(strict=True, ge=5)] = 65
     transmission_error: TransmissionError = written({})
     deviation_sample: SampleNumber = None
     tooth_sample: ToothSampleNumber = None
@@ -146,10 +124,8 @@ class Mesh(Table):
 class Friction(FrictionTable):
     """Which law acts between the flanks, and the law's own keys."""
 
-    sliding: Literal["kinematic", "dynamic"] = Field(
-        "dynamic", description="sliding speed from nominal rotation or from the vibrating bodies"
-    )
-    reversal_width: Smoothing = written("20 um", description="along the path, over which friction turns at P")
+    sliding: Literal["kinematic", "dynamic"] = "dynamic"
+    reversal_width: Smoothing = written("20 um")
 
 
 class Solver(Table):
@@ -157,25 +133,17 @@ class Solver(Table):
 
     method: Annotated[Text, Names(SOLVERS)] = AUTO
     rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
-    cycles: Count = Field(20, description="mesh cycles to run")
-    revolutions: Positive | None = Field(
-        None, description="of the gear that drives the first mesh; takes the place of cycles"
-    )
-    max_steps: Annotated[int, Field(strict=True, gt=0, le=10**9)] = Field(
-        1_000_000, description="steps allowed in one mesh cycle"
-    )
-    initial: Literal["static", "unloaded"] = Field("static", description="state at the start")
+    cycles: Count = 20
+    revolutions: Positive | None = None
+    max_steps: Annotated[int, Field(strict=True, gt=0, le=10**9)] = 1_000_000
+    initial: Literal["static", "unloaded"] = "static"
 
 
 class Output(Table):
     """What is recorded."""
 
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
-    window: Literal["all"] | tuple[NotNegative, Positive] | None = Field(
-        None,
-        description="revolutions of the gear that drives the first mesh, from and to, of which samples are "
-        'kept, or "all"; default: all, with solver.revolutions the last one',
-    )
+    window: Literal["all"] | tuple[NotNegative, Positive] | None = None
 
 
 def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from pydantic import Field
 
 from tribodyn.input import units
 from tribodyn.input.quantity import InUnit, Positive, Table
@@ -18,11 +17,11 @@ Pressure = Annotated[float, InUnit(units.positive(units.PRESSURE), "1.5 GPa")]
 class OilLimits(Table):
     """What must hold: red on the first page where it does not. One that is not given is not judged."""
 
-    scuffing_flash: Positive | None = Field(1.5, description="minimum safety S_B of ISO/TS 6336-20")
-    scuffing_integral: Positive | None = Field(1.5, description="minimum safety S_intS of ISO/TS 6336-21")
-    micropitting: Positive | None = Field(1.0, description="minimum safety S_lambda of ISO/TS 6336-22")
-    dynamic_factor: Positive | None = Field(None, description="maximum K_v of the simulation at the duty")
-    hertz_pressure: Pressure | None = Field(None, description="maximum, of the simulation")
+    scuffing_flash: Positive | None = 1.5
+    scuffing_integral: Positive | None = 1.5
+    micropitting: Positive | None = 1.0
+    dynamic_factor: Positive | None = None
+    hertz_pressure: Pressure | None = None
 
 
 class StandardLimit(NamedTuple):

@@ -23,45 +23,23 @@ _LIFE, _SAFETY_PITTING, _SAFETY_BENDING = 20000.0 * 3600.0, 1.0, 1.4
 class RatingTable(Table):
     """What the standards need to know."""
 
-    edition: Literal[2019, 2006] = Field(
-        2019, description="of ISO 6336-1, -2, -3, by which stresses are computed"
-    )
-    application_factor: Positive = Field(1.0, description="K_A, what the driven and the driving machine add")
-    lubrication: Literal["dip", "spray", "submerged"] = Field(
-        "dip", description="how the oil gets to the mesh"
-    )
-    structure_factor: Positive = Field(
-        1.0, description="X_W: 1 of case-hardened steel, 1.5 nitrided (ISO/TS 6336-20, table 2)"
-    )
-    run_in: Switch = Field(True, description="whether flanks are run in, for scuffing (X_E)")
-    tip_relief: Relief | None = Field(
-        None, description="C_a that the standard credits, for scuffing (X_Ca); default: none"
-    )
-    adequate_tip_relief: Switch = Field(
-        False, description="whether the standards may count on the tip relief that the flanks have"
-    )
-    mesh_load_factor: AtLeastOne | None = Field(
-        None, description="K_γ, share of the most loaded of several meshes in parallel; default: 1"
-    )
-    dynamic_factor: AtLeastOne | None = Field(
-        None, description="K_v of the standard; default: ISO 6336-1, method B"
-    )
-    face_load_factor: AtLeastOne | None = Field(None, description="K_Hβ; default: of the contact analysis")
-    transverse_load_factor: AtLeastOne | None = Field(
-        None, description="K_Hα of the standard; default: ISO 6336-1, method B"
-    )
-    gear_blank_factor: Positive | None = Field(
-        None, description="C_R of gears with rim and web, for the standard's stiffness; default: 1, solid"
-    )
-    required_life: Hours | None = Field(None, description="in operation; default: 20000 h")
-    required_safety_pitting: Positive | None = Field(
-        None, description="S_Hmin; a safety below is red; default: 1"
-    )
-    required_safety_bending: Positive | None = Field(
-        None, description="S_Fmin; a safety below is red; default: 1.4"
-    )
-    peak_roughness: Roughness | None = Field(None, description="Rz of the flanks; default: 6 Ra")
-    root_roughness: Roughness = written("20 um", description="Rz of the root fillets")
+    edition: Literal[2019, 2006] = 2019
+    application_factor: Positive = 1.0
+    lubrication: Literal["dip", "spray", "submerged"] = "dip"
+    structure_factor: Positive = 1.0
+    run_in: Switch = True
+    tip_relief: Relief | None = None
+    adequate_tip_relief: Switch = False
+    mesh_load_factor: AtLeastOne | None = None
+    dynamic_factor: AtLeastOne | None = None
+    face_load_factor: AtLeastOne | None = None
+    transverse_load_factor: AtLeastOne | None = None
+    gear_blank_factor: Positive | None = None
+    required_life: Hours | None = None
+    required_safety_pitting: Positive | None = None
+    required_safety_bending: Positive | None = None
+    peak_roughness: Roughness | None = None
+    root_roughness: Roughness = written("20 um")
 
     @property
     def root_by_formula(self) -> bool:

@@ -37,13 +37,11 @@ class DutyTable(Table):
 
     other_names = OF_PAIR
 
-    input_speed: Speed | None = Field(None, description="of the input")
-    output_speed: Speed | None = Field(None, description="of the output, in place of the input's")
-    output_torque: Torque | None = Field(
-        None, description="against the output's motion; negative where it drives"
-    )
-    input_torque: Torque | None = Field(None, description="on the input, in place of the output's")
-    power: Power | None = Field(None, description="put in, in place of a torque")
+    input_speed: Speed | None = None
+    output_speed: Speed | None = None
+    output_torque: Torque | None = None
+    input_torque: Torque | None = None
+    power: Power | None = None
 
 
 def given_twice(table: DutyTable, key: str) -> Iterator[InputError]:
@@ -121,24 +119,20 @@ MOST_DUTIES = 1000
 class SpectrumDuty(DutyTable):
     """One duty of a load spectrum; what it does not give is that of [operating]."""
 
-    share: Positive = Field(description="of the time; shares count by their sum")
-    oil_temperature: Temperature | None = Field(None, description="in place of that of [operating]")
+    share: Positive
+    oil_temperature: Temperature | None = None
 
 
 class OperatingTable(DutyTable):
     """Speed and load, and which duty of a spectrum takes their place."""
 
-    duty: Annotated[int, Field(strict=True, ge=1, le=MOST_DUTIES), Weighed("duty", "share")] | None = Field(
-        None, description="number of the duty of a load spectrum that is run, from 1"
-    )
+    duty: Annotated[int, Field(strict=True, ge=1, le=MOST_DUTIES), Weighed("duty", "share")] | None = None
 
 
 class OiledOperatingTable(OperatingTable):
     """Constant speed and load, and the oil's temperature."""
 
-    oil_temperature: Temperature | None = Field(
-        None, description="where the oil enters the mesh; for a lubricant given by its data sheet"
-    )
+    oil_temperature: Temperature | None = None
 
 
 class SpectrumScenario(ScenarioHead):
@@ -149,7 +143,7 @@ class SpectrumScenario(ScenarioHead):
         csv_tables(
             "CSV file with a row for each duty: share [1], output_torque [N*m], …", "share", "output_torque"
         ),
-    ] = Field((), max_length=MOST_DUTIES, description="load spectrum: duties with shares of time")
+    ] = Field((), max_length=MOST_DUTIES)
 
 
 def spectrum_of(scenario: Any) -> list[tuple[float, Any]]:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any, ClassVar, Self
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from tribodyn.errors import InputError, quoted
@@ -67,9 +67,7 @@ class FilmTable(LawTable):
 
     place = "film"
     laws = FILM_LAWS
-    law: Text | None = Field(
-        None, description="default: the one that the friction law reads, else the nearest at the duty"
-    )
+    law: Text | None = None
 
 
 class FrictionTable(LawTable):
@@ -86,7 +84,7 @@ class LinkTable(LawTable):
     place = "link"
     laws = LINK_LAWS
     automatic = False
-    law: Text = Field("linear", description="of the torque over the twist; damping is linear")
+    law: Text = "linear"
 
 
 def broken_link_law(key: str, table: Any) -> Iterator[InputError]:

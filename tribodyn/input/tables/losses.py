@@ -3,8 +3,6 @@
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Literal, NamedTuple
 
-from pydantic import Field
-
 from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input import units
@@ -22,22 +20,18 @@ class BearingDrag(Table):
     type: Literal[
         "deep-groove-ball", "angular-contact-ball", "cylindrical-roller", "tapered-roller", "needle-roller"
     ]
-    mean_diameter: Annotated[float, InUnit(units.positive(units.LENGTH), "60 mm")] = Field(
-        description="(bore + outside)/2"
-    )
-    drag_factor: Positive | None = Field(None, description="f_0; default: by type, in an oil bath (Harris)")
-    count: Count = Field(2, description="bearings on the shaft")
+    mean_diameter: Annotated[float, InUnit(units.positive(units.LENGTH), "60 mm")]
+    drag_factor: Positive | None = None
+    count: Count = 2
 
 
 class LossFormulas(Table):
     """Which load-independent losses are added."""
 
-    churning: Literal["changenet-velex", "iso-14179-1"] | None = Field(None, description="formula")
-    windage: Literal["dawson", "anderson-loewenthal"] | None = Field(None, description="formula")
-    bearings: Literal["palmgren"] | None = Field(None, description="formula")
-    oil_volume: Annotated[float, InUnit(units.positive(units.VOLUME))] | None = Field(
-        None, description='in the sump, of churning = "changenet-velex"'
-    )
+    churning: Literal["changenet-velex", "iso-14179-1"] | None = None
+    windage: Literal["dawson", "anderson-loewenthal"] | None = None
+    bearings: Literal["palmgren"] | None = None
+    oil_volume: Annotated[float, InUnit(units.positive(units.VOLUME))] | None = None
 
     @property
     def any(self) -> bool:
@@ -48,10 +42,10 @@ class LossFormulas(Table):
 class LossesTable(LossFormulas):
     """Which load-independent losses are added, and what their formulas need."""
 
-    pinion_immersion: Depth = written("0 mm", description="of its tip circle below the oil's level")
-    gear_immersion: Depth = written("0 mm", description="of its tip circle below the oil's level")
-    pinion_bearings: BearingDrag | None = Field(None, description="of the pinion's shaft")
-    gear_bearings: BearingDrag | None = Field(None, description="of the gear's shaft")
+    pinion_immersion: Depth = written("0 mm")
+    gear_immersion: Depth = written("0 mm")
+    pinion_bearings: BearingDrag | None = None
+    gear_bearings: BearingDrag | None = None
 
 
 def losses_of(table: LossesTable | None) -> LossData | None:
@@ -131,18 +125,14 @@ _ESTIMATE = {"lubrication": "dip", "tip_relief_factor": 1.0}
 class TemperatureTable(Table):
     """Where the bulk temperature of the teeth comes from."""
 
-    model: Literal["oil", "iso", "network"] = Field(
-        "oil", description="the oil's; estimate of ISO/TR 15144-1; a lumped network of gears, oil and housing"
-    )
-    lubrication: Lubrication = Field("dip", description='how the oil reaches the mesh, of model = "iso"')
-    tip_relief_factor: Positive = Field(1.0, description='X_Ca, of model = "iso"')
-    pinion_oil: Conductance | None = Field(None, description="from the pinion's teeth to the oil")
-    gear_oil: Conductance | None = Field(None, description="from the gear's teeth to the oil")
-    oil_flow: Annotated[float, InUnit(units.positive(units.VOLUME_FLOW))] | None = Field(
-        None, description="of oil that enters at operating.oil_temperature and leaves"
-    )
-    oil_housing: Conductance | None = Field(None, description="from the oil to the housing")
-    housing_ambient: Conductance | None = Field(None, description="from the housing to ambient")
+    model: Literal["oil", "iso", "network"] = "oil"
+    lubrication: Lubrication = "dip"
+    tip_relief_factor: Positive = 1.0
+    pinion_oil: Conductance | None = None
+    gear_oil: Conductance | None = None
+    oil_flow: Annotated[float, InUnit(units.positive(units.VOLUME_FLOW))] | None = None
+    oil_housing: Conductance | None = None
+    housing_ambient: Conductance | None = None
     ambient_temperature: Annotated[float, InUnit(units.TEMPERATURE_KIND, "25 degC")] = written("20 degC")
 
 

@@ -42,25 +42,17 @@ class Sensor(Table):
 
     name: PartName
     kind: Literal["acceleration", "force", "housing", "ring", "encoder", "transmission-error", "torque"]
-    at: Text | None = Field(
-        None, description="body, point of the housing, mesh, stage or shaft; default: the only one"
-    )
-    direction: Literal["x", "y", "z"] = Field("y", description="of an acceleration or a force")
-    angle: Angle = written("90 deg", description="where it is at a ring, counter-clockwise from x")
-    window: Literal["hann", "hamming"] = Field("hann", description="how it hears planets that pass")
-    rate: Frequency = Field(description="samples per second")
-    filter: Literal["kaiser", "none"] = Field("kaiser", description="against aliases")
-    noise: Text | None = Field(
-        None, description="RMS, in a unit of what it measures", examples=["0.5 m/s**2"]
-    )
-    snr: Annotated[float, Field(strict=True, ge=-300.0, le=300.0)] | None = Field(
-        None, description="dB, in place of noise: signal over noise, RMS"
-    )
-    seed: Annotated[int, Field(strict=True, ge=0)] = Field(0, description="of the noise")
-    full_scale: Text | None = Field(None, description="magnitude at which it clips", examples=["50 m/s**2"])
-    bits: Annotated[int, Field(strict=True, ge=2, le=32)] | None = Field(
-        None, description="of its converter, over full_scale; default: exact"
-    )
+    at: Text | None = None
+    direction: Literal["x", "y", "z"] = "y"
+    angle: Angle = written("90 deg")
+    window: Literal["hann", "hamming"] = "hann"
+    rate: Frequency
+    filter: Literal["kaiser", "none"] = "kaiser"
+    noise: Text | None = Field(None, examples=["0.5 m/s**2"])
+    snr: Annotated[float, Field(strict=True, ge=-300.0, le=300.0)] | None = None
+    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    full_scale: Text | None = Field(None, examples=["50 m/s**2"])
+    bits: Annotated[int, Field(strict=True, ge=2, le=32)] | None = None
 
 
 class Mode(Table):
@@ -68,13 +60,9 @@ class Mode(Table):
 
     frequency: Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY), "1.2 kHz")]
     damping_ratio: Positive
-    mass: Annotated[float, InUnit(units.positive(units.MASS), "30 kg")] = Field(
-        description="modal, with the shape as given"
-    )
-    shape: dict[PartName, tuple[Number, ...]] = Field(
-        description="at bearings, by their bodies: x, y and, where given, z; of a planetary stage one number"
-    )
-    points: dict[PartName, Number] = Field(description="at points of sensors, in their directions")
+    mass: Annotated[float, InUnit(units.positive(units.MASS), "30 kg")]
+    shape: dict[PartName, tuple[Number, ...]]
+    points: dict[PartName, Number]
 
 
 class TransferTable(CurveTable):
@@ -94,11 +82,9 @@ class Transfer(Table):
     """A measured path from a bearing to a point."""
 
     point: PartName
-    at: Text = Field(description="bearing, by its body")
-    direction: Literal["x", "y", "z"] = Field(description="of the force on the bearing")
-    table: Annotated[TransferTable, csv_file("frequency", "real", "imaginary")] = Field(
-        description="acceleration of the point over the force"
-    )
+    at: Text
+    direction: Literal["x", "y", "z"]
+    table: Annotated[TransferTable, csv_file("frequency", "real", "imaginary")]
 
 
 class Housing(Table):

@@ -66,27 +66,19 @@ Frequencies = Annotated[
 class OscillatorSolver(Table):
     """The search for steady states."""
 
-    max_periods: Annotated[int, Field(strict=True, ge=24)] = Field(
-        600, description="of the excitation, marched at each frequency before a motion is called not periodic"
-    )
-    unstable: bool = Field(
-        False, description="continue branches beyond the ends of their stable parts, round folds"
-    )
+    max_periods: Annotated[int, Field(strict=True, ge=24)] = 600
+    unstable: bool = False
 
 
 class BacklashOscillatorScenario(ScenarioHead):
     """A scenario file of the oscillator with backlash; lengths in half backlashes, times in 1/ω_n."""
 
     kind: Literal["backlash-oscillator"]
-    damping: NotNegative = Field(description="ζ", examples=[0.05])
-    mean_force: NotNegative = Field(description="F_m", examples=[0.1])
-    error_amplitude: NotNegative = Field(description="F_e", examples=[0.05])
-    stiffness_variation: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=1)] = Field(
-        0.0, description="ε"
-    )
-    frequency: Frequencies = Field(
-        description="Ω: a list, or from, to and step; followed up and down", examples=[[0.7, 0.8]]
-    )
+    damping: NotNegative = Field(examples=[0.05])
+    mean_force: NotNegative = Field(examples=[0.1])
+    error_amplitude: NotNegative = Field(examples=[0.05])
+    stiffness_variation: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=1)] = 0.0
+    frequency: Frequencies = Field(examples=[[0.7, 0.8]])
     solver: OscillatorSolver = written({})
 
 

@@ -36,79 +36,52 @@ _Bounds = create_model(
 class FreeKey(_Bounds):
     """A key of the scenario that the search may change."""
 
-    key: Any = Field(
-        description="dotted key, or a list of keys that take the same value",
-        examples=["drive.pinion.modification.tip_relief"],
-    )
-    choices: tuple[Any, ...] | None = Field(
-        None, description="values to choose among, in place of from and to"
-    )
+    key: Any = Field(examples=["drive.pinion.modification.tip_relief"])
+    choices: tuple[Any, ...] | None = None
 
 
 class DesignDuty(Table):
     """One of several duties."""
 
     weight: Positive = 1.0
-    set: dict[str, Any] = Field(description='keys and their values: { "operating.gear_torque" = "100 N*m" }')
+    set: dict[str, Any]
 
 
 class ToleranceTable(Table):
     """A deviation that the designer cannot choose."""
 
-    key: Text = Field(
-        description="a key with a number, or pitch_errors", examples=["mesh.misalignment.in_plane"]
-    )
-    plus_minus: Any = Field(
-        None,
-        description="how far it goes to either side; none for a number of samples",
-        examples=["1 arcmin"],
-    )
-    distribution: Literal["uniform", "normal", "ends"] = Field(
-        "uniform", description="normal: plus_minus is three standard deviations; ends: both ends alone"
-    )
+    key: Text = Field(examples=["mesh.misalignment.in_plane"])
+    plus_minus: Any = Field(None, examples=["1 arcmin"])
+    distribution: Literal["uniform", "normal", "ends"] = "uniform"
 
 
 class DesignTable(Table):
     """What is free, what is sought, what must hold, and how it is searched."""
 
-    free: tuple[FreeKey, ...] = Field(description="keys that the search may change", min_length=0)
-    minimise: Any = Field(
-        None, description="a quantity; a list of { quantity, weight }; or two quantities for a front"
-    )
-    maximise: Text | None = Field(None, description="a quantity, in place of minimise")
-    subject_to: tuple[Text, ...] = Field(
-        (), description="what must hold", examples=[["contact_ratio >= 1.3"]]
-    )
-    part: dict[str, Any] | None = Field(
-        None, description="further scenarios by a name, evaluated with the drive of the first"
-    )
-    duty: tuple[DesignDuty, ...] = Field((), description="quantities are means over these")
+    free: tuple[FreeKey, ...] = Field(min_length=0)
+    minimise: Any = None
+    maximise: Text | None = None
+    subject_to: tuple[Text, ...] = Field((), examples=[["contact_ratio >= 1.3"]])
+    part: dict[str, Any] | None = None
+    duty: tuple[DesignDuty, ...] = ()
     over_duties: Literal["mean", "worst"] = "mean"
     tolerance: tuple[ToleranceTable, ...] = ()
     robust: RobustTable = written({})
     method: Literal["auto", *METHODS] = "auto"  # pyright: ignore[reportInvalidTypeForm]
-    evaluations: Annotated[int, Field(strict=True, ge=2, le=1_000_000)] = Field(
-        200, description="on the scenario's resolution, at most, of duties and samples together"
-    )
-    starts: Count = Field(2, description="local searches, from the best of the first evaluations")
+    evaluations: Annotated[int, Field(strict=True, ge=2, le=1_000_000)] = 200
+    starts: Count = 2
     seed: Annotated[int, Field(strict=True, ge=0)] = 0
-    points: Annotated[int, Field(strict=True, ge=3, le=1000)] = Field(7, description="of a front")
-    accuracy: Annotated[float, Field(strict=True, gt=0, lt=0.5)] = Field(
-        1e-3, description="of the values at the best, as a share of their ranges"
-    )
-    confirm: dict[str, Any] = Field(
-        default_factory=dict, description="keys and values of an evaluation of start and best on their own"
-    )
-    sensitivities: Switch = Field(True, description="whether each key is moved alone about the best")
+    points: Annotated[int, Field(strict=True, ge=3, le=1000)] = 7
+    accuracy: Annotated[float, Field(strict=True, gt=0, lt=0.5)] = 1e-3
+    confirm: dict[str, Any] = Field(default_factory=dict)
+    sensitivities: Switch = True
 
 
 class DesignScenario(ScenarioHead):
     """A scenario file of a search."""
 
     kind: Literal["design"]
-    scenario: Annotated[dict[str, Any], scenario_file()] = Field(
-        description="the scenario to search through: its name, or its tables"
-    )
+    scenario: Annotated[dict[str, Any], scenario_file()]
     design: DesignTable
 
 
@@ -129,19 +102,17 @@ def table_for(data: Mapping[str, Any]) -> type[Table]:
 def _around(base: type[Table] | None, parts: tuple[tuple[str, type[Table] | None], ...]) -> type[Table]:
     changed: dict[str, Any] = {}
     if base is not None:
-        about = DesignScenario.model_fields["scenario"].description
-        changed["scenario"] = (Annotated[base, scenario_file()], Field(description=about))
+        changed["scenario"] = (Annotated[base, scenario_file()], ...)
     if parts:
-        about = Field(description="further scenario")
         fields: dict[str, Any] = {
-            name: (Annotated[schema or dict[str, Any], scenario_file()], about) for name, schema in parts
+            name: (Annotated[schema or dict[str, Any], scenario_file()], ...) for name, schema in parts
         }
         of_parts: Any = create_model("DesignParts", __base__=Table, __doc__="Further scenarios.", **fields)
         design: Any = create_model(
             "DesignTable",
             __base__=DesignTable,
             __doc__=DesignTable.__doc__,
-            part=(of_parts, Field(description=DesignTable.model_fields["part"].description)),
+            part=(of_parts, ...),
         )
         changed["design"] = (design, ...)
     if not changed:

@@ -71,21 +71,11 @@ def estimate(case: EfficiencyCase) -> cost.Estimate:
 class EfficiencyMesh(Table):
     """How the pairs in contact share the load, and the compliance they share it by."""
 
-    compliance: Literal["energy", "fem", "constant"] = Field(
-        "energy",
-        description="what elastic load sharing goes by: the energy method; the load contact model on finite "
-        "elements, in which pairs touch beyond their path of contact as well; or the stiffness given",
-    )
-    stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
-    load_sharing: Literal["elastic", "uniform", "single-pair"] = Field(
-        "elastic",
-        description="by the compliances; equally; one pair about the pitch point. "
-        "Of the samples: the summary has all three",
-    )
-    hertz: Literal["linear", "load-dependent"] = Field("linear", description="contact part of the compliance")
-    foundation: Foundation = Field(
-        "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
-    )
+    compliance: Literal["energy", "fem", "constant"] = "energy"
+    stiffness: Stiffness | None = None
+    load_sharing: Literal["elastic", "uniform", "single-pair"] = "elastic"
+    hertz: Literal["linear", "load-dependent"] = "linear"
+    foundation: Foundation = "sainsot-velex"
     foundation_coupling: FoundationCoupling = True
     body: GearBodySupport = "free"
     deviation_sample: SampleNumber = None
@@ -97,11 +87,7 @@ class EfficiencyMesh(Table):
 class EfficiencyFriction(FrictionTable):
     """Which law acts between the flanks, and the law's own keys."""
 
-    rolling_speeds: Literal["exact", "lever-arms"] = Field(
-        "exact",
-        description="along the flanks: exact, or angular speed times lever arm as Veciana et al. have it, "
-        "without the motion of the contact along its path and its averaging at the pitch point",
-    )
+    rolling_speeds: Literal["exact", "lever-arms"] = "exact"
 
 
 class EfficiencyOutput(Table):

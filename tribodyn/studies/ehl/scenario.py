@@ -21,9 +21,7 @@ from tribodyn.tribology.law import FilmData
 class EhlMesh(Table):
     """By what compliance the pairs in contact share the load."""
 
-    compliance: Literal["energy", "fem"] = Field(
-        "energy", description="by which the pairs share the load: the energy method, or finite elements"
-    )
+    compliance: Literal["energy", "fem"] = "energy"
 
 
 def loads_of_record(path: Path, key: str) -> dict[str, Any]:
@@ -69,27 +67,16 @@ LOADS = csv_file("roll_angle", "normal_load", record=loads_of_record)
 class EhlContact(Table):
     """How the contact is solved."""
 
-    transient: Switch = Field(
-        False,
-        description="also solve the pair's way with squeeze, the film of one position carried to the next",
-    )
-    loads: Annotated[LoadCurve, LOADS] | None = Field(
-        None, description="of the pair over its way: a record's, or a table; default: quasi-static"
-    )
-    face_position: Annotated[float, InUnit(units.LENGTH, "8 mm")] = written(
-        "0 mm", description="of a helical pair: section that is followed, from the middle of the face"
-    )
-    step: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.02, le=0.5)] = Field(
-        STEP, description="of the grid, over the distance from inlet and end of the film"
-    )
+    transient: Switch = False
+    loads: Annotated[LoadCurve, LOADS] | None = None
+    face_position: Annotated[float, InUnit(units.LENGTH, "8 mm")] = written("0 mm")
+    step: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.02, le=0.5)] = STEP
 
 
 class EhlOutput(Table):
     """What is recorded."""
 
-    positions: Annotated[int, Field(strict=True, ge=4)] = Field(
-        40, description="of the pair, from the beginning to the end of its contact"
-    )
+    positions: Annotated[int, Field(strict=True, ge=4)] = 40
 
 
 class EhlScenario(GearScenario):

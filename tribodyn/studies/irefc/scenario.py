@@ -16,16 +16,10 @@ from tribodyn.studies.irefc.geometry import RollingDrive
 class RollingDriveTable(Described):
     """A gear with rolling elements (`models/drives/`)."""
 
-    pitch_radius: Annotated[float, InUnit(units.positive(units.LENGTH), "20 mm")] = Field(
-        description='r_2, of the cage\'s pitch circle, the "generating circle"'
-    )
-    elements: Annotated[int, Field(strict=True, gt=0, le=200)] = Field(
-        description="Z_2, number of rolling elements"
-    )
-    displacement: Positive = Field(
-        description="χ, radius of the circle of the elements' centres over pitch_radius"
-    )
-    element_radius: Annotated[float, InUnit(units.positive(units.LENGTH), "2 mm")] = Field(description="r_b")
+    pitch_radius: Annotated[float, InUnit(units.positive(units.LENGTH), "20 mm")]
+    elements: Annotated[int, Field(strict=True, gt=0, le=200)]
+    displacement: Positive
+    element_radius: Annotated[float, InUnit(units.positive(units.LENGTH), "2 mm")]
 
 
 class RollingOperating(Table):
@@ -38,27 +32,21 @@ class RollingOperating(Table):
 class RollingFrictionTable(Table):
     """Friction between the elements and both profiles."""
 
-    rolling_arm: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.01 mm")] = Field(
-        description="μ, lever arm of rolling resistance"
-    )
-    sliding_coefficient: NotNegative = Field(description="f_s, of the slip over the cam")
+    rolling_arm: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.01 mm")]
+    sliding_coefficient: NotNegative
 
 
 class RollingOutput(Table):
     """What is recorded: one revolution of the shaft."""
 
-    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = Field(
-        40, description="while an element takes its neighbour's place"
-    )
+    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 40
 
 
 class RollingScenario(ScenarioHead):
     """A scenario file of a gear with rolling elements."""
 
     kind: Literal["irefc"]
-    mode: Literal["corrected", "as_published"] = Field(
-        "corrected", description="motion in time, or the paper's position with its printed formulas"
-    )
+    mode: Literal["corrected", "as_published"] = "corrected"
     drive: Annotated[RollingDriveTable, model_file("drives")]
     operating: RollingOperating
     friction: RollingFrictionTable

@@ -38,9 +38,7 @@ Load = Annotated[float, InUnit(units.positive(units.TORQUE))]
 class LoadContactOperating(OiledOperatingTable):
     """The load, against the gear's motion; a speed only where the load is given as power, or for the film."""
 
-    gear_torques: tuple[Load, ...] = Field(
-        (), max_length=1000, description="of the Harris map, in increasing order"
-    )
+    gear_torques: tuple[Load, ...] = Field((), max_length=1000)
 
 
 class LoadContactMesh(Table):
@@ -49,7 +47,7 @@ class LoadContactMesh(Table):
     slices: FaceSlices = None
     slice_coupling: SliceCoupling = True
     body: GearBodySupport = "free"
-    friction_coefficient: NotNegative = Field(0.0, description="of all pairs")
+    friction_coefficient: NotNegative = 0.0
     deviation_sample: SampleNumber = None
     misalignment: MisalignmentTable = written({})
 
@@ -58,7 +56,7 @@ class LoadContactOutput(Table):
     """What is recorded."""
 
     positions_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 60
-    cycles: Count = Field(1, description="mesh cycles; more than one where teeth differ")
+    cycles: Count = 1
 
 
 class LoadContactScenario(GearScenario):
@@ -67,7 +65,7 @@ class LoadContactScenario(GearScenario):
     internal_gears: ClassVar[bool] = True
     driving_rings: ClassVar[bool] = False
     kind: Literal["load-contact"]
-    lubricant: Oil | None = Field(None, description="for the film over the face; default: none is computed")
+    lubricant: Oil | None = None
     operating: LoadContactOperating
     bearings: MatrixKeys = None
     shaft: ShaftKeys = None

@@ -58,13 +58,9 @@ class WearTable(LawTable):
     laws = WEAR_LAWS
     automatic = False
     law: Text = "priest-taylor"
-    revolutions: Positive = Field(description="of the pinion, to the end of the run")
-    teeth: Literal["alike", "each"] = Field(
-        "alike", description="whether all teeth wear like their mean, or each with the mates that it meets"
-    )
-    load_change: Annotated[float, Field(strict=True, gt=0.0, le=0.2)] = Field(
-        0.02, description="share of the largest load by which a step may move that of any place"
-    )
+    revolutions: Positive
+    teeth: Literal["alike", "each"] = "alike"
+    load_change: Annotated[float, Field(strict=True, gt=0.0, le=0.2)] = 0.02
 
 
 class WearFriction(FrictionTable):
@@ -74,10 +70,8 @@ class WearFriction(FrictionTable):
 class RunningInTable(Table):
     """How the roughness of new flanks falls in running in."""
 
-    roughness_share: Annotated[float, Field(strict=True, gt=0.0, le=1.0)] = Field(
-        description="roughness after running in over that of new flanks"
-    )
-    revolutions: Positive = Field(description="of the pinion, in which all but 1/e of it happens")
+    roughness_share: Annotated[float, Field(strict=True, gt=0.0, le=1.0)]
+    revolutions: Positive
 
 
 class WearMesh(Table):
@@ -95,9 +89,7 @@ class WearOutput(Table):
     """What is recorded."""
 
     positions_per_cycle: Annotated[int, Field(strict=True, ge=12)] = 60
-    every: Positive | None = Field(
-        None, description="revolutions of the pinion between two records; default: a twentieth of the run"
-    )
+    every: Positive | None = None
 
 
 class WearScenario(GearScenario):
@@ -106,15 +98,15 @@ class WearScenario(GearScenario):
     internal_gears: ClassVar[bool] = True
 
     kind: Literal["wear"]
-    lubricant: Oil | None = Field(None, description="default: the flanks run without a film")
+    lubricant: Oil | None = None
     operating: OiledOperatingTable
     wear: WearTable
-    running_in: RunningInTable | None = Field(None, description="default: the roughness stays")
+    running_in: RunningInTable | None = None
     bearings: MatrixKeys = None
     shaft: ShaftKeys = None
     mesh: WearMesh = written({})
     film: FilmKeys = None
-    friction: WearFriction | None = Field(None, description="default: none")
+    friction: WearFriction | None = None
     output: WearOutput = written({})
 
 

@@ -50,43 +50,27 @@ class MissingTable(Columns):
 class DamageTable(Table):
     """Damage of one tooth."""
 
-    gear: Text = Field(description="name of the gear", examples=["pinion"])
-    tooth: Annotated[int, Field(strict=True)] = Field(
-        description="from 1, in the order in which they mesh", examples=[5]
-    )
-    kind: Literal["crack", "spall", "pit", "broken-tip", "scuffing"] = Field(description="what it is")
-    flank: Literal["leading", "trailing"] | None = Field(
-        None, description="leading: it drives; default: the one that is loaded in the gear's first mesh"
-    )
-    depth: _Length | None = Field(None, description="of a crack along itself, of what is missing normally")
-    angle: Annotated[float, InUnit(units.positive(units.ANGLE_KIND), "60 deg")] | None = Field(
-        None, description="of a crack to the tooth's axis; default: normal to the fillet"
-    )
-    tangent: Annotated[float, InUnit(units.positive(units.ANGLE_KIND), "30 deg")] | None = Field(
-        None, description="angle of the fillet to the tooth's axis where a crack starts; default: 30 deg"
-    )
-    deepest: Literal["+z", "-z"] | None = Field(
-        None, description="end at which a crack is deepest; default: equally deep"
-    )
-    height: Number | None = Field(
-        None, description="of the middle on the path of contact, 0 at the root's end, 1 at the tip's"
-    )
-    radius: _Length | None = Field(None, description="of the middle, in place of height")
-    length: _Length | None = Field(None, description="along the profile")
-    width: _Length | None = Field(None, description="along the face; default: the whole face")
-    face: Annotated[float, InUnit(units.LENGTH, "0 mm")] = written(
-        "0 mm", description="of the middle, from the middle of the face"
-    )
-    diameter: _Length | None = Field(None, description="of a pit")
-    shape: Literal["rectangle", "ellipse"] | None = Field(None, description="default: a rectangle")
-    edge: _Length | None = Field(None, description="over which it begins; default: 0.2 mm")
-    factor: Positive | None = Field(None, description="on the coefficient of friction")
-    map: Annotated[MissingTable, csv_file("height", "face", "depth")] | None = Field(
-        None, description="measured depth, in place of a patch"
-    )
+    gear: Text = Field(examples=["pinion"])
+    tooth: Annotated[int, Field(strict=True)] = Field(examples=[5])
+    kind: Literal["crack", "spall", "pit", "broken-tip", "scuffing"]
+    flank: Literal["leading", "trailing"] | None = None
+    depth: _Length | None = None
+    angle: Annotated[float, InUnit(units.positive(units.ANGLE_KIND), "60 deg")] | None = None
+    tangent: Annotated[float, InUnit(units.positive(units.ANGLE_KIND), "30 deg")] | None = None
+    deepest: Literal["+z", "-z"] | None = None
+    height: Number | None = None
+    radius: _Length | None = None
+    length: _Length | None = None
+    width: _Length | None = None
+    face: Annotated[float, InUnit(units.LENGTH, "0 mm")] = written("0 mm")
+    diameter: _Length | None = None
+    shape: Literal["rectangle", "ellipse"] | None = None
+    edge: _Length | None = None
+    factor: Positive | None = None
+    map: Annotated[MissingTable, csv_file("height", "face", "depth")] | None = None
 
 
-Damages = Annotated[tuple[DamageTable, ...], Field(max_length=MOST_DAMAGE, description="of single teeth")]
+Damages = Annotated[tuple[DamageTable, ...], Field(max_length=MOST_DAMAGE)]
 
 
 class GearPlace(NamedTuple):

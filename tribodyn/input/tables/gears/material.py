@@ -17,9 +17,9 @@ OWN_VALUES = "own values"
 class Described(quantity.Table):
     """What every model begins with; a table in a scenario may leave it out."""
 
-    title: quantity.Text = Field(OWN_VALUES, description="what it is, in a line")
-    source: quantity.Text = Field("not stated", description="where the numbers come from")
-    assumptions: quantity.Text = Field("", description="what the source does not give and was chosen here")
+    title: quantity.Text = OWN_VALUES
+    source: quantity.Text = "not stated"
+    assumptions: quantity.Text = ""
 
 
 class Material(Described):
@@ -30,22 +30,12 @@ class Material(Described):
     density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY))]
     thermal_conductivity: Annotated[float, quantity.InUnit(units.positive(units.CONDUCTIVITY))]
     specific_heat: Annotated[float, quantity.InUnit(units.positive(units.SPECIFIC_HEAT))]
-    hardness: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "7 GPa")] = Field(
-        description="Vickers hardness as a pressure"
-    )
-    treatment: Treatment | None = Field(
-        None, description="heat treatment by ISO 6336-5; needed for safeties against pitting and bending"
-    )
-    grade: Grade = Field("MQ", description="quality of the material by ISO 6336-5")
-    contact_stress_limit: Strength | None = Field(
-        None, description="σ_Hlim; default: by treatment, grade and hardness"
-    )
-    bending_stress_limit: Strength | None = Field(
-        None, description="σ_Flim; default: by treatment, grade and hardness"
-    )
-    yield_strength: Strength | None = Field(
-        None, description="of the root, of through-hardened steel; default: from the hardness"
-    )
+    hardness: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "7 GPa")]
+    treatment: Treatment | None = None
+    grade: Grade = "MQ"
+    contact_stress_limit: Strength | None = None
+    bending_stress_limit: Strength | None = None
+    yield_strength: Strength | None = None
 
 
 MaterialReference = Annotated[Material, quantity.model_file("materials")]

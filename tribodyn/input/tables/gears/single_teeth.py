@@ -29,12 +29,7 @@ from tribodyn.standards.flank_tolerances import FlankTolerances
 #: Error of a tooth over the module, at most.
 LARGEST = 0.25
 
-ToothSampleNumber = Annotated[
-    Annotated[int, Field(strict=True, ge=0, le=2**31 - 1), Draws()] | None,
-    Field(
-        description="number of the sample of deviations of every tooth, drawn from the quality; default: none"
-    ),
-]
+ToothSampleNumber = Annotated[int, Field(strict=True, ge=0, le=2**31 - 1), Draws()] | None
 
 
 #: Flanks with which a gear carries in its meshes, one or both.

@@ -20,54 +20,32 @@ KinematicViscosity = Annotated[float, quantity.InUnit(units.positive(units.KINEM
 class Lubricant(Described):
     """A lubricant (`models/lubricants/`): by its data sheet, or by the numbers that the laws read."""
 
-    type: oil.OilType | None = Field(None, description="base oil; needed with a data sheet")
-    viscosity_40: KinematicViscosity | None = Field(None, description="kinematic, at 40 °C")
+    type: oil.OilType | None = None
+    viscosity_40: KinematicViscosity | None = None
     viscosity_100: (
         Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
-    ) = Field(None, description="kinematic, at 100 °C")
-    density_15: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = (
-        Field(None, description="at 15 °C")
-    )
-    asperity_friction: quantity.NotNegative | None = Field(None, description="f_c; default: by type")
-    limiting_shear_coefficient: quantity.Positive | None = Field(None, description="Λ_lim; default: by type")
-    inlet_viscosity: Annotated[float, quantity.InUnit(units.positive(units.VISCOSITY))] | None = Field(
-        None, description="dynamic; without a data sheet"
-    )
+    ) = None
+    density_15: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = None
+    asperity_friction: quantity.NotNegative | None = None
+    limiting_shear_coefficient: quantity.Positive | None = None
+    inlet_viscosity: Annotated[float, quantity.InUnit(units.positive(units.VISCOSITY))] | None = None
     pressure_viscosity: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE_VISCOSITY))] | None = (
-        Field(None, description="default: by type and viscosity")
+        None
     )
-    viscosity_pressure_index: quantity.Positive | None = Field(
-        None, description="z of Roelands' law; default: from pressure_viscosity and viscosity"
-    )
+    viscosity_pressure_index: quantity.Positive | None = None
     temperature_viscosity: Annotated[float, quantity.InUnit(units.not_negative(units.PER_KELVIN))] | None = (
-        Field(None, description="default: slope of the viscosity over temperature")
+        None
     )
-    density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
-        None, description="at the oil's temperature; default: from density_15"
-    )
-    load_exponent: quantity.NotNegative | None = Field(
-        None,
-        description="d of Niemann's lubricant factor; default: 0 with a type, else 0.0651, mineral oil 75W90 "
-        "(Diez-Ibarbia et al.)",
-    )
-    lubricant_factor: quantity.Positive | None = Field(
-        None, description="X_L of Niemann and of ISO/TR 15144-1; default: by type, else 1"
-    )
-    schlenk_factor: quantity.Positive | None = Field(
-        None, description="X_L of Schlenk; default: by type, else that of mineral oil"
-    )
-    fzg_scuffing_stage: Annotated[int, Field(strict=True, ge=1, le=14)] | None = Field(
-        None, description="failure load stage of the FZG scuffing test A/8.3/90"
-    )
-    fzg_micropitting_stage: Annotated[int, Field(strict=True, ge=5, le=11)] | None = Field(
-        None, description="failure load stage of the FZG micropitting test C-GF/8.3"
-    )
+    density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "870 kg/m**3")] | None = None
+    load_exponent: quantity.NotNegative | None = None
+    lubricant_factor: quantity.Positive | None = None
+    schlenk_factor: quantity.Positive | None = None
+    fzg_scuffing_stage: Annotated[int, Field(strict=True, ge=1, le=14)] | None = None
+    fzg_micropitting_stage: Annotated[int, Field(strict=True, ge=5, le=11)] | None = None
     fzg_micropitting_temperature: Annotated[float, quantity.InUnit(units.TEMPERATURE_KIND, "90 degC")] = (
-        quantity.written("90 degC", description="oil temperature of that test")
+        quantity.written("90 degC")
     )
-    viscosity_law: ViscosityLaw | None = Field(
-        None, description="how viscosity rises with pressure in the solved contact; default: by type"
-    )
+    viscosity_law: ViscosityLaw | None = None
 
 
 #: What is taken for an oil: densities at 15 °C, kg/m³, and the kinematic viscosity at 40 °C at most, m²/s.

@@ -30,33 +30,27 @@ Pressure = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "1 G
 class ViscosityLaw(quantity.Table):
     """Constants of a measured oil's published law; viscosity at ambient pressure is the data sheet's."""
 
-    model: Model = Field("by-type", description="whose constants follow, or how to do without any")
-    a1: Kelvins | None = Field(None, description="A1 of both Yasutomi laws")
-    a2: PerPascal | None = Field(None, description="A2 of both Yasutomi laws")
-    b1: PerPascal | None = Field(None, description="b1 of improved-yasutomi")
-    b2: Annotated[float, Field(strict=True, ge=-5.0, le=0.0)] | None = Field(
-        None, description="b2 of improved-yasutomi"
-    )
-    log_factor: quantity.Positive | None = Field(None, description="B1 of yasutomi")
-    log_pressure: PerPascal | None = Field(None, description="B2 of yasutomi")
-    c1: quantity.Positive | None = Field(None, description="C1 of both Yasutomi laws")
-    c2: Kelvins | None = Field(None, description="C2 of both Yasutomi laws")
-    glass_temperature: Temperature | None = Field(
-        None, description="T_g0 of both Yasutomi laws, at ambient pressure"
-    )
-    free_volume_factor: quantity.Positive | None = Field(None, description="B of doolittle-tait")
-    occupied_share: Annotated[float, Field(strict=True, gt=0.0, lt=1.0)] | None = Field(
-        None, description="R0 of doolittle-tait, at reference_temperature"
-    )
-    occupied_expansion: SignedPerKelvin | None = Field(None, description="ε of doolittle-tait")
-    reference_temperature: Temperature | None = Field(None, description="T_R of doolittle-tait")
-    expansion: PerKelvin | None = Field(None, description="a_V of doolittle-tait")
-    bulk_modulus: Pressure | None = Field(None, description="K_00 of doolittle-tait, at 0 K")
-    bulk_modulus_decay: PerKelvin | None = Field(None, description="β_K of doolittle-tait")
-    bulk_modulus_slope: quantity.Positive | None = Field(None, description="K' of doolittle-tait")
-    maximum_pressure: Pressure | None = Field(None, description="up to which the viscosity was measured")
-    minimum_temperature: Temperature | None = Field(None, description="from which on it was measured")
-    maximum_temperature: Temperature | None = Field(None, description="up to which it was measured")
+    model: Model = "by-type"
+    a1: Kelvins | None = None
+    a2: PerPascal | None = None
+    b1: PerPascal | None = None
+    b2: Annotated[float, Field(strict=True, ge=-5.0, le=0.0)] | None = None
+    log_factor: quantity.Positive | None = None
+    log_pressure: PerPascal | None = None
+    c1: quantity.Positive | None = None
+    c2: Kelvins | None = None
+    glass_temperature: Temperature | None = None
+    free_volume_factor: quantity.Positive | None = None
+    occupied_share: Annotated[float, Field(strict=True, gt=0.0, lt=1.0)] | None = None
+    occupied_expansion: SignedPerKelvin | None = None
+    reference_temperature: Temperature | None = None
+    expansion: PerKelvin | None = None
+    bulk_modulus: Pressure | None = None
+    bulk_modulus_decay: PerKelvin | None = None
+    bulk_modulus_slope: quantity.Positive | None = None
+    maximum_pressure: Pressure | None = None
+    minimum_temperature: Temperature | None = None
+    maximum_temperature: Temperature | None = None
 
 
 _LIMITS = ("maximum_pressure", "minimum_temperature", "maximum_temperature")

@@ -25,36 +25,26 @@ class Rolling(Table):
     """The rolling bearings of a shaft, from whose type, size and load the stiffness follows."""
 
     type: BearingType
-    elements: Annotated[int, Field(strict=True, ge=3, le=1000)] = Field(description="rolling elements")
-    diameter: Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")] | None = Field(
-        None, description="of a ball"
-    )
-    length: Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")] | None = Field(
-        None, description="effective, of a roller"
-    )
+    elements: Annotated[int, Field(strict=True, ge=3, le=1000)]
+    diameter: Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")] | None = None
+    length: Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")] | None = None
     contact_angle: Annotated[float, InUnit(units.not_negative(units.ANGLE_KIND), "15 deg")] = written("0 deg")
-    radial_load: Annotated[float, InUnit(units.positive(units.FORCE))] = Field(description="of one bearing")
-    count: Count = Field(2, description="bearings that carry the shaft")
+    radial_load: Annotated[float, InUnit(units.positive(units.FORCE))]
+    count: Count = 2
 
 
 class Bearing(Table):
     """Shaft and bearing of one gear: stiffness given, or from the rolling bearings alone."""
 
-    stiffness_x: Stiffness | None = Field(None, description="along the pitch tangent")
-    stiffness_y: Stiffness | None = Field(None, description="along the line of centres")
-    rolling: Rolling | None = Field(None, description="in place of the stiffness")
-    stiffness_axial: Stiffness | None = Field(
-        None, description="of helical gears; default: the smaller of x and y"
-    )
-    stiffness_tilt: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
-        None, description="against tilts of helical gears; default: of two bearings at the span"
-    )
-    span: Annotated[float, InUnit(units.positive(units.LENGTH), "100 mm")] | None = Field(
-        None, description="distance of the bearings of helical gears; default: twice the face width"
-    )
+    stiffness_x: Stiffness | None = None
+    stiffness_y: Stiffness | None = None
+    rolling: Rolling | None = None
+    stiffness_axial: Stiffness | None = None
+    stiffness_tilt: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = None
+    span: Annotated[float, InUnit(units.positive(units.LENGTH), "100 mm")] | None = None
     matrix: Rows = None
     matrix_units: MatrixUnits = None
-    damping_ratio: NotNegative | None = Field(None, description="of both axes")
+    damping_ratio: NotNegative | None = None
     damping_ratio_x: NotNegative | None = None
     damping_ratio_y: NotNegative | None = None
 

@@ -59,47 +59,33 @@ class SectionOfShaft(Table):
     """A stretch of a shaft with one section; they follow each other from the end at smaller z."""
 
     length: Size
-    diameter: Size = Field(description="outer")
-    bore: Place = written("0 mm", description="diameter of its bore")
+    diameter: Size
+    bore: Place = written("0 mm")
 
 
 class BearingOfShaft(Table):
     """A bearing of a shaft: a rolling bearing by type and size, springs, or a matrix."""
 
-    position: Place = Field(description="of its middle, from the start of the shaft")
-    type: DrawnType | None = Field(None, description="of a rolling bearing; its sizes then")
-    elements: Annotated[int, Field(strict=True, ge=3, le=1000)] | None = Field(
-        None, description="Z, rolling elements"
-    )
-    element_diameter: Size | None = Field(None, description="of a ball; of a roller, in its middle")
-    pitch_diameter: Size | None = Field(None, description="of the circle through their middles")
-    roller_length: Size | None = Field(None, description="effective, of a roller")
-    contact_angle: Annotated[float, InUnit(units.positive(units.ANGLE_KIND), "14 deg")] | None = Field(
-        None, description="of the outer raceway, of a tapered roller bearing"
-    )
-    thrust: Literal["+z", "-z"] | None = Field(
-        None, description="direction in which the shaft can push against a tapered roller bearing"
-    )
-    clearance: Fit = written("0 um", description="radial (diametral), mounted; negative: preload")
-    preload: Fit = written("0 um", description="of a tapered roller bearing, axial, as a displacement")
-    locating: Switch = Field(True, description="false: its outer ring slides along its housing")
-    dynamic_rating: Rating | None = Field(None, description="C, of its catalogue; for the life")
-    static_rating: Rating | None = Field(None, description="C_0, of its catalogue")
-    fatigue_load_limit: Rating | None = Field(
-        None, description="C_u, of its catalogue; default: from C_0, simplified (ISO 281)"
-    )
-    contamination_factor: Annotated[float, Field(strict=True, gt=0, le=1)] | None = Field(
-        None, description="e_C of ISO 281, of oil and particles; for the modified life"
-    )
-    static_factor: Positive | None = Field(None, description="f_0 of ISO 76, of balls; default: 14")
-    stiffness_x: Stiffness | None = Field(
-        None, description="of springs in place of a rolling bearing; default: none"
-    )
-    stiffness_y: Stiffness | None = Field(None, description="default: none")
-    stiffness_axial: Stiffness | None = Field(None, description="default: none")
-    stiffness_tilt: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
-        None, description="about x and y; default: none"
-    )
+    position: Place
+    type: DrawnType | None = None
+    elements: Annotated[int, Field(strict=True, ge=3, le=1000)] | None = None
+    element_diameter: Size | None = None
+    pitch_diameter: Size | None = None
+    roller_length: Size | None = None
+    contact_angle: Annotated[float, InUnit(units.positive(units.ANGLE_KIND), "14 deg")] | None = None
+    thrust: Literal["+z", "-z"] | None = None
+    clearance: Fit = written("0 um")
+    preload: Fit = written("0 um")
+    locating: Switch = True
+    dynamic_rating: Rating | None = None
+    static_rating: Rating | None = None
+    fatigue_load_limit: Rating | None = None
+    contamination_factor: Annotated[float, Field(strict=True, gt=0, le=1)] | None = None
+    static_factor: Positive | None = None
+    stiffness_x: Stiffness | None = None
+    stiffness_y: Stiffness | None = None
+    stiffness_axial: Stiffness | None = None
+    stiffness_tilt: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = None
     matrix: Rows = None
     matrix_units: MatrixUnits = None
 
@@ -108,9 +94,9 @@ class DrawnShaft(Table):
     """A shaft as drawn, straight along z, and its bearings in a stiff housing."""
 
     section: tuple[SectionOfShaft, ...] = Field(min_length=1, max_length=200)
-    gear_position: Place = Field(description="of the middle of the gear's face, from the start of the shaft")
+    gear_position: Place
     bearing: tuple[BearingOfShaft, ...] = Field(min_length=1, max_length=20)
-    damping_ratio: NotNegative = Field(0.05, description="of every motion of the gear on its shaft")
+    damping_ratio: NotNegative = 0.05
     youngs_modulus: Annotated[float, InUnit(units.positive(units.PRESSURE))] = written("206 GPa")
     poisson_ratio: Annotated[float, Field(strict=True, ge=0, lt=0.5)] = 0.3
 
@@ -119,17 +105,13 @@ class Shaft(LinkTable):
     """Gears that turn together: one rigid body, or two bodies with a torsional spring between them."""
 
     name: PartName
-    gears: tuple[Text, ...] = Field(
-        min_length=1, description="that turn together; two on a compliant shaft, one on one that is drawn"
-    )
-    drawn: DrawnShaft | None = Field(None, description="of one gear between its bearings: how it bends")
-    stiffness: TorsionalStiffness | None = Field(None, description="torsional; default: rigid")
-    damping: TorsionalDamping = written("0 N*m*s/rad", description="of a compliant shaft")
-    damping_ratio: NotNegative = Field(0.0, description="of a compliant shaft, of its two gears against it")
-    mass: Annotated[float, InUnit(units.not_negative(units.MASS))] = written(
-        "0 kg", description="of the shaft; a compliant one's is halved"
-    )
-    inertia: Inertia = written("0 kg*m**2", description="of the shaft; a compliant one's is halved")
+    gears: tuple[Text, ...] = Field(min_length=1)
+    drawn: DrawnShaft | None = None
+    stiffness: TorsionalStiffness | None = None
+    damping: TorsionalDamping = written("0 N*m*s/rad")
+    damping_ratio: NotNegative = 0.0
+    mass: Annotated[float, InUnit(units.not_negative(units.MASS))] = written("0 kg")
+    inertia: Inertia = written("0 kg*m**2")
 
 
 class DrawnShafts(Table):

@@ -1,23 +1,16 @@
 """A stiffness matrix of a support, as a rotor or a finite element program gives it."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
-from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.input.quantity import Number
 from tribodyn.numerics.shapes import Array, Float
 
-Rows = Annotated[
-    tuple[tuple[Number, ...], ...] | None,
-    Field(description="forces over displacements x, y, z, tilts about x and y, rotation about z"),
-]
-MatrixUnits = Annotated[
-    Literal["N, m, rad", "N, mm, rad"] | None,
-    Field(description="in which the matrix is written: of forces and moments, displacements and angles"),
-]
+Rows = tuple[tuple[Number, ...], ...] | None
+MatrixUnits = Literal["N, m, rad", "N, mm, rad"] | None
 _ROWS = 6
 #: Difference of two elements that should be equal, and a negative eigenvalue, over the largest: of printed
 #: digits.

@@ -42,35 +42,19 @@ LAYOUT = Layout(ROLL, SAMPLES, groups={"geometry": GEOMETRY})
 class AssessmentTable(AssessedTable):
     """What is asked beyond the duty, and what the standards need to know."""
 
-    standard: Literal["iso", "agma"] = Field(
-        "iso", description="agma: rates the pair by AGMA 2101 too, beside ISO 6336"
-    )
-    torque_shares: tuple[Positive, ...] = Field(
-        (0.25, 0.5, 0.75, 1.0, 1.25),
-        min_length=2,
-        max_length=50,
-        description="torques of the loaded error over the duty's, increasing",
-    )
-    speed_range: tuple[Positive, Positive] = Field(
-        (0.2, 2.5), description="first and last speed of the steady states over the duty's"
-    )
-    speeds: Annotated[int, Field(strict=True, ge=8)] = Field(
-        46, description="steady states over that range, besides the duty's"
-    )
-    samples: Annotated[int, Field(strict=True, ge=0, le=1000)] = Field(
-        16, description="of what is not known, for the scatter of the quantities; 0: none"
-    )
-    seed: Annotated[int, Field(strict=True, ge=0, le=10**9)] = Field(
-        1, description="of the samples; their deviations are numbered from it"
-    )
+    standard: Literal["iso", "agma"] = "iso"
+    torque_shares: tuple[Positive, ...] = Field((0.25, 0.5, 0.75, 1.0, 1.25), min_length=2, max_length=50)
+    speed_range: tuple[Positive, Positive] = (0.2, 2.5)
+    speeds: Annotated[int, Field(strict=True, ge=8)] = 46
+    samples: Annotated[int, Field(strict=True, ge=0, le=1000)] = 16
+    seed: Annotated[int, Field(strict=True, ge=0, le=10**9)] = 1
     unknowns: UnknownsTable = written({})
     friction_laws: tuple[Text, ...] = Field(
         (AUTO, "masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),
         min_length=1,
         max_length=10,
-        description="the first for everything, the others for the spread of the losses",
     )
-    damping_ratio: NotNegative = Field(0.05, description="of the mesh")
+    damping_ratio: NotNegative = 0.05
 
 
 @dataclass(frozen=True, kw_only=True)

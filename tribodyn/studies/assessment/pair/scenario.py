@@ -4,8 +4,6 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.gears.rating.american import broken_agma
 from tribodyn.gears.rating.capacity import required
@@ -45,7 +43,7 @@ KIND = "assessment"
 class AssessmentOperating(OperatingTable):
     """Speed, load, and the oil's temperature."""
 
-    oil_temperature: Temperature = Field(description="where the oil enters the mesh")
+    oil_temperature: Temperature
 
 
 class AssessmentMesh(Table):
@@ -58,10 +56,8 @@ class AssessmentMesh(Table):
 class AssessmentLimits(OilLimits):
     """What must hold: red on the first page where it does not. One that is not given is not judged."""
 
-    root_tension: Pressure | None = Field(None, description="maximum in either fillet, of the simulation")
-    loaded_error: Length | None = Field(
-        None, description="maximum peak to peak of the loaded transmission error"
-    )
+    root_tension: Pressure | None = None
+    loaded_error: Length | None = None
 
 
 class AssessmentScenario(GearScenario):
@@ -75,10 +71,8 @@ class AssessmentScenario(GearScenario):
     shaft: ShaftKeys = None
     operating: AssessmentOperating
     mesh: AssessmentMesh = written({})
-    temperature: TemperatureTable | None = Field(
-        None, description="bulk temperature of the teeth; default: the estimate of ISO/TR 15144-1"
-    )
-    losses: LossesTable | None = Field(None, description="load-independent losses; default: none")
+    temperature: TemperatureTable | None = None
+    losses: LossesTable | None = None
     assessment: AssessmentTable = written({})
     limits: AssessmentLimits = written({})
 

@@ -39,19 +39,10 @@ AnyCase = TypeVar("AnyCase", bound=GearCase)
 class UnknownsTable(Table):
     """What is not known, and how far it may be from what the scenario says; what is known has no range."""
 
-    deviations: Switch = Field(True, description="whether the teeth deviate within their tolerance class")
-    bearings: Annotated[float, Field(strict=True, ge=1.0, le=100.0)] = Field(
-        round(CLASS, 1),
-        description="factor up and down of the stiffness of each gear's bearings: 4.5, a class of "
-        "models/bearings; 1: they are known, as those of drawn shafts are",
-    )
-    damping_ratio: tuple[NotNegative, NotNegative] | None = Field(
-        None, description="of the mesh, lowest and highest; default: 0.6 and 2 times the ratio that is given"
-    )
-    centre_distance: Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 um")] | None = Field(
-        None,
-        description="tolerance of an involute's, up and down; default: the drive's js class, else js7",
-    )
+    deviations: Switch = True
+    bearings: Annotated[float, Field(strict=True, ge=1.0, le=100.0)] = round(CLASS, 1)
+    damping_ratio: tuple[NotNegative, NotNegative] | None = None
+    centre_distance: Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 um")] | None = None
 
 
 class Draw(NamedTuple):

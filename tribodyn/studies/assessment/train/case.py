@@ -42,21 +42,11 @@ def of_mesh(name: str, mesh: str) -> bool:
 class TrainRatingTable(AssessedTable):
     """What is asked beyond the duty, and what the standards need to know of every mesh."""
 
-    face_load_factors: dict[Text, AtLeastOne] = Field(
-        {}, description="K_Hβ of single meshes, by the name of a mesh or what names of several begin with"
-    )
-    mesh_load_factor: AtLeastOne | None = Field(
-        None, description="K_gamma of the planetary stages; default: each one's own, of the simulation"
-    )
-    speed_range: tuple[Positive, Positive] = Field(
-        (0.5, 1.25), description="first and last speed of further runs, over the duty's; torques stay"
-    )
-    speeds: Annotated[int, Field(strict=True, ge=0, le=200)] = Field(
-        4, description="runs over that range, besides the duty's"
-    )
-    friction_laws: tuple[Text, ...] = Field(
-        (), max_length=10, description="further friction laws, a run each: for the spread of the losses"
-    )
+    face_load_factors: dict[Text, AtLeastOne] = Field({})
+    mesh_load_factor: AtLeastOne | None = None
+    speed_range: tuple[Positive, Positive] = (0.5, 1.25)
+    speeds: Annotated[int, Field(strict=True, ge=0, le=200)] = 4
+    friction_laws: tuple[Text, ...] = Field((), max_length=10)
 
     def face_of(self, mesh: str) -> float | None:
         """K_Hβ of a mesh: by the longest name that it has or begins with, else that of all, where given."""

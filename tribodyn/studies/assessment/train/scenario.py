@@ -25,18 +25,14 @@ KIND, SHORT = "train-assessment", "assessment"
 class TrainLimits(OilLimits):
     """What must hold in every mesh: red on the first page where it does not. Judged where given."""
 
-    mesh_load_factor: Positive | None = Field(
-        None, description="maximum K_gamma of the simulation at the duty"
-    )
+    mesh_load_factor: Positive | None = None
 
 
 class TrainAssessmentScenario(ScenarioHead):
     """A scenario file of an assessment of a train."""
 
     kind: Literal["train-assessment"]
-    scenario: Annotated[dict[str, Any], scenario_file()] = Field(
-        description="the train to assess: the name of its scenario, or its tables"
-    )
+    scenario: Annotated[dict[str, Any], scenario_file()]
     assessment: TrainRatingTable = written({})
     limits: TrainLimits = written({})
 
@@ -58,8 +54,7 @@ def _around(base: type[Table] | None, short: bool) -> type[Table]:
         return named
     if base is None:
         return TrainAssessmentScenario
-    about = TrainAssessmentScenario.model_fields["scenario"].description
-    field: Any = (Annotated[base, scenario_file()], Field(description=about))
+    field: Any = (Annotated[base, scenario_file()], ...)
     return create_model(
         "TrainAssessmentScenario",
         __base__=TrainAssessmentScenario,

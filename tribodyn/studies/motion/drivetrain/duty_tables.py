@@ -26,27 +26,17 @@ def _one_place(value: Any) -> Any:
 class LoadTable(Table):
     """What a gear, a shaft or a body drives beside the output."""
 
-    at: Text = Field(description="gear, shaft or body")
-    torque: fields.Torque = Field(description="against its motion; negative where it drives")
+    at: Text
+    torque: fields.Torque
     inertia: fields.Inertia = written("0 kg*m**2")
-    damping: fields.TorsionalDamping = written(
-        "0 N*m*s/rad", description="torque that grows with speed above nominal"
-    )
-    torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
-        None, description="over time, added"
-    )
-    torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), max_length=MOST_HARMONICS, description="added")
+    damping: fields.TorsionalDamping = written("0 N*m*s/rad")
+    torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = None
+    torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), max_length=MOST_HARMONICS)
 
 
 class TrainOperating(Operating):
     """Where power enters and leaves, at which speed and load, and how the train is driven."""
 
-    input: Annotated[Text | None, BeforeValidator(_one_place)] = Field(
-        None, description='gear, shaft or body at which power enters; with [drive]: default "pinion"'
-    )
-    output: Text | None = Field(
-        None, description='at which it leaves; several: [[load]]; with [drive]: default "gear"'
-    )
-    sense: Literal["clockwise", "counter-clockwise"] = Field(
-        "clockwise", description="of the input's rotation, seen from +z"
-    )
+    input: Annotated[Text | None, BeforeValidator(_one_place)] = None
+    output: Text | None = None
+    sense: Literal["clockwise", "counter-clockwise"] = "clockwise"

@@ -7,8 +7,6 @@ solvers in their registries.
 
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
-
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.gears.motion.settings import (
     Friction,
@@ -63,7 +61,7 @@ class GearPairScenario(GearScenario):
     output: Output = written({})
     damage: Damages = ()
     sensor: Sensors = ()
-    housing: Housing | None = Field(None, description="that sensors sit on")
+    housing: Housing | None = None
 
 
 Scenario = GearPairScenario

@@ -27,10 +27,8 @@ from tribodyn.tribology.losses import LossData
 class TrainLossesTable(LossFormulas):
     """Which load-independent losses are added, and what their formulas need."""
 
-    immersion: dict[PartName, Depth] = written({}, description="of tip circles below the oil, by gear")
-    shaft_bearings: dict[PartName, BearingDrag] = Field(
-        {}, description="of a shaft, by the gear, the shaft or the body that they carry"
-    )
+    immersion: dict[PartName, Depth] = written({})
+    shaft_bearings: dict[PartName, BearingDrag] = Field({})
 
 
 def losses_of_meshes(

@@ -83,41 +83,37 @@ Meshes = Annotated[
 class TrainSolver(Solver):
     """How the equations are solved."""
 
-    max_period: Count = Field(
-        200, description="cycles of the reference mesh that steady states may last, at most"
-    )
+    max_period: Count = 200
 
 
 class GearTrainScenario(SpectrumScenario):
     """A scenario file."""
 
     kind: Literal["gear-train"] = "gear-train"
-    drive: Annotated[DriveTable | None, model_file("drives")] = Field(
-        None, description="a pair of gears, in place of [gear] and [[stage]]: a train of one stage"
-    )
-    gear: dict[PartName, TrainGear] = written({}, description="gears by name")
-    stage: tuple[AnyStage, ...] = Field((), max_length=MOST_PARTS, description="which gears mesh")
-    shaft: Shafts = Field((), description="which gears turn together")
-    body: tuple[BareBody, ...] = Field((), max_length=MOST_PARTS, description="bodies without teeth")
-    link: tuple[Link, ...] = Field((), max_length=MOST_PARTS, description="springs between bodies")
-    material: MaterialReference | None = Field(None, description="of all gears that name none")
-    mean_roughness: Roughness | None = Field(None, description="Ra of the flanks of all gears that say none")
-    quality: Grade | None = Field(None, description="tolerance class of all gears that say none")
-    quality_edition: QualityEdition = Field(2013, description="edition of ISO 1328-1 of these classes")
+    drive: Annotated[DriveTable | None, model_file("drives")] = None
+    gear: dict[PartName, TrainGear] = written({})
+    stage: tuple[AnyStage, ...] = Field((), max_length=MOST_PARTS)
+    shaft: Shafts = ()
+    body: tuple[BareBody, ...] = Field((), max_length=MOST_PARTS)
+    link: tuple[Link, ...] = Field((), max_length=MOST_PARTS)
+    material: MaterialReference | None = None
+    mean_roughness: Roughness | None = None
+    quality: Grade | None = None
+    quality_edition: QualityEdition = 2013
     lubricant: Oil
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
     operating: TrainOperating
-    load: tuple[LoadTable, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
-    mesh: Meshes = Field(description="of all stages; a list: the meshes of a bare model")
+    load: tuple[LoadTable, ...] = Field((), max_length=MOST_PARTS)
+    mesh: Meshes
     temperature: TemperatureKeys = None
-    losses: TrainLossesTable | None = Field(None, description="load-independent losses; default: none")
+    losses: TrainLossesTable | None = None
     film: FilmKeys = None
     friction: Friction
     solver: TrainSolver = written({})
     output: Output = written({})
     damage: Damages = ()
     sensor: Sensors = ()
-    housing: Housing | None = Field(None, description="that sensors sit on")
+    housing: Housing | None = None
 
 
 Scenario = GearTrainScenario
