@@ -141,8 +141,8 @@ def __getattr__(name: str) -> Any:
     if not name.startswith("_"):
         from tribodyn.interface.study_functions import offered
 
-        if found := offered(name):
-            return found
+        if value := offered(name):
+            return value
     raise AttributeError(f"module 'tribodyn' has no attribute {name!r}")
 
 

@@ -35,9 +35,9 @@ class InputError(Exception):
     def __str__(self) -> str:
         place = f"{self.file}: " if self.file else ""
         key = cut(self.key, LONGEST_KEY)
-        given = f" = {cut(str(self.value), LONGEST_PATH)}" if self.value is not None else ""
+        value = f" = {cut(str(self.value), LONGEST_PATH)}" if self.value is not None else ""
         remedy = f"; {self.remedy}" if self.remedy else ""
-        return printable(f"{place}{key}{given}: {cut(self.rule, LONGEST_RULE)}{remedy}")
+        return printable(f"{place}{key}{value}: {cut(self.rule, LONGEST_RULE)}{remedy}")
 
 
 class InputErrors(InputError):
@@ -94,18 +94,18 @@ _TOO_MANY = tuple(map(os.strerror, _NO_DESCRIPTORS))
 TOO_MANY_FILES = "no more files may be open in this process", "raise the limit: ulimit -n 1024"
 
 
-def near_name(name: str, known: Iterable[str]) -> str:
+def near_name(name: str, names: Iterable[str]) -> str:
     """Return the known name that looks most like `name`, or ""."""
     from difflib import get_close_matches
 
-    known = list(known)
-    close = get_close_matches(name, known, n=1, cutoff=0.6)
-    close = close or names_with(name, known)
-    close = close or [other for other in known if name and other in name]
+    names = list(names)
+    close = get_close_matches(name, names, n=1, cutoff=0.6)
+    close = close or names_with(name, names)
+    close = close or [other for other in names if name and other in name]
     return close[0] if close else ""
 
 
-def names_with(part: str, known: Iterable[str]) -> list[str]:
+def names_with(part: str, names: Iterable[str]) -> list[str]:
     """Return the known names that contain a part, whatever its case, blanks and hyphens.
 
     "ISO VG 320" is part of "iso-vg-320-mineral" and "iso-vg-320-pao".
@@ -115,7 +115,7 @@ def names_with(part: str, known: Iterable[str]) -> list[str]:
         return "".join(filter(str.isalnum, name.lower()))
 
     wanted = plain(part)
-    return [name for name in known if wanted and wanted in plain(name)]
+    return [name for name in names if wanted and wanted in plain(name)]
 
 
 def quoted(value: Any) -> str:
@@ -160,7 +160,7 @@ def harmless(text: str) -> str:
     """
     if not _OBEYED.search(text):
         return text
-    return _OBEYED.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
+    return _OBEYED.sub(lambda match: match[0].encode("unicode_escape").decode(), text)
 
 
 _OBEYED = re.compile(
@@ -168,12 +168,12 @@ _OBEYED = re.compile(
 )
 
 
-def unknown_name(key: str, name: str, known: Iterable[str], what: str) -> InputError:
+def unknown_name(key: str, name: str, names: Iterable[str], what: str) -> InputError:
     """Return what to say of a name that is not among the known ones; `what` says what they are names of."""
-    known = list(known)
-    near = near_name(name, known)
+    names = list(names)
+    near = near_name(name, names)
     mean = f'did you mean "{near}"? ' if near else ""
-    return InputError(key, quoted(name), f"no such {what}", f"{mean}there is: {', '.join(known)}")
+    return InputError(key, quoted(name), f"no such {what}", f"{mean}there is: {', '.join(names)}")
 
 
 def broken_list(key: str, given: Sequence[str], known: Collection[str], what: str) -> Iterator[InputError]:

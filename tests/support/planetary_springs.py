@@ -146,7 +146,7 @@ def planetary_springs(
         SUN,
         CARRIER,
         pins=[k for k, (_, second_end) in enumerate(links) if second_end == CARRIER],
-        holds=[RING] if given.ring_support else [],
+        holding=[RING] if given.ring_support else [],
         frames=1,
         carriers=[CARRIER] * len(meshes),
     )

@@ -44,11 +44,11 @@ class Request(NamedTuple):
 
     def supports(self) -> dict[str, Any]:
         """Tables by which shafts tilt the gears, where there are any, for studies of the teeth alone."""
-        found = {"shaft": self.tables["shaft"]} if "shaft" in self.tables else {}
+        tables = {"shaft": self.tables["shaft"]} if "shaft" in self.tables else {}
         bearings = self.tables.get("bearings", {})
         if any("matrix" in side for side in bearings.values() if isinstance(side, Mapping)):
-            found["bearings"] = bearings
-        return found
+            tables["bearings"] = bearings
+        return tables
 
 
 def of_teeth(sample: Mapping[str, Any]) -> dict[str, Any]:

@@ -66,7 +66,7 @@ def variable_bytes(variables: Iterable[Variable], sizes: Mapping[str, int]) -> f
 
 def share_of_limits(estimate: Estimate) -> float:
     """The largest of what is taken over what is allowed."""
-    return max(taken / most for taken, most in zip(estimate[:3], LIMITS[:3], strict=True))
+    return max(amount / most for amount, most in zip(estimate[:3], LIMITS[:3], strict=True))
 
 
 def described(estimate: Estimate) -> str:

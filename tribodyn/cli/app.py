@@ -23,8 +23,8 @@ class Verbs(TyperGroup):
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """Find a verb by its name; None: there is none."""
-        if found := super().get_command(ctx, cmd_name):
-            return found
+        if command := super().get_command(ctx, cmd_name):
+            return command
         from tribodyn.cli.study_verbs import command_of, study_verbs
 
         for name, offered in study_verbs():

@@ -57,8 +57,8 @@ def list(
         from tribodyn.studies.pages import drawable, drawable_of_sweep
 
         with open_any(record) as opened:
-            known = drawable_of_sweep([opened]) if isinstance(opened, SweepRecord) else drawable([opened])
-            listed = {What.plots.value: {name: drawing.about for name, drawing in known.items()}}
+            drawings = drawable_of_sweep([opened]) if isinstance(opened, SweepRecord) else drawable([opened])
+            listed = {What.plots.value: {name: drawing.about for name, drawing in drawings.items()}}
     else:
         listed = {sort.value: _about(sort) for sort in ([what] if what else What)}
     if json:

@@ -55,8 +55,8 @@ def keys(context: typer.Context, incomplete: str) -> list[str]:
         except (InputError, OSError, ValueError):  # there is no such file yet
             data = {}
     above = incomplete.split(".")[:-1]
-    found = keys_in(table_of(data), above)
-    return _beginning([key if key.endswith(".") else f"{key}=" for key in found], incomplete)
+    candidates = keys_in(table_of(data), above)
+    return _beginning([key if key.endswith(".") else f"{key}=" for key in candidates], incomplete)
 
 
 def papers(incomplete: str) -> list[str]:
@@ -70,9 +70,9 @@ def records_and_plots(incomplete: str) -> list[str]:
     """Records here, figures of all kinds of study and of sweeps."""
     from tribodyn.studies import STUDIES
 
-    plots = [name for _, drawn in STUDIES.each(lambda study: study.drawings()) for name in drawn]
+    plots = [name for _, figures in STUDIES.each(lambda study: study.drawings()) for name in figures]
     swept = STUDIES.each(lambda study: study.sweep_drawings() if study.swept() else {})
-    of_sweeps = [name for _, drawn in swept for name in drawn]
+    of_sweeps = [name for _, figures in swept for name in figures]
     return _beginning([*_files(incomplete, *RECORDS), "all", *plots, *of_sweeps], incomplete)
 
 
@@ -82,9 +82,9 @@ def _files(incomplete: str, *patterns: str) -> list[str]:
     return sorted(str(path) for pattern in patterns for path in folder.glob(pattern))
 
 
-def _beginning(known: Iterable[str], incomplete: str) -> list[str]:
+def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
     """Names that begin with what is written, each once; where there are none the shell offers any file."""
-    return [name for name in dict.fromkeys(known) if name.startswith(incomplete)]
+    return [name for name in dict.fromkeys(names) if name.startswith(incomplete)]
 
 
 ScenarioArgument = Annotated[

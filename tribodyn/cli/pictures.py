@@ -69,9 +69,9 @@ def save_all(
     pictures = []
     with progress_bar("drawing") as progress:
         for done, name in enumerate(names, start=1):
-            drawn = make(name)
+            figure = make(name)
             make_folder(beside.parent)
-            pictures.append(save(drawn, _named(beside, name), force=force))
+            pictures.append(save(figure, _named(beside, name), force=force))
             progress(done / len(names))
     return pictures
 
@@ -126,15 +126,15 @@ def drawer(wanted: bool) -> Iterator[Drawer | None]:
     """Give a process that gets ready to draw, where this is the command line's own and a core is free."""
     import tribodyn
 
-    made = _begun.pop() if _begun else None
-    if made is None and wanted and tribodyn.OWN_PROCESS and usable_cores() > 1:
+    worker = _begun.pop() if _begun else None
+    if worker is None and wanted and tribodyn.OWN_PROCESS and usable_cores() > 1:
         with suppress(OSError):
-            made = Drawer()
+            worker = Drawer()
     try:
-        yield made if wanted else None
+        yield worker if wanted else None
     finally:
-        if made is not None:
-            made.close()
+        if worker is not None:
+            worker.close()
 
 
 def serve() -> None:

@@ -170,12 +170,14 @@ def begun(tables: "list[TextTable]", remarks: "Sequence[str]") -> "tuple[list[Te
     shown, lines = 0, 0
     while shown < len(tables) and (lines := lines + len(tables[shown].rows) + 4) <= _SCREEN:
         shown += 1
-    said = list(remarks[:_REMARKS])
+    short = list(remarks[:_REMARKS])
     if len(remarks) > _REMARKS:
-        said.append(f"… and {len(remarks) - _REMARKS} more remarks.")
-    if left := [table.title for table in tables[shown:]]:
-        said.append(f"There is more: {'; '.join(dict.fromkeys(title.partition(', ')[0] for title in left))}.")
-    return tables[:shown], said
+        short.append(f"… and {len(remarks) - _REMARKS} more remarks.")
+    if hidden := [table.title for table in tables[shown:]]:
+        short.append(
+            f"There is more: {'; '.join(dict.fromkeys(title.partition(', ')[0] for title in hidden))}."
+        )
+    return tables[:shown], short
 
 
 def print_files(what: str, files: Iterable[Path]) -> None:
@@ -233,8 +235,8 @@ def command_name() -> str:
     called = Path(sys.argv[0])
     if called.name == "__main__.py":
         return f"{quoted_path(_from_here(Path(sys.executable)))} -m tribodyn"
-    found = shutil.which("tribodyn")
-    if called.name != "tribodyn" or (found and Path(found).resolve() == called.resolve()):
+    on_path = shutil.which("tribodyn")
+    if called.name != "tribodyn" or (on_path and Path(on_path).resolve() == called.resolve()):
         return "tribodyn"
     return quoted_path(_from_here(called))
 

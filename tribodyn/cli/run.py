@@ -85,7 +85,7 @@ class _Done(NamedTuple):
 
 
 def run_loaded(
-    made: "Callable[[], Mapping[str, Loaded]]",
+    load_case: "Callable[[], Mapping[str, Loaded]]",
     *,
     output: Path | None,
     plot: bool | None,
@@ -96,7 +96,7 @@ def run_loaded(
     resume: bool,
     **how: Any,
 ) -> None:
-    """Run the cases that `made` gives and show what became of them; `how` as of `protocol.run.run`.
+    """Run the cases that `load_case` gives and show what became of them; `how` as of `protocol.run.run`.
 
     Several are of the meshes of a gearbox, by their names: their results stand side by side.
     """
@@ -110,7 +110,7 @@ def run_loaded(
 
     require_one_way(resume=resume, force=force)
     with drawer(wanted=plot is None) as ahead:
-        cases = dict(made())
+        cases = dict(load_case())
         several = len(cases) > 1
         records = {mesh: output or Path(f"{loaded.case.name}.h5") for mesh, loaded in cases.items()}
         if output is None:

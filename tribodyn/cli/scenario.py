@@ -100,11 +100,11 @@ def _named(tables: "list[TextTable]", part: str) -> "list[TextTable]":
     """The tables with a word in their title; InputError where there is none."""
     from tribodyn.errors import InputError, quoted
 
-    found = [table for table in tables if part.casefold() in table.title.casefold()]
-    if not found:
+    matching = [table for table in tables if part.casefold() in table.title.casefold()]
+    if not matching:
         titles = "; ".join(table.title for table in tables)
         raise InputError("part", quoted(part), "in no title of a table", f"there is: {titles}")
-    return found
+    return matching
 
 
 def schema() -> None:

@@ -71,10 +71,10 @@ def listen(
 
     how = {"rate": rate, "seconds": seconds, "shift": shift}
     with Record(record) as opened:
-        path, heard, signal = write_sound(opened, sensor, output, force=force, **how)
+        path, sound, signal = write_sound(opened, sensor, output, force=force, **how)
     if json:
-        about = {"gain": heard.gain, "shift": heard.shift, "repeats": heard.repeats, "rate": heard.rate}
+        about = {"gain": sound.gain, "shift": sound.shift, "repeats": sound.repeats, "rate": sound.rate}
         print_json({"sound": str(path), **about, "gain_units": f"1/({signal.units})"})
     else:
         print_files("sound", [path])
-        typer.echo(heard.said(signal.units))
+        typer.echo(sound.said(signal.units))

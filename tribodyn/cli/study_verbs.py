@@ -39,7 +39,7 @@ def study_verbs() -> "Iterator[tuple[str, Verb]]":
 def command_of(name: str, verb: "Verb") -> Callable[..., None]:
     """The verb as typer takes it: its own options, then those that all verbs of its form have."""
     form = _answer if verb.answers else _run
-    own = {
+    verb_options = {
         parameter.name: parameter.replace(annotation=_annotation(parameter, option))
         for parameter in inspect.signature(verb.function).parameters.values()
         if (option := _option_of(parameter)) is not None
@@ -49,11 +49,11 @@ def command_of(name: str, verb: "Verb") -> Callable[..., None]:
     )
     scenario, *others = (shared[key] for key in shared if key not in ("function", "how"))
 
-    def command(**given: Any) -> None:
-        options = {key: given.pop(key) for key in own}
-        form(lambda *source, **how: verb.function(*source, **options, **how), **given)
+    def command(**arguments: Any) -> None:
+        options = {key: arguments.pop(key) for key in verb_options}
+        form(lambda *source, **how: verb.function(*source, **options, **how), **arguments)
 
-    parameters = [scenario, *own.values(), *others]
+    parameters = [scenario, *verb_options.values(), *others]
     signature = inspect.Signature([part.replace(kind=part.KEYWORD_ONLY) for part in parameters])
     command.__name__, command.__doc__ = name, (verb.function.__doc__ or "").partition("\n")[0]
     command.__annotations__ = {key: value.annotation for key, value in signature.parameters.items()}

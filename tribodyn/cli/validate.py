@@ -56,10 +56,10 @@ def validate(
                 pictures = validation.draw(paper, plots, records, progress, force=force)
     source = validation.PAPERS[paper].source
     if json:
-        drawn = {"pictures": [str(picture) for picture in pictures]} if plots is not None else {}
+        plotted = {"pictures": [str(picture) for picture in pictures]} if plots is not None else {}
         head = {"choices": validation.PAPERS[paper].choices, "counts": counts(rows)}
         head |= {"source": source._asdict()} if source else {}
-        print_json({**head, "rows": [row.plain() for row in rows], **drawn})
+        print_json({**head, "rows": [row.plain() for row in rows], **plotted})
     else:
         title = f"{paper}: {validation.PAPERS[paper].choices}"
         print_table(title, SHOWN, [[row.written(name) for name in SHOWN] for row in rows])

@@ -105,9 +105,9 @@ def half_outline(loaded: LoadedTooth) -> tuple[Float[Array, "point 2"], Float[Ar
     along = np.linspace(0.0, 1.0, _OUTLINE)
     fillet = fillet_point(tooth, np.pi / 2 + along * (tooth.form_angle - np.pi / 2))
     first, last = (float(distance_at_radius(loaded.path, r)) for r in (tooth.form_radius, tooth.tip_radius))
-    own = first + along * (last - first)
-    at = loaded.contact(own)
-    return np.stack(fillet, axis=-1) * thin, np.stack([at.x, at.y], axis=-1), own
+    distance = first + along * (last - first)
+    at = loaded.contact(distance)
+    return np.stack(fillet, axis=-1) * thin, np.stack([at.x, at.y], axis=-1), distance
 
 
 def crack_compliance(
@@ -242,14 +242,14 @@ def _tangent_over(share: Float[Array, " step"]) -> tuple[Any, Any]:
 
 def _bent(share: Float[Array, " step"]) -> Float[Array, " step"]:
     """F_b of a strip in pure bending, within 0.5 % for any depth."""
-    factor, left = _tangent_over(share)
-    return factor * (0.923 + 0.199 * left**4)
+    factor, remainder = _tangent_over(share)
+    return factor * (0.923 + 0.199 * remainder**4)
 
 
 def _pulled(share: Float[Array, " step"]) -> Float[Array, " step"]:
     """F_t of a strip in tension, within 0.5 %."""
-    factor, left = _tangent_over(share)
-    return factor * (0.752 + 2.02 * share + 0.37 * left**3)
+    factor, remainder = _tangent_over(share)
+    return factor * (0.752 + 2.02 * share + 0.37 * remainder**3)
 
 
 def _sheared(share: Float[Array, " step"]) -> Float[Array, " step"]:

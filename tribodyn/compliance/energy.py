@@ -186,16 +186,16 @@ def tooth_compliance(
         root_angle, length, body_length = root_angle * thinning, width / thinning, body_length / thinning
     first = distance_at_radius(path, tooth.form_radius)
     last = distance_at_radius(path, tooth.tip_radius)
-    own = r if loaded.side == "pinion" else -r
-    x, y, load_angle = loaded.contact(own)
+    place = r if loaded.side == "pinion" else -r
+    x, y, load_angle = loaded.contact(place)
     lever = x - y * tan(load_angle) - root
     # s counts from the tip: a load near a thin one has a small arm there, where 1/y³ is large
     origin = loaded.contact(last).x
     integrals = section_integrals(*fillet, origin).sum(axis=0)
     # Two pieces of flank, for the paths of some families have a corner at the pitch point.
     middle = within(0.0, first + 0.01 * (last - first), last - 0.01 * (last - first))
-    lower = first + unit * (middle - first), 2.0 * (within(own, first, middle) - first) / (middle - first)
-    for at, along in (lower, *_towards_tip(loaded, middle, last, own)):
+    lower = first + unit * (middle - first), 2.0 * (within(place, first, middle) - first) / (middle - first)
+    for at, along in (lower, *_towards_tip(loaded, middle, last, place)):
         flank = loaded.contact(at)
         integrals = integrals + chebyshev_basis(along - 1.0, _DEGREE + 1) @ section_integrals(
             flank.x, flank.y, origin
@@ -246,7 +246,7 @@ def rim_compliance(
 
 
 def _towards_tip(
-    loaded: LoadedTooth, start: Any, end: Any, own: PerContact
+    loaded: LoadedTooth, start: Any, end: Any, place: PerContact
 ) -> list[tuple[Float[Array, " point"], PerContact]]:
     """Distances r of the points of the upper flank, and where the contacts stand between them, 0 … 2.
 
@@ -254,7 +254,7 @@ def _towards_tip(
     grows so: a series of low degree for a thin tip too. In two pieces, because a series is exact to a share
     of its maximum.
     """
-    xp = namespace(own, start, end)
+    xp = namespace(place, start, end)
     length = end - start
     step = 1e-3 * length
     near = contact_in_tooth_frame(loaded.path, loaded.pitch_half_angle, xp.stack([end - step, end])).y
@@ -263,7 +263,7 @@ def _towards_tip(
     meeting = end + maximum(beyond, 1e-9 * length)
     decay = 0.5 * xp.log((meeting - start) / (meeting - end))
     fall = xp.exp(-decay * (0.5 + 0.5 * _POINTS))
-    passed = 2.0 * xp.log((meeting - start) / (meeting - within(own, start, end))) / decay
+    passed = 2.0 * xp.log((meeting - start) / (meeting - within(place, start, end))) / decay
     furthest = meeting - start
     return [
         (meeting - furthest * fall, within(passed, 0.0, 2.0)),

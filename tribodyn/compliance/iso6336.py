@@ -135,22 +135,22 @@ def reference_stiffness(pair: ReferencePair) -> ReferenceStiffness:
 def outside(pair: ReferencePair) -> list[str]:
     """Say what of a pair lies outside the limits of the standard; none: all is inside."""
     (x1, x2), ratio = pair.profile_shift, pair.contact_ratio
-    found = []
+    beyond = []
     if x1 < x2:
-        found.append(f"profile shift {x1:.3g} of the gear with fewer teeth, less than its mate's {x2:.3g}")
+        beyond.append(f"profile shift {x1:.3g} of the gear with fewer teeth, less than its mate's {x2:.3g}")
     if not _SHIFT_SUM[0] <= x1 + x2 <= _SHIFT_SUM[1]:
-        found.append(f"sum of profile shifts {x1 + x2:.3g}, limits {_SHIFT_SUM[0]:g} and {_SHIFT_SUM[1]:g}")
+        beyond.append(f"sum of profile shifts {x1 + x2:.3g}, limits {_SHIFT_SUM[0]:g} and {_SHIFT_SUM[1]:g}")
     low, high = _PRESSURE_ANGLE
     if not low - 1e-9 <= pair.pressure_angle <= high + 1e-9:
         limits = f"limits {math.degrees(low):.0f} and {math.degrees(high):.0f} deg"
-        found.append(f"pressure angle {math.degrees(pair.pressure_angle):.4g} deg, {limits}")
+        beyond.append(f"pressure angle {math.degrees(pair.pressure_angle):.4g} deg, {limits}")
     if ratio < _CONTACT_RATIO[0]:
-        found.append(f"contact ratio {ratio:.3g}, below {_CONTACT_RATIO[0]:g} (c_gamma up to 10 % less)")
+        beyond.append(f"contact ratio {ratio:.3g}, below {_CONTACT_RATIO[0]:g} (c_gamma up to 10 % less)")
     if ratio > _CONTACT_RATIO[1]:
-        found.append(f"contact ratio {ratio:.3g}, above {_CONTACT_RATIO[1]:g}")
+        beyond.append(f"contact ratio {ratio:.3g}, above {_CONTACT_RATIO[1]:g}")
     if pair.line_load > _HIGH_LOAD:
-        found.append(f"line load {pair.line_load * 1e-3:.0f} N/mm, above {_HIGH_LOAD * 1e-3:.0f} N/mm")
-    return found
+        beyond.append(f"line load {pair.line_load * 1e-3:.0f} N/mm, above {_HIGH_LOAD * 1e-3:.0f} N/mm")
+    return beyond
 
 
 def pair_of(
@@ -183,17 +183,17 @@ def pair_of(
 
 def bodies_outside(assembly: Assembly) -> list[str]:
     """Say where bodies and tips differ from those that the standard's series is for."""
-    drive, found = normal_section(assembly.drive), []
+    drive, beyond = normal_section(assembly.drive), []
     module = float(drive.module)
     for side in SIDES:
         body = body_of(drive, side)
         tip, root = float(tip_circle_radius(assembly.drive, side)), float(assembly.tooth(side).root_radius)
         addendum = (tip - float(reference_radius(assembly.drive, side))) / module - float(body.profile_shift)
         if abs(addendum - _ADDENDUM) > _ADDENDUM_MARGIN:
-            found.append(f"addendum of the {side} {addendum:.3g} modules, the series is for {_ADDENDUM:g}")
+            beyond.append(f"addendum of the {side} {addendum:.3g} modules, the series is for {_ADDENDUM:g}")
         heights = (root - float(body.bore_radius)) / (tip - root)
         if heights < _RIM_HEIGHTS:
-            found.append(
+            beyond.append(
                 f"rim of the {side} {heights:.2g} tooth heights, no solid disc below {_RIM_HEIGHTS:g}"
             )
-    return found
+    return beyond

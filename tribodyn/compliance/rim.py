@@ -41,8 +41,8 @@ def pinned_receptance(
     np.add.at(held, -np.arange(1, most + 1) % pins, arc[1:] * mirror[:, None] * mirror)
     count = len(order)
     off = spread[:count, None, None] * receptance[:count, 2:, :2]
-    taken = np.swapaxes(off, 1, 2) @ np.linalg.solve(held[np.arange(count) % pins], off)
-    return receptance[:count, :2, :2] - taken
+    by_pins = np.swapaxes(off, 1, 2) @ np.linalg.solve(held[np.arange(count) % pins], off)
+    return receptance[:count, :2, :2] - by_pins
 
 
 def free_receptance(

@@ -90,8 +90,8 @@ class Differentiable:
         values = self._values(x)
         keys = len(self.wrt)
         if len(self.of) == 1 and keys > FORWARDS:
-            found, slopes = self._run("backwards", values)
-            return self._finite((found, slopes[None, self._places]))
+            quantities, slopes = self._run("backwards", values)
+            return self._finite((quantities, slopes[None, self._places]))
         # one program for any number of keys: one key at a time, or some together
         together = _TOGETHER if keys > 1 and len(self.of) > 1 else 1
         directions = np.zeros((-(-keys // together) * together, len(values)))
@@ -130,9 +130,9 @@ class Differentiable:
         text = _without(self._case, self._numbers)
         return _Structure(text, tuple(self._numbers), laws, self._case, self._numbers)
 
-    def _finite(self, found: Any) -> Any:
+    def _finite(self, result: Any) -> Any:
         """Distances that do not exist are a whole module, or one, beyond the limit, and of no slope."""
-        values, slopes = found if isinstance(found, tuple) else (found, None)
+        values, slopes = result if isinstance(result, tuple) else (result, None)
         for place, quantity in enumerate(self._quantities):
             if quantity.limit and not np.isfinite(values[place]):
                 values[place] = beyond(quantity.unit, self._case.drive)
@@ -225,8 +225,8 @@ def _program(structure: _Structure, of: tuple[str, ...], fixed: Fixed) -> dict[s
         return along(directions)
 
     def backwards(values: Any) -> Any:
-        found, slopes = jax.value_and_grad(lambda x: quantities(x)[0])(values)
-        return found[None], slopes
+        value, slopes = jax.value_and_grad(lambda x: quantities(x)[0])(values)
+        return value[None], slopes
 
     functions = {"values": quantities, "forwards": forwards, "backwards": backwards}
     return {how: jax.jit(function, compiler_options=_HARDLY_OPTIMISED) for how, function in functions.items()}

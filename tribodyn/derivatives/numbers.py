@@ -51,16 +51,16 @@ def numbers_of(
     A bore or rim that the scenario does not give follows from module and teeth, and is no number of its own
     unless it is `asked` for by its key.
     """
-    found = {}
+    numbers = {}
     for key, number in _numbers(case, tomllib.loads(case.toml)["drive"], asked):
-        found[key] = number._replace(unit=unit_at(schema, key, number.unit))
-    return found
+        numbers[key] = number._replace(unit=unit_at(schema, key, number.unit))
+    return numbers
 
 
-def unit_at(schema: type[BaseModel], key: str, own: str = "") -> str:
-    """SI unit of a key as it is shown: its `own`, else as the schema has it."""
+def unit_at(schema: type[BaseModel], key: str, explicit: str = "") -> str:
+    """SI unit of a key as it is shown: its `explicit`, else as the schema has it."""
     kind = kind_at(schema, key)
-    unit = own or (kind.si if isinstance(kind, Kind) else "1")
+    unit = explicit or (kind.si if isinstance(kind, Kind) else "1")
     return unit.replace("**", "").replace("*", " ")
 
 
@@ -200,9 +200,9 @@ def _write(following: _Following, path: tuple[str, ...], scale: float, case: Any
 
 
 def _of_materials(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:
-    own = [place for place, side in enumerate(SIDES) if drive[side].get("material")]
-    groups = {f"drive.{SIDES[place]}.material": [place] for place in own}
-    groups["drive.material"] = [place for place in range(len(SIDES)) if place not in own]
+    with_material = [place for place, side in enumerate(SIDES) if drive[side].get("material")]
+    groups = {f"drive.{SIDES[place]}.material": [place] for place in with_material}
+    groups["drive.material"] = [place for place in range(len(SIDES)) if place not in with_material]
 
     def put(places: list[int], name: str, case: Any, value: Any) -> Any:
         for place in places:
@@ -217,12 +217,14 @@ def _of_materials(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Numbe
 
 def _of_roughness(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:
     """Composite roughness and mean Ra, the one that is given or both; none where each gear has its own Ra."""
-    given = [name for name in ("roughness", "mean_roughness") if drive.get(name) is not None]
-    if len(given) == 2:
-        for name in given:
+    stated = [name for name in ("roughness", "mean_roughness") if drive.get(name) is not None]
+    if len(stated) == 2:
+        for name in stated:
             yield f"drive.{name}", Number(getattr(case, name), "", _on(name))
         return
-    name, other = ("roughness", "mean_roughness") if "roughness" in given else ("mean_roughness", "roughness")
+    name, other = (
+        ("roughness", "mean_roughness") if "roughness" in stated else ("mean_roughness", "roughness")
+    )
     if name == "mean_roughness" and any(drive[side].get(name) is not None for side in SIDES):
         return
     share = getattr(case, other) / getattr(case, name)
@@ -257,9 +259,9 @@ def _of_lubricant(case: Any) -> Iterator[tuple[str, Number]]:
 
 
 def _of_law(case: Any, table: str, keys: Iterable[Parameter]) -> Iterator[tuple[str, Number]]:
-    given = getattr(case, table).values
+    law_values = getattr(case, table).values
     for parameter in keys:
         name = parameter.name
-        value = given.get(name, parameter.default)
+        value = law_values.get(name, parameter.default)
         if parameter.kind != "path" and value is not None:
             yield f"{table}.{name}", Number(value, si_unit(parameter), _on(table, "values", name))

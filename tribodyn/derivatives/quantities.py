@@ -155,13 +155,13 @@ def _loss_factor(at: PairEvaluation) -> Any:
 
 
 def _efficiency(at: PairEvaluation) -> Any:
-    torque, found = at.case.operating.gear_torque, at.rubbing
-    return mean_efficiency(at.rubbing_cycle, torque, found.friction_coefficient, found.normal_load, at.weight)
+    torque, films = at.case.operating.gear_torque, at.rubbing
+    return mean_efficiency(at.rubbing_cycle, torque, films.friction_coefficient, films.normal_load, at.weight)
 
 
 def _friction_power(at: PairEvaluation) -> Any:
-    found = at.rubbing
-    loss = friction_loss(at.rubbing_cycle, found.normal_load, found.friction_coefficient, at.weight)
+    films = at.rubbing
+    loss = friction_loss(at.rubbing_cycle, films.normal_load, films.friction_coefficient, at.weight)
     return loss * absolute(at.case.operating.pinion_speed)
 
 

@@ -199,15 +199,15 @@ def approach(place, motion, mesh, work):
         slope = (slope - gap_slope) * cells_per_radian
         compliance_slope = compliance_slope * cells_per_radian
         if differ(mesh):
-            own = own_place(i, place, mesh)
-            missing, missing_slope = own_and_slope(own, GAP_OF_TEETH, mesh)
+            tooth_place = own_place(i, place, mesh)
+            missing, missing_slope = own_and_slope(tooth_place, GAP_OF_TEETH, mesh)
             gap = gap + missing
             slope = slope - missing_slope
             if deflect_apart(mesh):
-                softer, softer_slope = own_and_slope(own, COMPLIANCE_OF_TEETH, mesh)
+                softer, softer_slope = own_and_slope(tooth_place, COMPLIANCE_OF_TEETH, mesh)
                 compliance = compliance + softer
                 compliance_slope = compliance_slope + softer_slope
-                work[OWN_FRICTION, i], _ = own_and_slope(own, FRICTION_OF_TEETH, mesh)
+                work[OWN_FRICTION, i], _ = own_and_slope(tooth_place, FRICTION_OF_TEETH, mesh)
         flank_speed = cubic(c, segment, cell, i, _SPEED, u)
         driver_lever = distance + mesh.driver_radius * sine
         driven_lever = mesh.driven_radius * sine - distance

@@ -69,8 +69,8 @@ def in_space(bearing: BearingData, width: float) -> tuple[tuple[float, ...], tup
     arm = ((2.0 * width if bearing.span is None else bearing.span) / 2.0) ** 2
     x, y = bearing.stiffness_x, bearing.stiffness_y
     axial = min(x, y) if bearing.stiffness_axial is None else bearing.stiffness_axial
-    given = bearing.stiffness_tilt
-    tilts = (y * arm, x * arm) if given is None else (given, given)
+    tilt = bearing.stiffness_tilt
+    tilts = (y * arm, x * arm) if tilt is None else (tilt, tilt)
     ratio = min(bearing.damping_ratio_x, bearing.damping_ratio_y)
     return (x, y, axial, *tilts), (bearing.damping_ratio_x, bearing.damping_ratio_y, ratio, ratio, ratio)
 

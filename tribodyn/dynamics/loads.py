@@ -127,10 +127,10 @@ def link_energy(y, model):
         first, second = layout.first[k], layout.second[k]
         if first < layout.spatial and second < layout.spatial:
             for row in range(IN_SPACE):
-                own = apart_in_space(first, second, row, 0, y, layout)
+                one = apart_in_space(first, second, row, 0, y, layout)
                 for direction in range(IN_SPACE):
                     other = apart_in_space(first, second, direction, 0, y, layout)
-                    energy = energy + 0.5 * links.stiffness_in_space[k, row, direction] * own * other
+                    energy = energy + 0.5 * links.stiffness_in_space[k, row, direction] * one * other
         elif first < layout.planar and second < layout.planar:
             for direction in range(TURN):
                 stretch = stretch_in_plane(k, direction, y, model)

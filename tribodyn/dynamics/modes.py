@@ -129,12 +129,12 @@ def _support(model: Model, m: int) -> float:
     stiffness = np.asarray(model.links.stiffness)
     total = 0.0
     for body in (layout.driver[m], layout.driven[m]):
-        own = [
+        mesh_bodies = [
             k
             for k, (a, b) in enumerate(zip(layout.first, layout.second, strict=True))
             if (a, b) == (body, -1)
         ]
-        held = np.sum(stiffness[own, :TURN], axis=0)
+        held = np.sum(stiffness[mesh_bodies, :TURN], axis=0)
         across = np.array([mesh.across_x, mesh.across_y], dtype=float)
         total += float(np.sum(across[held > 0.0] ** 2 / held[held > 0.0]))
     return total
@@ -155,16 +155,16 @@ def _mean_stiffness(model: Model, m: int, cycle: MeshCycle, on_driven: float) ->
     still = np.sin(cycle.pressure_angle)
     # what a load on one pair moves the axes apart, it takes from the others: one more compliance they share
     shared = _support(model, m) * still[..., :, None] * still[..., None, :]
-    own = np.einsum("...ii->...i", shared)
+    direct = np.einsum("...ii->...i", shared)
     moving = cycle._replace(
-        compliance=cycle.compliance + own,
-        coupling=cycle.coupling + shared - own[..., None] * np.eye(own.shape[-1]),
+        compliance=cycle.compliance + direct,
+        coupling=cycle.coupling + shared - direct[..., None] * np.eye(direct.shape[-1]),
     )
     load = quasi_static(moving, torque).normal_load
     carrying = np.where(load > 0.0, 1.0, 0.0)
     contact = carrying * 0.9 * float(cycle.hertz_coefficient) * np.maximum(load, 1e-6) ** -0.1
     both = carrying[..., :, None] * carrying[..., None, :]
-    tangent = cycle.coupling * both + np.eye(own.shape[-1]) * (cycle.compliance + contact)[..., None]
+    tangent = cycle.coupling * both + np.eye(direct.shape[-1]) * (cycle.compliance + contact)[..., None]
     scale = float(np.mean(cycle.compliance))
     stiffness = np.linalg.inv(tangent / scale) / scale * both
     nothing = 0.0 * still
@@ -201,14 +201,14 @@ ROTATIONAL, TRANSLATIONAL, PLANET, MIXED = "rotational", "translational", "plane
 NO_MOTION = 1e-9
 
 
-def mode_kinds(found: Modes, model: Model, central: Sequence[int]) -> tuple[str, ...]:
+def mode_kinds(modes: Modes, model: Model, central: Sequence[int]) -> tuple[str, ...]:
     """Kind of every mode; `central` are the bodies sun, ring and carrier. `MIXED`: planets are not alike."""
     layout, bodies = model.layout, model.bodies
-    turning, shifting = np.zeros((2, len(found.frequency)))
+    turning, shifting = np.zeros((2, len(modes.frequency)))
     for body in central:
-        turning += float(bodies.inertia[body]) * found.shape[:, turn_of(body, layout)] ** 2
+        turning += float(bodies.inertia[body]) * modes.shape[:, turn_of(body, layout)] ** 2
         if body < layout.planar:
-            moved = found.shape[:, shift_of(body) : shift_of(body) + 2]
+            moved = modes.shape[:, shift_of(body) : shift_of(body) + 2]
             shifting += float(bodies.mass[body]) * np.sum(moved**2, axis=1)
     names = {
         (True, False): ROTATIONAL,

@@ -35,9 +35,9 @@ def load_with_damping(elastic, damping, width):
     C1, by `positive_part` over the width E W/(E + W) of the elastic load E and the given width W: without
     damping exactly E, and never above the sum, so that damping takes energy under any load.
     """
-    own = elastic * width / (elastic + width)
+    elastic_share = elastic * width / (elastic + width)
     smallest = SMALLEST_SHARE * width  # `maximum` of two variables is six operations with JAX, `where` two
-    return positive_part(elastic + damping, where(own > smallest, own, smallest))
+    return positive_part(elastic + damping, where(elastic_share > smallest, elastic_share, smallest))
 
 
 @law

@@ -44,13 +44,13 @@ def quality_of(
     grades: Sequence[float | None], tolerances: Sequence[FlankTolerances | None], edition: int = 2013
 ) -> Quality | None:
     """Return the quality of both gears by an edition of ISO 1328-1; None where one has none."""
-    known = [of_gear for of_gear in tolerances if of_gear is not None]
-    if len(known) < len(tolerances):
+    with_quality = [of_gear for of_gear in tolerances if of_gear is not None]
+    if len(with_quality) < len(tolerances):
         return None
     return Quality(
         max(float(grade) for grade in grades if grade is not None),
-        max(of_gear.single_pitch for of_gear in known),
-        max(of_gear.profile_form for of_gear in known),
+        max(of_gear.single_pitch for of_gear in with_quality),
+        max(of_gear.profile_form for of_gear in with_quality),
         edition,
     )
 

@@ -58,22 +58,22 @@ def oil_data(lubricant: LubricantData) -> dict[str, Any]:
     With a data sheet also `type`, `oil_temperature`, `temperature`, at which the numbers hold, K, and
     `kinematic_viscosity`.
     """
-    found: dict[str, Any] = {}
+    numbers: dict[str, Any] = {}
     if (sheet := lubricant.sheet) is not None:
         kinematic = kinematic_viscosity(sheet.viscosity_40, sheet.viscosity_100, lubricant.temperature)
-        found["type"] = sheet.type
+        numbers["type"] = sheet.type
         warmer = lubricant.supply is not None
         around = lubricant.supply if warmer else lubricant.temperature
         origin = "operating.oil_temperature, or the network of [temperature]" if warmer else GIVEN
-        found["oil_temperature"] = {"value": around, "unit": "K", "origin": origin}
+        numbers["oil_temperature"] = {"value": around, "unit": "K", "origin": origin}
         origin = "bulk temperature of the teeth" if warmer else "that of the oil"
-        found["temperature"] = {"value": lubricant.temperature, "unit": "K", "origin": origin}
-        found["kinematic_viscosity"] = {"value": kinematic, "unit": "m2/s", "origin": "ASTM D341"}
+        numbers["temperature"] = {"value": lubricant.temperature, "unit": "K", "origin": origin}
+        numbers["kinematic_viscosity"] = {"value": kinematic, "unit": "m2/s", "origin": "ASTM D341"}
     for name, number in oil_values(lubricant).items():
-        found[name] = {"value": float(number.value), "unit": number.unit, "origin": number.origin}
+        numbers[name] = {"value": float(number.value), "unit": number.unit, "origin": number.origin}
         if number.spread is not None:
-            found[name]["spread"] = list(number.spread)
-    return found
+            numbers[name]["spread"] = list(number.spread)
+    return numbers
 
 
 def oil_table(lubricant: LubricantData) -> TextTable:
@@ -97,11 +97,11 @@ def oil_remarks(lubricant: LubricantData) -> list[str]:
     if lubricant.sheet is None:
         return []
     measured = lubricant.sheet.law
-    found = [] if measured is None else contact_viscosity(lubricant).limits(0.0, lubricant.temperature)
+    remarks = [] if measured is None else contact_viscosity(lubricant).limits(0.0, lubricant.temperature)
     if T_40 <= lubricant.temperature <= T_100:
-        return [*found]
+        return [*remarks]
     return [
-        *found,
+        *remarks,
         f"The oil at {lubricant.temperature - ZERO_CELSIUS:.4g} °C: viscosity extrapolated beyond the data "
         "sheet's 40 to 100 °C by ASTM D341.",
     ]
@@ -151,8 +151,8 @@ def with_oil(checked: CheckResult, lubricant: LubricantData) -> CheckResult:
 def _with_laws(checked: CheckResult, case: LubricatedCase, closure: Closure) -> CheckResult:
     """Add the laws in use, why they were taken, and where the nominal duty leaves their ranges."""
     outside = _exceeded(case, closure)
-    taken = zip(laws_of(case), (case.film.ratio, case.friction.ratio), strict=True)
-    rows = [(law.table, law.name, *_at_duty(law, outside, ratio)) for law, ratio in taken]
+    laws = zip(laws_of(case), (case.film.ratio, case.friction.ratio), strict=True)
+    rows = [(law.table, law.name, *_at_duty(law, outside, ratio)) for law, ratio in laws]
     remarks = [remark for name, law in _NAMES.items() for remark in exceeded(outside, name, law)]
     chosen = [f"{key} = {law}, {why}." for key, (law, why) in case.chosen().items()]
     columns = ("", "law", "at this duty", "over the solved contact")

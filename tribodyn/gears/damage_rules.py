@@ -83,21 +83,21 @@ def broken_damage(
 
 def _keys(key: str, table: DamageTable) -> Iterator[InputError]:
     needed, optional = _KINDS[table.kind]
-    given = {name for name in type(table).model_fields if getattr(table, name) is not None}
+    present = {name for name in type(table).model_fields if getattr(table, name) is not None}
     by_map = table.map is not None and table.kind == "spall"
     if by_map:
         needed, optional = (), ("flank", "map")
-    if "radius" in given and "radius" in optional:
+    if "radius" in present and "radius" in optional:
         needed = tuple(name for name in needed if name != "height")
     for name in needed:
-        if name not in given:
+        if name not in present:
             remedy = f"add {name} = {_EXAMPLE[name]}"
             yield InputError(
                 f"{key}.{name}", rule=f"missing: kind = {quoted(table.kind)} needs it", remedy=remedy
             )
-    for name in sorted(given - {*needed, *optional, *_OWN_KEYS}):
+    for name in sorted(present - {*needed, *optional, *_OWN_KEYS}):
         rule = "contradicts map" if by_map else f"kind = {quoted(table.kind)} has no such key"
-        if name == "height" and "radius" in given:
+        if name == "height" and "radius" in present:
             rule = "contradicts radius, which says the same"
         yield InputError(f"{key}.{name}", None, rule, "leave it out")
     if table.height is not None and not 0.0 <= table.height <= 1.0:
@@ -163,9 +163,9 @@ def _crack(key: str, table: DamageTable, tooth: LoadedTooth) -> Iterator[InputEr
         rule = f"the tooth is {1e3 * thickness:.3g} mm thick where the crack starts, and would be off"
         remedy = f'use at most "{1e3 * thickness / 2.0:.3g} mm", half of it, up to which it is known'
         yield InputError(f"{key}.depth", f"{1e3 * crack.depth:.3g} mm", rule, remedy)
-    elif (left := ligament_to_bore(tooth, crack)) < _NEAREST * thickness:
-        rule = "the crack reaches the bore" if left < 0.0 else "the crack ends at the bore"
-        remedy = f'use at most "{1e3 * (crack.depth + left - _NEAREST * thickness):.3g} mm"'
+    elif (ligament := ligament_to_bore(tooth, crack)) < _NEAREST * thickness:
+        rule = "the crack reaches the bore" if ligament < 0.0 else "the crack ends at the bore"
+        remedy = f'use at most "{1e3 * (crack.depth + ligament - _NEAREST * thickness):.3g} mm"'
         yield InputError(f"{key}.depth", f"{1e3 * crack.depth:.3g} mm", rule, remedy)
 
 
@@ -173,10 +173,10 @@ def _on_flank(key: str, table: DamageTable, assembly: Assembly, side: Side) -> I
     """Whether a patch lies on the part of the flank that the mate touches."""
     tooth, path = loaded_tooth(assembly, side), assembly.path_of(side)
     ends = assembly.limits if side == "pinion" else tuple(-limit for limit in reversed(assembly.limits))
-    own = np.linspace(float(ends[0]), float(ends[1]), 400)
-    at = tooth.contact(own)
+    distance = np.linspace(float(ends[0]), float(ends[1]), 400)
+    at = tooth.contact(distance)
     length = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(at.x), np.diff(at.y)))])
-    reach = np.abs(np.asarray(radius(path, own)))
+    reach = np.abs(np.asarray(radius(path, distance)))
     low, high = sorted((float(reach[0]), float(reach[-1])))
     if table.radius is not None and not low * (1.0 - _SLACK) <= table.radius <= high * (1.0 + _SLACK):
         rule = f"off the flank, which is touched from {1e3 * low:.5g} to {1e3 * high:.5g} mm"
@@ -187,7 +187,7 @@ def _on_flank(key: str, table: DamageTable, assembly: Assembly, side: Side) -> I
     size = (table.diameter if table.kind == "pit" else table.length) or 0.0
     order = np.argsort(reach)
     middle = (
-        np.interp(table.height or 0.0, (own - own[0]) / (own[-1] - own[0]), length)
+        np.interp(table.height or 0.0, (distance - distance[0]) / (distance[-1] - distance[0]), length)
         if table.radius is None
         else np.interp(table.radius, reach[order], length[order])
     )

@@ -39,11 +39,11 @@ def nominal_duty(case: GearCase, assembly: Assembly) -> DutyFigures:
     moduli = [(1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials]
     load = torque / abs(float(motion.gear_normal_arm)) / width
     pressure = hertz_pressure(load, abs(float(motion.relative_curvature)), 2.0 / sum(moduli))
-    own = torque * abs(pinion / gear)
+    pinion_torque = torque * abs(pinion / gear)
     return DutyFigures(
-        own,
+        pinion_torque,
         torque,
-        own * speed * 1e-3,
+        pinion_torque * speed * 1e-3,
         speed * 30.0 / math.pi,
         speed * abs(pinion),
         torque / abs(gear) / width * 1e-3,

@@ -104,23 +104,23 @@ def _with_mesh(
 
 def _put(data: dict[str, Any], tables: Mapping[str, Any], schema: type[BaseModel]) -> dict[str, Any]:
     """The data over the tables, of which those keys are taken that the schema has."""
-    found = dict(data)
+    merged = dict(data)
     for name, table in tables.items():
         if name not in schema.model_fields:
             continue
-        own = data.get(name)
-        if not isinstance(table, Mapping) or not (own is None or isinstance(own, Mapping)):
-            found.setdefault(name, table)
+        in_data = data.get(name)
+        if not isinstance(table, Mapping) or not (in_data is None or isinstance(in_data, Mapping)):
+            merged.setdefault(name, table)
             continue
-        given = dict(own or {})
-        taken = {key: value for key, value in table.items() if _has(schema, name, key)}
+        written = dict(in_data or {})
+        kept = {key: value for key, value in table.items() if _has(schema, name, key)}
         for group in (SPEEDS, LOADS):
-            if name == "operating" and set(group) & set(under_one_name(given)):
-                taken = {key: value for key, value in taken.items() if OF_PAIR.get(key, key) not in group}
-        if "law" in given:  # and its own keys
-            taken = {}
-        found[name] = taken | given
-    return found
+            if name == "operating" and set(group) & set(under_one_name(written)):
+                kept = {key: value for key, value in kept.items() if OF_PAIR.get(key, key) not in group}
+        if "law" in written:  # and its own keys
+            kept = {}
+        merged[name] = kept | written
+    return merged
 
 
 def _has(schema: type[BaseModel], name: str, key: str) -> bool:
@@ -130,6 +130,6 @@ def _has(schema: type[BaseModel], name: str, key: str) -> bool:
     tables = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
     if not tables or name in ("drive", "lubricant"):
         return True
-    known = {field for table in tables for field in fields_of(table)}
+    fields = {field for table in tables for field in fields_of(table)}
     laws = name in ("film", "friction") and key not in ("sliding", "reversal_width")  # of motions alone
-    return laws or key in known
+    return laws or key in fields

@@ -64,22 +64,22 @@ def gear_mesh(
     )
 
 
-def own_teeth(case: GearCase, made: Tabulated) -> Teeth:
+def own_teeth(case: GearCase, tabulated: Tabulated) -> Teeth:
     """What single teeth of a case have of their own, as its tabulated mesh looks them up."""
     if not any(case.teeth):
         return ALIKE
     drive, (one, two) = case.drive, case.teeth
-    own = _in_mesh(one, "pinion", case, made), _in_mesh(two, "gear", case, made)
+    both_gears = _in_mesh(one, "pinion", case, tabulated), _in_mesh(two, "gear", case, tabulated)
     counts = abs(round(float(drive.pinion.teeth))), abs(round(float(drive.gear.teeth)))
-    return teeth_of(made.assembly, case.mesh, made.cycle, own, counts)
+    return teeth_of(tabulated.assembly, case.mesh, tabulated.cycle, both_gears, counts)
 
 
-def _in_mesh(own: OwnTeeth, side: Side, case: GearCase, made: Tabulated) -> OwnTeeth:
+def _in_mesh(teeth: OwnTeeth, side: Side, case: GearCase, tabulated: Tabulated) -> OwnTeeth:
     """What teeth of one gear have of their own, where damage knows its mesh."""
-    if not any(isinstance(each, DamagedTeeth) for each in own):
-        return own
-    gear = damaged_gear(made.assembly, case.materials, side, case.mesh.at_load)
-    return tuple(each.in_mesh(gear) if isinstance(each, DamagedTeeth) else each for each in own)
+    if not any(isinstance(each, DamagedTeeth) for each in teeth):
+        return teeth
+    gear = damaged_gear(tabulated.assembly, case.materials, side, case.mesh.at_load)
+    return tuple(each.in_mesh(gear) if isinstance(each, DamagedTeeth) else each for each in teeth)
 
 
 def with_own_teeth(

@@ -43,8 +43,8 @@ class UsualRange(NamedTuple):
 
     def sentence(self, number: float) -> str:
         """What to say of a number outside."""
-        given = f"{number:.4g} {self.unit}".rstrip()
-        return f"{self.what}: {given}; usual is {self.ends} ({self.source}). {self.beyond}"
+        with_unit = f"{number:.4g} {self.unit}".rstrip()
+        return f"{self.what}: {with_unit}; usual is {self.ends} ({self.source}). {self.beyond}"
 
 
 _SHEETS = "data sheets of gear oils"
@@ -222,15 +222,15 @@ def _four_digits(value: float) -> str:
 
 def unusual_values(case: GearCase) -> list[str]:
     """Say of each number of a case that lies outside the field's usual range what is usual, in a sentence."""
-    said: dict[str, None] = {}  # of both gears, or both bearings, once
+    sentences: dict[str, None] = {}  # of both gears, or both bearings, once
     outside: set[str] = set()
     for name, number in _numbers(case):
-        usual = USUAL[name]
+        usual_range = USUAL[name]
         twice = name == "roughness_over_module" and "roughness" in outside
-        if isfinite(number) and not twice and not usual.low <= number <= usual.high:
+        if isfinite(number) and not twice and not usual_range.low <= number <= usual_range.high:
             outside.add(name)
-            said[usual.sentence(number)] = None
-    return list(said)
+            sentences[usual_range.sentence(number)] = None
+    return list(sentences)
 
 
 def _numbers(case: Any) -> Iterator[tuple[str, float]]:

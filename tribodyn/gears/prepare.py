@@ -83,16 +83,16 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
     def step(here: tuple[float, float]) -> tuple[float, float]:
         bulk, around = here
         lubricant = replace(lubricant_at(oil, bulk), supply=around)
-        known = wanted.mesh_loss
-        lost = mesh_loss(replace(case, lubricant=lubricant)) if known is None else known
+        given_loss = wanted.mesh_loss
+        lost = mesh_loss(replace(case, lubricant=lubricant)) if given_loss is None else given_loss
         losses = idle_losses(case, assembly, lubricant_at(oil, around))
         heat = heat_partition(lost, losses, housing=wanted.housing_ambient > 0.0)
         heat = heat._replace(
             oil=heat.oil + wanted.other_heat, housing=heat.housing + wanted.other_housing_heat
         )
-        found, given_off = _temperatures(case, assembly, wanted, heat, lost, supplied)
-        latest[:] = [Thermal(lubricant, lost, losses, found, heat, given_off)]
-        return found.bulk, found.oil
+        temperatures, given_off = _temperatures(case, assembly, wanted, heat, lost, supplied)
+        latest[:] = [Thermal(lubricant, lost, losses, temperatures, heat, given_off)]
+        return temperatures.bulk, temperatures.oil
 
     for temperature in fixed_point(step, (supplied, supplied), TEMPERATURE_RANGE):
         _refuse_unknown(temperature, wanted)
@@ -134,16 +134,16 @@ def thermal_quantities(thermal: Thermal | None, power_in: float, efficiency: flo
     if thermal is None:
         return {}
     quantities: dict[str, Any] = {}
-    if (found := thermal.temperatures) is not None:
+    if (temperatures := thermal.temperatures) is not None:
         quantities |= {
-            "bulk_temperature": found.bulk,
-            "bulk_temperature_pinion": found.pinion,
-            "bulk_temperature_gear": found.gear,
-            "oil_temperature": found.oil,
+            "bulk_temperature": temperatures.bulk,
+            "bulk_temperature_pinion": temperatures.pinion,
+            "bulk_temperature_gear": temperatures.gear,
+            "oil_temperature": temperatures.oil,
             "heat_generated": thermal.heat.total,
         }
         if thermal.given_off is not None:
-            quantities |= {"housing_temperature": found.housing, "heat_given_off": thermal.given_off}
+            quantities |= {"housing_temperature": temperatures.housing, "heat_given_off": thermal.given_off}
     if thermal.losses:
         power = {f"power_{name}": loss.power for name, loss in thermal.losses.items()}
         idle = sum(power.values())
@@ -186,8 +186,8 @@ def _temperatures(
         wanted.housing_ambient,
         wanted.ambient_temperature,
     )
-    found = network_temperatures(network, heat, supplied)
-    return found, heat_given_off(network, found, supplied)
+    temperatures = network_temperatures(network, heat, supplied)
+    return temperatures, heat_given_off(network, temperatures, supplied)
 
 
 def _refuse_unknown(temperature: float, wanted: TemperatureData) -> None:

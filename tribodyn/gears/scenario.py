@@ -127,11 +127,11 @@ def oil_fields(scenario: Any) -> dict[str, Any]:
 
     Where nothing is said of film and friction, the film law is the one nearest at the duty.
     """
-    friction, film, found = getattr(scenario, "friction", None), getattr(scenario, "film", None), {}
+    friction, film, fields_of_case = getattr(scenario, "friction", None), getattr(scenario, "film", None), {}
     if friction is not None:
-        own = {name: getattr(friction, name) for name in type(friction).model_fields if name != "law"}
-        found["friction"] = FrictionData(friction.law, law_values(friction), **own)
-    return found | {
+        options = {name: getattr(friction, name) for name in type(friction).model_fields if name != "law"}
+        fields_of_case["friction"] = FrictionData(friction.law, law_values(friction), **options)
+    return fields_of_case | {
         "lubricant": lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
         "film": FilmData(AUTO) if film is None and friction is None else film_of(film),
         "temperature": temperature_of(getattr(scenario, "temperature", None)),
@@ -185,11 +185,11 @@ def broken_stiffness_rules(mesh: Any, choices: Iterable[str] = tuple(_GIVEN)) ->
     """Go through what a table [mesh] lacks, or says twice, of a compliance that is given."""
     for choice in choices:
         name, example = _GIVEN[choice]
-        given = getattr(mesh, name) is not None
-        if mesh.compliance == choice and not given:
+        present = getattr(mesh, name) is not None
+        if mesh.compliance == choice and not present:
             rule = f'missing: compliance = "{choice}" needs it'
             yield InputError(f"mesh.{name}", rule=rule, remedy=f"add {name} = {example}")
-        if mesh.compliance != choice and given:
+        if mesh.compliance != choice and present:
             rule = f'contradicts compliance = "{mesh.compliance}"'
             remedy = f'leave {name} out, or write compliance = "{choice}"'
             yield InputError(f"mesh.{name}", rule=rule, remedy=remedy)
@@ -198,13 +198,13 @@ def broken_stiffness_rules(mesh: Any, choices: Iterable[str] = tuple(_GIVEN)) ->
 def _broken_internal_face(scenario: Any) -> Iterator[InputError]:
     """Refuse what varies along the face of an internal pair, whose teeth are not cut into slices."""
     modifications = modifications_of(scenario.drive, getattr(scenario.mesh, "misalignment", _ALIGNED))
-    given = getattr(scenario.mesh, "slices", None)
-    if slices_of(given, modifications) > 1:
+    slices = getattr(scenario.mesh, "slices", None)
+    if slices_of(slices, modifications) > 1:
         rule = (
             "internal pairs are even along the face: no slices, and nothing modified or misaligned along it"
         )
         remedy = "leave out slices, misalignment, and the crowning and end relief of both gears"
-        yield InputError("mesh.slices", given, rule, remedy)
+        yield InputError("mesh.slices", slices, rule, remedy)
 
 
 def _broken_supports(scenario: Any) -> Iterator[InputError]:

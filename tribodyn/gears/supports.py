@@ -70,8 +70,8 @@ def supports_of(scenario: Any) -> GearSupports:
 
     Raises InputError where a shaft is not held under the load of its gear, or the teeth have no path.
     """
-    if (known := getattr(scenario, "supports", None)) is not None:  # of a mesh of several
-        return known
+    if (prescribed := getattr(scenario, "supports", None)) is not None:  # of a mesh of several
+        return prescribed
     if not has_supports(scenario):
         return GearSupports()
     bearings = getattr(scenario, "bearings", None)
@@ -81,21 +81,21 @@ def supports_of(scenario: Any) -> GearSupports:
     assembly = assembled_on_path(drive)
     torque = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
     loads = mean_loads(assembly, torque)
-    found: dict[str, GearSupport | None] = dict.fromkeys(SIDES)
+    supports: dict[str, GearSupport | None] = dict.fromkeys(SIDES)
     for side, load in zip(SIDES, loads, strict=True):
         if side in drawn:
-            found[side] = drawn_support(*drawn[side], load)
+            supports[side] = drawn_support(*drawn[side], load)
         elif (matrix := matrices[side]) is not None:
-            found[side] = matrix_support(f"bearings.{side}.matrix", bearing_of(matrix), load)
+            supports[side] = matrix_support(f"bearings.{side}.matrix", bearing_of(matrix), load)
     angle = float(assembly.path.pressure_angle(0.0))
-    stand = misalignment_of_tilts((_of(one, "displacement")[3:] for one in found.values()), angle)
-    return GearSupports(found["pinion"], found["gear"], stand, angle)
+    stand = misalignment_of_tilts((_of(one, "displacement")[3:] for one in supports.values()), angle)
+    return GearSupports(supports["pinion"], supports["gear"], stand, angle)
 
 
 def has_supports(scenario: Any) -> bool:
     """Whether a scenario draws a shaft or gives a matrix."""
-    if (known := getattr(scenario, "supports", None)) is not None:
-        return known.pinion is not None or known.gear is not None
+    if (prescribed := getattr(scenario, "supports", None)) is not None:
+        return prescribed.pinion is not None or prescribed.gear is not None
     bearings = getattr(scenario, "bearings", None)
     drawn = drawn_shafts(getattr(scenario, "shaft", None))
     return bool(drawn) or any(_with_matrix(bearings, side) for side in SIDES)
@@ -105,8 +105,8 @@ def bearings_of(scenario: Any) -> tuple[BearingData, BearingData]:
     """Stiffness and damping of what holds both gears of a scenario that breaks no rule."""
     held = supports_of(scenario)
     pinion, gear = (
-        bearing_of(scenario.bearings.of(side)) if own is None else own.data
-        for side, own in zip(SIDES, held[:2], strict=True)
+        bearing_of(scenario.bearings.of(side)) if support is None else support.data
+        for side, support in zip(SIDES, held[:2], strict=True)
     )
     return pinion, gear
 
@@ -182,11 +182,11 @@ def drawn_support(key: str, table: DrawnShaft, load: Five) -> GearSupport:
 
 @remembered(64)
 def _settled(shaft: SupportedShaft, load: Five) -> tuple[Five, Matrix, tuple[tuple[Five, Matrix], ...]]:
-    found = under_load(shaft, load)
+    settled_shaft = under_load(shaft, load)
     return (
-        tuple(found.displacement.tolist()),
-        tuple(map(tuple, found.stiffness.tolist())),
-        tuple((tuple(state.force.tolist()), _element_loads(state)) for state in found.bearings),
+        tuple(settled_shaft.displacement.tolist()),
+        tuple(map(tuple, settled_shaft.stiffness.tolist())),
+        tuple((tuple(state.force.tolist()), _element_loads(state)) for state in settled_shaft.bearings),
     )
 
 

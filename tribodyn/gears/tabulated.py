@@ -62,8 +62,8 @@ def _tabulated(case: LubricatedCase) -> Tabulated:
     back, torque = case.mesh.backlash is not None, case.operating.gear_torque
     mesh, remark = with_slices(assembly, case.materials, case.mesh, torque)
     cycle = mesh_cycle_of(assembly, case.materials, mesh, torque, back)
-    given = [(body.mass, body.inertia) for body in case.masses]
-    pinion, gear = body_masses(assembly, given, [material.density for material in case.materials])
+    masses = [(body.mass, body.inertia) for body in case.masses]
+    pinion, gear = body_masses(assembly, masses, [material.density for material in case.materials])
 
     @cache
     def split() -> MeshCycle:
@@ -76,16 +76,16 @@ def _tabulated(case: LubricatedCase) -> Tabulated:
     return Tabulated(cycle, table, of_one_mesh(table.boundary), (pinion, gear), assembly, split, remark)
 
 
-def quasi_static_loss(made: Tabulated) -> Callable[[LubricatedCase], float]:
+def quasi_static_loss(tabulated: Tabulated) -> Callable[[LubricatedCase], float]:
     """Return what gives the mean loss to tooth friction in slow rotation at the constant torque, W."""
 
     def lost(case: LubricatedCase) -> float:
         torque, speed = case.operating.gear_torque, case.operating.pinion_speed
         if torque == 0.0:
             return 0.0
-        cycle = made.split()
+        cycle = tabulated.split()
         seen = contacts(cycle, torque, speed, closure_of(case))
-        found = settled(seen, elastic(cycle, torque))
-        return speed * float(friction_loss(cycle, found.normal_load, found.friction_coefficient))
+        films = settled(seen, elastic(cycle, torque))
+        return speed * float(friction_loss(cycle, films.normal_load, films.friction_coefficient))
 
     return lost

@@ -146,13 +146,15 @@ def mass_and_inertia(assembly: Assembly, side: Side, density: Any) -> tuple[Any,
 
 
 def body_masses(
-    assembly: Assembly, given: Sequence[tuple[float | None, float | None]], densities: Sequence[float]
+    assembly: Assembly, masses_given: Sequence[tuple[float | None, float | None]], densities: Sequence[float]
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Mass (kg) and inertia (kg m²) of pinion and gear: those given, the others from section and density."""
     masses = []
-    for side, known, density in zip(SIDES, given, densities, strict=True):
-        computed = (0.0, 0.0) if None not in known else mass_and_inertia(assembly, side, density)
-        mass, inertia = (value if own is None else own for own, value in zip(known, computed, strict=True))
+    for side, pair, density in zip(SIDES, masses_given, densities, strict=True):
+        computed = (0.0, 0.0) if None not in pair else mass_and_inertia(assembly, side, density)
+        mass, inertia = (
+            value if stated is None else stated for stated, value in zip(pair, computed, strict=True)
+        )
         masses.append((float(mass), float(inertia)))
     return masses[0], masses[1]
 

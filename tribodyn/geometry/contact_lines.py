@@ -49,10 +49,10 @@ def contact_lines(assembly: Assembly) -> ContactLines:
     ratio = float(assembly.contact_ratio)
     # where a line reaches or leaves an end, its length has a corner: there lie the extremes of an involute
     corners = np.array([half, -half, ratio + half, ratio - half])
-    found = contact_line_lengths(assembly, np.concatenate([corners, np.arange(_PHASES) / _PHASES]))
+    lengths = contact_line_lengths(assembly, np.concatenate([corners, np.arange(_PHASES) / _PHASES]))
     _, summed = _stretched_roll(assembly)
     mean = float(assembly.common_width * summed[-1] / assembly.pitch_angle)
-    return ContactLines(mean, float(found.min()), float(found.max()))
+    return ContactLines(mean, float(lengths.min()), float(lengths.max()))
 
 
 def _stretched_roll(assembly: Assembly) -> tuple[Float[Array, " roll"], Float[Array, " roll"]]:

@@ -219,17 +219,17 @@ def _span_lines(assembly: Assembly, side: Side, gauge: Gauge) -> dict[str, Quant
 
     if gauge.span_teeth is not None:
         count = 1 - gauge.span_teeth if internal else gauge.span_teeth
-        found = [count] if touches(count) else []
+        counts = [count] if touches(count) else []
     else:
-        usual = usual_span_teeth(gear)
-        around = sorted(range(usual - 3, usual + 4), key=lambda each: abs(each - usual))
-        found = [each for each in around if (each < 1) == internal and touches(each)]
-        found = [each for each in found if fits(each)] or found
+        nominal = usual_span_teeth(gear)
+        around = sorted(range(nominal - 3, nominal + 4), key=lambda each: abs(each - nominal))
+        counts = [each for each in around if (each < 1) == internal and touches(each)]
+        counts = [each for each in counts if fits(each)] or counts
     what, of = ("gaps", "span over gaps") if internal else ("teeth", "span")
-    if not found:
-        given = "of so many" if gauge.span_teeth is not None else "of any number"
-        return {of: (f"none: anvils over {what} {given} do not touch the flanks", "")}
-    count, sign = found[0], -1.0 if internal else 1.0
+    if not counts:
+        which_number = "of so many" if gauge.span_teeth is not None else "of any number"
+        return {of: (f"none: anvils over {what} {which_number} do not touch the flanks", "")}
+    count, sign = counts[0], -1.0 if internal else 1.0
     name = of if fits(count) else f"{of} that the face is too narrow to measure"
     lines = {f"{what} of the span": (1.0 - count if internal else float(count), "")}
     lines |= _with_limits(name, lambda deviation: sign * span(gear, count, deviation), allowance, gauge)
@@ -275,8 +275,8 @@ def _with_limits(
 def usual_pin(assembly: Assembly, side: Side) -> float | None:
     """Diameter of a pin or ball that measures the teeth, m: the usual one, or next to it; None: none does."""
     gear, _ = involute_of(assembly.drive, side)
-    usual = USUAL_INTERNAL_PIN if gear.teeth < 0 else USUAL_PIN
-    for pin in (usual, *sorted(_PINS, key=lambda each: abs(each - usual))):
+    nominal = USUAL_INTERNAL_PIN if gear.teeth < 0 else USUAL_PIN
+    for pin in (nominal, *sorted(_PINS, key=lambda each: abs(each - nominal))):
         if not pin_fails(assembly, side, pin * gear.module, _OUT * gear.module):
             return pin * gear.module
     return None

@@ -130,9 +130,9 @@ def sine_at_pitch_point(path: Path) -> tuple[Any, Any, Any]:
 
     The rates are each other's negative unless the path has a corner there.
     """
-    beside = _BESIDE * absolute(path.pinion_pitch_radius)
+    offset = _BESIDE * absolute(path.pinion_pitch_radius)
     xp = namespace(path)
-    r = xp.stack([0.0 * beside, -beside, beside])
+    r = xp.stack([0.0 * offset, -offset, offset])
     alpha, slope = path.pressure_angle(r), path.pressure_angle_slope(r)
     return sin(alpha[0]), -cos(alpha[0]) * slope[1], cos(alpha[0]) * slope[2]
 

@@ -97,10 +97,10 @@ def _ring_by_formula(
     theta = last
     if solved:
         theta = cast(float, brentq(lambda t: slope * math.tan(t) - wide - t, 0.0, last, xtol=1e-14))
-    beside, tip = math.pi / 6.0 - theta, height / math.cos(theta) - rounding
+    half_angle, tip = math.pi / 6.0 - theta, height / math.cos(theta) - rounding
     curved = math.cos(theta) * (abs(teeth) * math.cos(theta) ** 2 - 2.0 * height)
     return (
-        module / 2.0 * (teeth * math.cos(beside) + math.sqrt(3.0) * tip),
-        module * (teeth * math.sin(beside) + tip),
+        module / 2.0 * (teeth * math.cos(half_angle) + math.sqrt(3.0) * tip),
+        module * (teeth * math.sin(half_angle) + tip),
         module * (rounding + 2.0 * height**2 / curved),
     )

@@ -246,9 +246,9 @@ def _backlash_limits(
 
 def specific_sliding_max(assembly: Assembly) -> float:
     """Largest magnitude of both flanks' specific sliding along the path of contact."""
-    found = _sliding(assembly)
+    sliding = _sliding(assembly)
     ends = (f"{end} specific sliding" for end in ("minimum", "maximum"))
-    return max(abs(float(found[side][end][0])) for end in ends for side in SIDES)
+    return max(abs(float(sliding[side][end][0])) for end in ends for side in SIDES)
 
 
 def _sliding(assembly: Assembly) -> dict[str, dict[str, Quantity]]:

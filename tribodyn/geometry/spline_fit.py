@@ -51,13 +51,13 @@ def fit_spline(assembly: Assembly, values: int) -> Assembly:
     matrix = np.stack(columns, axis=-1)
     free = np.arange(matrix.shape[1]) != before
     wanted = path.pressure_angle(r) - angle * matrix[:, before]
-    found = np.full(matrix.shape[1], angle)
+    angles = np.full(matrix.shape[1], angle)
     weight = np.where((r >= contact[0]) & (r <= contact[1]), 1.0, _BESIDE)
-    found[free] = np.linalg.lstsq(weight[:, None] * matrix[:, free], weight * wanted)[0]
-    corner = float(found[-1]) if assembly.family.corner else 0.0
+    angles[free] = np.linalg.lstsq(weight[:, None] * matrix[:, free], weight * wanted)[0]
+    corner = float(angles[-1]) if assembly.family.corner else 0.0
     return Assembly(
         family("spline"),
-        drive._replace(shape=SplineShape(np.maximum(found[: len(knots)], 0.0), knots, None, corner)),
+        drive._replace(shape=SplineShape(np.maximum(angles[: len(knots)], 0.0), knots, None, corner)),
     )
 
 

@@ -63,11 +63,11 @@ def data_set_of(
 def listed_of(grid: Grid, asked: DataSet, layout: SweepLayout) -> dict[str, Listed]:
     """What is told of every case: its number over the grid is that in the list."""
     places = [np.ravel(axis) for axis in np.indices(grid.shape)]
-    found: dict[str, Listed] = {}
+    columns: dict[str, Listed] = {}
     for axis, place in zip(grid.axes, places, strict=True):
         values = np.asarray(axis.values)[place]
         variable = Variable((CASE,), axis.units or "1", f"varied parameter {axis.key}")
-        found[axis.name] = Listed(variable, values, axis.key)
+        columns[axis.name] = Listed(variable, values, axis.key)
     drive = drives_of(grid, places)
     rows = [labels(grid.data(place)) for place in zip(*places, strict=True)]
     kind, gear, tooth, size = (list(column) for column in zip(*rows, strict=True))
@@ -84,22 +84,22 @@ def listed_of(grid: Grid, asked: DataSet, layout: SweepLayout) -> dict[str, List
         "split": (split_of(drive, asked), "1", f"{TRAIN} or {TEST}; all cases of a drive on one side"),
     }
     for name, (values, unit, about) in told.items():
-        found[name] = Listed(Variable((CASE,), unit, about), values)
+        columns[name] = Listed(Variable((CASE,), unit, about), values)
     for name in chain(layout.variables, layout.scales):
-        if name in found:
+        if name in columns:
             rule = f"the data set has {name} of its own"
             raise InputError("sensor", f'"{name}"', rule, "give the sensor another name")
-    return found
+    return columns
 
 
 def labels(data: Mapping[str, Any]) -> tuple[str, str, int, float]:
     """Kind, gear, tooth and size (m) of the damage of a scenario; of several all kinds, and the first."""
-    known = [table for table in data.get(DAMAGE, ()) if isinstance(table, Mapping)]
-    if not known:
+    damage = [table for table in data.get(DAMAGE, ()) if isinstance(table, Mapping)]
+    if not damage:
         return SOUND, "", 0, 0.0
-    first = known[0]
+    first = damage[0]
     size = next((_length(first[key]) for key in _SIZES if key in first), float("nan"))
-    kinds = dict.fromkeys(str(table.get("kind", "")) for table in known)
+    kinds = dict.fromkeys(str(table.get("kind", "")) for table in damage)
     return "+".join(kinds), str(first.get("gear", "")), int(first["tooth"]), size
 
 
@@ -115,9 +115,9 @@ def drives_of(grid: Grid, places: list[np.ndarray]) -> np.ndarray:
 
     Drives differ by what is drawn with a seed; where nothing is, by keys of gears, bearings and mesh.
     """
-    drawn = [i for i, axis in enumerate(grid.axes) if axis.drawn]
-    own = [i for i, axis in enumerate(grid.axes) if axis.key.startswith(_OF_A_DRIVE)]
-    chosen = drawn or own
+    drawn_axes = [i for i, axis in enumerate(grid.axes) if axis.drawn]
+    drive_axes = [i for i, axis in enumerate(grid.axes) if axis.key.startswith(_OF_A_DRIVE)]
+    chosen = drawn_axes or drive_axes
     if not chosen:
         return np.zeros(len(places[0]), dtype="<i8")
     shape = tuple(grid.shape[i] for i in chosen)

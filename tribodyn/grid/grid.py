@@ -59,9 +59,9 @@ class Grid:
 
     def hearing(self, request: SignalRequest) -> "Grid":
         """The same, whose cases give the signals of their sensors; InputError where they have none."""
-        found = copy.copy(self)
-        found.batch = self.batch.hearing(request)
-        return found
+        grid = copy.copy(self)
+        grid.batch = self.batch.hearing(request)
+        return grid
 
     def data(self, place: Sequence[int]) -> dict[str, Any]:
         """The scenario's tables at a place of the grid."""
@@ -99,8 +99,8 @@ class Grid:
     def with_values(self, values: Sequence[float]) -> "Grid":
         """The same with other values of the first axis, SI, those it has among them and its ends the same."""
         axis = self.axes[0]
-        known = dict(zip(axis.values, axis.written, strict=True))
-        written = tuple(known[value] if value in known else in_si(value, axis.units) for value in values)
+        texts = dict(zip(axis.values, axis.written, strict=True))
+        written = tuple(texts[value] if value in texts else in_si(value, axis.units) for value in values)
         finer = copy.copy(self)
         finer.axes = (axis._replace(values=tuple(values), written=written), *self.axes[1:])
         return finer
@@ -186,14 +186,14 @@ def _put(data: dict[str, Any], key: str, value: Any) -> None:
 
 def _picked(data: Mapping[str, Any], axis: Axis, value: str) -> list[Any]:
     """Of a list of tables the one of a number, or none."""
-    known = data.get(axis.key, [])
+    tables = data.get(axis.key, [])
     if value == NO_TABLE:
         return []
-    numbers = [str(number) for number in range(1, len(known) + 1)]
+    numbers = [str(number) for number in range(1, len(tables) + 1)]
     if value not in numbers:
-        rule = f"there {'is' if len(known) == 1 else 'are'} {len(known) or 'no'} [[{axis.key}]]"
+        rule = f"there {'is' if len(tables) == 1 else 'are'} {len(tables) or 'no'} [[{axis.key}]]"
         raise InputError(axis.key, quoted(value), rule, f"number them from 1, or write {NO_TABLE}", VARY)
-    return [known[numbers.index(value)]]
+    return [tables[numbers.index(value)]]
 
 
 def default_output(grid: Grid) -> Path:

@@ -60,14 +60,14 @@ def interval_bends(values: np.ndarray, curve: np.ndarray) -> np.ndarray:
     At a value it is the distance from the straight line between the two neighbours. Values that failed (NaN)
     are left out: their neighbours lie beside each other.
     """
-    known = np.flatnonzero(np.isfinite(curve))
+    finite = np.flatnonzero(np.isfinite(curve))
     bends = np.zeros(len(values) - 1)
-    x, y = values[known], curve[known]
+    x, y = values[finite], curve[finite]
     extent = float(np.ptp(y)) if len(y) else 0.0
     if len(x) < FEWEST or extent == 0.0:
         return bends
     line = y[:-2] + (y[2:] - y[:-2]) * (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
-    for left, right, bend in zip(known[:-2], known[2:], np.abs(y[1:-1] - line) / extent, strict=True):
+    for left, right, bend in zip(finite[:-2], finite[2:], np.abs(y[1:-1] - line) / extent, strict=True):
         bends[left:right] = np.maximum(bends[left:right], bend)
     return bends
 

@@ -86,8 +86,8 @@ def run(
         grid = grid_of(grid, refinement, values_left(output, grid.axes[0].name))
 
     def head_of(grid: Grid) -> SweepHead:
-        found = _head(grid, first, settings, directions, refinement, data_set)
-        return found._replace(scenario_file=scenario_file)
+        head = _head(grid, first, settings, directions, refinement, data_set)
+        return head._replace(scenario_file=scenario_file)
 
     head = head_of(grid)
     if not resume:
@@ -174,12 +174,12 @@ def _head(
 ) -> SweepHead:
     """What is known of the sweep over a grid, the first one or one with further values."""
     scales = tuple(VariedKey(axis.name, axis.key, axis.units, axis.values) for axis in grid.axes)
-    described = {
+    settings_data = {
         "vary": {axis.key: list(axis.written) for axis in first.axes},
         "weights": {axis.name: _weights(grid, axis) for axis in grid.axes if axis.weighed},
         "drawn": [axis.name for axis in grid.axes if axis.drawn],
         "directions": [direction for direction in DIRECTIONS if direction in directions],
-        "chosen": {key: ", ".join(taken) for key, taken in grid.chosen.items()},
+        "chosen": {key: ", ".join(names) for key, names in grid.chosen.items()},
         "laws": grid.base.laws(),
         **({"refine": refinement._asdict()} if refinement else {}),
         **({"test": data_set.test} if data_set else {}),
@@ -189,7 +189,7 @@ def _head(
         scenario=grid.base.toml,
         sha256=grid.base.sha256,
         parameters=scales,
-        settings=tomli_w.dumps(described),
+        settings=tomli_w.dumps(settings_data),
         directions=tuple(directions),
         layout=grid.batch.layout(settings),
     )

@@ -82,7 +82,7 @@ def fitted(
     start = begun[int(np.argmin(squares(begun)))] if len(begun) > 1 else begun[0]
     if search is not None:
         start = np.clip(search(squares, start), MARGIN, 1.0 - MARGIN)
-    found = least_squares(
+    solution = least_squares(
         lambda place: at(place[None])[0],
         start,
         jac=jacobian,  # pyright: ignore[reportArgumentType]
@@ -92,12 +92,12 @@ def fitted(
         gtol=None,  # pyright: ignore[reportArgumentType]
         max_nfev=EVALUATIONS,
     )
-    rest = np.asarray(found.fun)
+    rest = np.asarray(solution.fun)
     freedom = len(rest) - len(start)
     variance = float(rest @ rest) / freedom
     return Fit(
-        np.asarray(found.x),
-        covariance_of(jacobian(np.asarray(found.x)), variance),
+        np.asarray(solution.x),
+        covariance_of(jacobian(np.asarray(solution.x)), variance),
         float(np.sqrt(variance)),
         freedom,
         count,

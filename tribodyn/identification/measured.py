@@ -23,7 +23,7 @@ class MeasuredSignal(NamedTuple):
     values: Float[Array, " sample"]
 
 
-def measured_of(given: Any, case: Any, start: float, earliest: float) -> tuple[MeasuredSignal, ...]:
+def measured_of(measured: Any, case: Any, start: float, earliest: float) -> tuple[MeasuredSignal, ...]:
     """Read what was measured: a record with sensors, or arrays by the names of the scenario's sensors.
 
     Arrays begin `start` seconds after the start of the run. What lies before `earliest`, s, is left out.
@@ -35,15 +35,15 @@ def measured_of(given: Any, case: Any, start: float, earliest: float) -> tuple[M
         raise InputError(
             "sensor", None, "missing: it says what was measured, where and at which rate", remedy
         )
-    if isinstance(given, (str, Path)):
-        with Record(given) as record:
-            found = _of_record(read_sensed(record), rates, str(given))
-    elif hasattr(given, "keys"):
-        found = [_of_array(str(name), given[name], rates, start) for name in given]
+    if isinstance(measured, (str, Path)):
+        with Record(measured) as record:
+            signals = _of_record(read_sensed(record), rates, str(measured))
+    elif hasattr(measured, "keys"):
+        signals = [_of_array(str(name), measured[name], rates, start) for name in measured]
     else:
         rule = "expected the path of a record, or arrays by the names of sensors"
-        raise InputError("measured", type(given).__name__, rule, 'write {"a": values}')
-    cut = tuple(_from(each, earliest * rates[each.sensor]) for each in found)
+        raise InputError("measured", type(measured).__name__, rule, 'write {"a": values}')
+    cut = tuple(_from(each, earliest * rates[each.sensor]) for each in signals)
     if not cut or not all(len(each.values) for each in cut):
         rule = f"no sample is left behind {earliest:.4g} s, when the run in ends"
         raise InputError("measured", None, rule, "measure longer, or shorten run_in")
@@ -51,15 +51,15 @@ def measured_of(given: Any, case: Any, start: float, earliest: float) -> tuple[M
 
 
 def _of_record(sensed: Sensed, rates: Mapping[str, float], path: str) -> list[MeasuredSignal]:
-    found = [
+    signals = [
         MeasuredSignal(signal.name, round(float(signal.time[0]) * signal.rate), signal.values)
         for signal in sensed.signals
         if signal.name in rates and len(signal.time) and signal.rate == rates[signal.name]
     ]
-    if not found:
+    if not signals:
         rule = f"holds no signal of {', '.join(rates)} at the scenario's rates"
         raise InputError("measured", path, rule, "run a scenario with these sensors")
-    return found
+    return signals
 
 
 def _of_array(name: str, values: Any, rates: Mapping[str, float], start: float) -> MeasuredSignal:
@@ -86,6 +86,6 @@ def _of_array(name: str, values: Any, rates: Mapping[str, float], start: float) 
     return MeasuredSignal(name, round(place), array)
 
 
-def _from(found: MeasuredSignal, earliest: float) -> MeasuredSignal:
-    left_out = max(0, int(np.ceil(earliest - 1e-6)) - found.first)
-    return MeasuredSignal(found.sensor, found.first + left_out, found.values[left_out:])
+def _from(signal: MeasuredSignal, earliest: float) -> MeasuredSignal:
+    left_out = max(0, int(np.ceil(earliest - 1e-6)) - signal.first)
+    return MeasuredSignal(signal.sensor, signal.first + left_out, signal.values[left_out:])

@@ -65,10 +65,10 @@ class SignalComparison:
 
         Raises InputError for an end at which no run can be listened to.
         """
-        own, ends = shares_of(self._unknowns), []
+        shares, ends = shares_of(self._unknowns), []
         for i, unknown in enumerate(self._unknowns):
             for end, share in (("lower", MARGIN), ("upper", 1.0 - MARGIN)):
-                place = own.copy()
+                place = shares.copy()
                 place[i] = share
                 try:
                     case = case_at(self._case, self._unknowns, place)
@@ -96,11 +96,11 @@ class SignalComparison:
             except InputError as error:
                 cases.append(str(error))
         sound = [i for i, case in enumerate(cases) if not isinstance(case, str)]
-        heard: dict[int, Sensed | str] = dict(enumerate(cases)) if len(sound) < len(cases) else {}
+        signals_of: dict[int, Sensed | str] = dict(enumerate(cases)) if len(sound) < len(cases) else {}
         if sound:
-            found = self._batch.heard([cases[i] for i in sound], self._earliest, self._last, self._workers)
-            heard |= dict(zip(sound, found, strict=True))
-        return [self._residuals(heard[i]) for i in range(len(cases))]
+            signals = self._batch.heard([cases[i] for i in sound], self._earliest, self._last, self._workers)
+            signals_of |= dict(zip(sound, signals, strict=True))
+        return [self._residuals(signals_of[i]) for i in range(len(cases))]
 
     def __call__(self, shares: Float[Array, "place unknown"]) -> list[Float[Array, " residual"]]:
         """Residuals at places over the scales of their sensors, one after the other."""
@@ -115,7 +115,7 @@ class SignalComparison:
             self.failure = sensed
             pairs = zip(self._measured, self.scales, strict=True)
             return [np.full(len(one.values), FAR * scale) for one, scale in pairs]
-        found = []
+        residuals = []
         for one in self._measured:
             signal = sensed[one.sensor]
             first = one.first - round(float(signal.time[0]) * signal.rate)
@@ -126,5 +126,5 @@ class SignalComparison:
             if len(values) < len(one.values):
                 raise SimulationError("the run ends before what was measured", float(signal.time[-1]))
             rest = one.values - values
-            found.append(rest - np.mean(rest) if self._without_mean else rest)
-        return found
+            residuals.append(rest - np.mean(rest) if self._without_mean else rest)
+        return residuals

@@ -46,12 +46,12 @@ def unknowns_of(case: Any, wanted: Mapping[Any, Any]) -> tuple[Unknown, ...]:
         raise InputError("unknowns", len(wanted), "too many at once", f"seek at most {MOST}")
     data = tomllib.loads(case.toml)
     table = study_of(data).table(data)
-    found = tuple(_unknown(key, limits, data, table) for key, limits in wanted.items())
-    every = [same_key(key) for unknown in found for key in unknown.keys]
+    unknowns = tuple(_unknown(key, limits, data, table) for key, limits in wanted.items())
+    every = [same_key(key) for unknown in unknowns for key in unknown.keys]
     if twice := next((key for key in every if every.count(key) > 1), ""):
         raise InputError("unknowns", quoted(twice), "is sought twice", "name it once")
-    case_at(case, found, shares_of(found))  # raises where the scenario does not know a key
-    return found
+    case_at(case, unknowns, shares_of(unknowns))  # raises where the scenario does not know a key
+    return unknowns
 
 
 def _unknown(key: Any, limits: Any, data: Mapping[str, Any], table: Any) -> Unknown:
@@ -71,9 +71,9 @@ def _unknown(key: Any, limits: Any, data: Mapping[str, Any], table: Any) -> Unkn
     low, high = (_in_si(name, end, kind) for end in limits)
     if not low < high:
         raise InputError(name, f"{low:g} to {high:g}", "the range is empty", "write the lower end first")
-    own = given_at(data, keys[0])
+    value = given_at(data, keys[0])
     try:
-        start = None if own is None else _in_si(name, own, kind)
+        start = None if value is None else _in_si(name, value, kind)
     except InputError:
         start = None
     units = kind.si.replace("**", "") if isinstance(kind, Kind) else "1"

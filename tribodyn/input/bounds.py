@@ -84,8 +84,8 @@ def broken_bounds(value: Any, key: Key = ()) -> Iterator[InputError]:
         for place, item in enumerate(value):
             if isinstance(item, (Mapping, list, tuple)) or _broken(item) is not None:
                 yield from broken_bounds(item, (*key, place))
-    elif (found := _broken(value)) is not None:
-        yield InputError(_dotted(key), quoted(value), *found)
+    elif (broken := _broken(value)) is not None:
+        yield InputError(_dotted(key), quoted(value), *broken)
 
 
 def _broken(value: Any) -> tuple[str, str] | None:

@@ -40,8 +40,8 @@ class Origins:
 
     def put(self, key: Key, file: str) -> None:
         """Remember that what stands at and below `key` came from `file`, whatever was known before."""
-        for known in [known for known in self._files if known[: len(key)] == key]:
-            del self._files[known]
+        for other in [other for other in self._files if other[: len(key)] == key]:
+            del self._files[other]
         self._files[key] = file
 
     def of(self, key: Key) -> str:
@@ -107,10 +107,10 @@ def _ranges_as_typed(text: Any, typed: object) -> Any:
     """A text whose ranges of an angle are in the unit of the table that was typed, where it has another."""
     columns = typed.values() if isinstance(typed, Mapping) else ()
     units = [str(column["unit"]) for column in columns if isinstance(column, Mapping) and "unit" in column]
-    found = [(unit, base) for unit in units if (base := base_units(f"1 {unit}")) and base[1] == "rad"]
-    if not found or not isinstance(text, str):
+    angular = [(unit, base) for unit in units if (base := base_units(f"1 {unit}")) and base[1] == "rad"]
+    if not angular or not isinstance(text, str):
         return text
-    (unit, (factor, _)), *_ = found
+    (unit, (factor, _)), *_ = angular
 
     def converted(match: re.Match[str]) -> str:
         first, last = (f"{float(match[place]) / factor:.6g}" for place in (1, 3))
@@ -140,60 +140,64 @@ def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
     Of a file that describes gears which its kind of study has not only that is said, once.
     """
     # a text that is no Unicode is out of bounds, and complained of with them
-    found = [dict(one) for one in error.errors(include_url=False) if one["type"] != "string_unicode"]
-    errors = [_explain_one(one, model) for one in found]
+    problems = [dict(one) for one in error.errors(include_url=False) if one["type"] != "string_unicode"]
+    errors = [_explain_one(one, model) for one in problems]
     several = "stage" in model.model_fields
-    refused = (_outside(one, error, several) for one, error in zip(found, errors, strict=True))
+    refused = (_outside(one, error, several) for one, error in zip(problems, errors, strict=True))
     first = next(filter(None, refused), None)
     return errors if first is None else [first]
 
 
-def _outside(found: dict[str, Any], error: InputError, several: bool) -> InputError | None:
+def _outside(detail: dict[str, Any], error: InputError, several: bool) -> InputError | None:
     """What to say of a key that describes gears which the kind of study has not; None where it does not.
 
     `several` says whether the scenario may have several stages.
     """
-    name, given = str(found["loc"][-1]), found["input"]
-    if found["type"] == "extra_forbidden":
-        named = given if isinstance(given, str) and len(given.split()) < 3 else ""  # type = "planetary"
-        if not several and scope.names_gears(name, given):
+    name, value = str(detail["loc"][-1]), detail["input"]
+    if detail["type"] == "extra_forbidden":
+        named = value if isinstance(value, str) and len(value.split()) < 3 else ""  # type = "planetary"
+        if not several and scope.names_gears(name, value):
             return scope.refusal(error, scope.STAGES)
-        stage = (scope.PLANETS,) if found["loc"][0] == "stage" else ()
+        stage = (scope.PLANETS,) if detail["loc"][0] == "stage" else ()
         return scope.outside(error, name, named, but=(scope.STAGES, *stage) if several else ())
-    fewest = found.get("ctx", {}).get("ge")  # a number of teeth that only the sign of internal gears excludes
-    if name == "teeth" and fewest is not None and given <= -fewest:
+    fewest = detail.get("ctx", {}).get(
+        "ge"
+    )  # a number of teeth that only the sign of internal gears excludes
+    if name == "teeth" and fewest is not None and value <= -fewest:
         return scope.refusal(error, scope.INTERNAL)
     return None
 
 
-def _explain_one(found: dict[str, Any], model: type[BaseModel]) -> InputError:
+def _explain_one(detail: dict[str, Any], model: type[BaseModel]) -> InputError:
     # pydantic names the branch of a union that it took; ours stand in parentheses
-    key: Key = tuple(part for part in found["loc"] if not str(part).startswith("("))
+    key: Key = tuple(part for part in detail["loc"] if not str(part).startswith("("))
     dotted = printable(".".join(map(str, key)))
-    context = found.get("ctx", {})
-    given = quoted(found["input"])
-    match found["type"]:
+    context = detail.get("ctx", {})
+    text = quoted(detail["input"])
+    match detail["type"]:
         case "rule":
-            absent = found["input"] is None
-            return InputError(dotted, None if absent else given, context["rule"], context["remedy"])
+            absent = detail["input"] is None
+            return InputError(dotted, None if absent else text, context["rule"], context["remedy"])
         case "missing":
-            return InputError(dotted, None, "missing", _how_to_write(model, found["loc"]))
+            return InputError(dotted, None, "missing", _how_to_write(model, detail["loc"]))
         case "extra_forbidden" if key[-1] in OF_PAIR and key[-1] in fields_of(table_at(model, key[:-1])):
             rule = f"is {OF_PAIR[str(key[-1])]} by another name, and both are given"
-            return InputError(dotted, given, rule, "leave one of them out")
+            return InputError(dotted, text, rule, "leave one of them out")
         case "extra_forbidden":
-            return InputError(dotted, given, _UNKNOWN, _near_key(model, found["loc"]))
+            return InputError(dotted, text, _UNKNOWN, _near_key(model, detail["loc"]))
         case "literal_error":
             expected = context["expected"].replace("'", '"')
-            near = near_name(str(found["input"]), expected.replace('"', "").replace(" or ", ", ").split(", "))
+            near = near_name(
+                str(detail["input"]), expected.replace('"', "").replace(" or ", ", ").split(", ")
+            )
             mean = f'did you mean "{near}"? ' if near else ""
-            return InputError(dotted, given, "not one of the choices", f"{mean}write {expected}")
-        case "float_type" | "int_type" if isinstance(found["input"], str) and range_for_one(found["input"]):
-            return InputError(dotted, given, *(range_for_one(found["input"]) or ()))
+            return InputError(dotted, text, "not one of the choices", f"{mean}write {expected}")
+        case "float_type" | "int_type" if isinstance(detail["input"], str) and range_for_one(detail["input"]):
+            return InputError(dotted, text, *(range_for_one(detail["input"]) or ()))
         case "finite_number":
-            return InputError(dotted, given, "not a finite number", "write a plain number, such as 1.0")
-    rule, remedy = _PLAIN.get(found["type"], (found["msg"].lower(), ""))
-    return InputError(dotted, given, rule.format(**context), remedy.format(**context))
+            return InputError(dotted, text, "not a finite number", "write a plain number, such as 1.0")
+    rule, remedy = _PLAIN.get(detail["type"], (detail["msg"].lower(), ""))
+    return InputError(dotted, text, rule.format(**context), remedy.format(**context))
 
 
 _PLAIN = {
@@ -231,11 +235,11 @@ def keys_in(model: type[BaseModel], key: Iterable[str]) -> list[str]:
 
 def _near_key(model: type[BaseModel], key: Key) -> str:
     table = table_at(model, key[:-1])
-    described = {name: meaning(table, name) if table else "" for name in fields_of(table)}
+    descriptions = {name: meaning(table, name) if table else "" for name in fields_of(table)}
     # a symbol as on a drawing, with which a description begins: "A_sne, upper deviation …"
-    of_symbol = (name for name, text in described.items() if text.startswith(f"{key[-1]},"))
-    near = next(of_symbol, None) or near_name(str(key[-1]), described)
-    return f'did you mean "{near}"?' if near else f"known keys: {', '.join(described)}"
+    of_symbol = (name for name, text in descriptions.items() if text.startswith(f"{key[-1]},"))
+    near = next(of_symbol, None) or near_name(str(key[-1]), descriptions)
+    return f'did you mean "{near}"?' if near else f"known keys: {', '.join(descriptions)}"
 
 
 def _how_to_write(model: type[BaseModel], key: Key) -> str:

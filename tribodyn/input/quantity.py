@@ -148,8 +148,8 @@ class Weighed:
 class Names:
     """Marks a text that must be one of some names, for the schema; that it is one of them is a rule."""
 
-    def __init__(self, known: Iterable[str]) -> None:
-        self.known = known  # looked through only when a schema is made
+    def __init__(self, names: Iterable[str]) -> None:
+        self.known = names  # looked through only when a schema is made
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         return {**handler(schema), "enum": list(self.known)}
@@ -222,8 +222,8 @@ class CurveTable(Columns):
         """Check units, lengths and order."""
         super().model_post_init(_)
         first = next(iter(type(self).model_fields))
-        given = np.array(getattr(self, first).values)
-        rising = given[1:] > given[:-1]
+        abscissae = np.array(getattr(self, first).values)
+        rising = abscissae[1:] > abscissae[:-1]
         if not rising.all():
             row = int(np.argmin(rising)) + 2
             raise broken(f"{first} does not increase at point {row}", f"sort the points by {first}")

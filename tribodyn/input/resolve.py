@@ -47,20 +47,20 @@ def resolve_table(
     """Return a scenario's data as `resolve` does; what it names is looked for as from a file at `path`."""
     data = defaults_written_out(written, table_of(written))
     origins = Origins(str(path))
-    known = _References(data, origins, path, {}, ())
+    scenario = _References(data, origins, path, {}, ())
     try:
-        known = _marked(known, table_of)
+        scenario = _marked(scenario, table_of)
         for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):
-            _override(known, dotted, value)
-            if any(mark.folder == sources.SCENARIOS for mark in known.marks.values()):
-                known = _marked(known, table_of)
+            _override(scenario, dotted, value)
+            if any(mark.folder == sources.SCENARIOS for mark in scenario.marks.values()):
+                scenario = _marked(scenario, table_of)
     except InputError as error:
         raise origins.locate(error) from None
     errors: list[InputError] = []
-    known = _marked(known, table_of)
-    for key in known.keys():
+    scenario = _marked(scenario, table_of)
+    for key in scenario.keys():
         try:
-            _put_content(known, key)
+            _put_content(scenario, key)
         except InputError as error:
             errors.append(origins.locate(error))
     data = defaults_written_out(data, table_of(data))
@@ -90,27 +90,27 @@ class _References(NamedTuple):
 
     def _of_family(self) -> dict[Key, Reference]:
         """The points that the family of each pair of gears needs."""
-        found: dict[Key, Reference] = {}
+        marks: dict[Key, Reference] = {}
         for shape in (key for pattern in self.shapes for key in expanded(pattern, self.data)):
             name = value_at(self.data, (*shape[:-1], "family"))
             if isinstance(name, str) and name in FAMILIES:
-                paths = [own.name for own in FAMILIES[name].parameters if own.kind == "path"]
-                found |= {(*shape, path): csv_file("x", "y") for path in paths}
-        return found
+                paths = [one.name for one in FAMILIES[name].parameters if one.kind == "path"]
+                marks |= {(*shape, path): csv_file("x", "y") for path in paths}
+        return marks
 
 
-def _marked(known: _References, table_of: TableOf) -> _References:
+def _marked(scenario: _References, table_of: TableOf) -> _References:
     """Say which keys may name files; a scenario within this one is opened first, for it has such keys too."""
-    known = _read_off(known, table_of(known.data))
-    marks = known.marks
+    scenario = _read_off(scenario, table_of(scenario.data))
+    marks = scenario.marks
     inner = [key for key, mark in marks.items() if mark.folder == sources.SCENARIOS]
     for key in inner:
-        _put_content(known, key)
-    return _read_off(known, table_of(known.data)) if inner else known
+        _put_content(scenario, key)
+    return _read_off(scenario, table_of(scenario.data)) if inner else scenario
 
 
-def _read_off(known: _References, table: type[Table]) -> _References:
-    return known._replace(marks=references(table), shapes=family_shapes(table))
+def _read_off(scenario: _References, table: type[Table]) -> _References:
+    return scenario._replace(marks=references(table), shapes=family_shapes(table))
 
 
 def unresolved_keys(errors: Iterable[InputError]) -> set[str]:
@@ -127,25 +127,25 @@ def toml_value(text: str) -> Any:
     return data["value"] if len(data) == 1 else text
 
 
-def _override(known: _References, dotted: str, value: Any) -> None:
+def _override(scenario: _References, dotted: str, value: Any) -> None:
     """Put one override in, and remember that it is one."""
-    key = key_in(known.data, dotted)
-    if not _put(known, key, toml_value(value) if isinstance(value, str) else value):
+    key = key_in(scenario.data, dotted)
+    if not _put(scenario, key, toml_value(value) if isinstance(value, str) else value):
         rule = f"{'.'.join(map(str, key[:-1]))} is not a table"
         for depth, part in enumerate(key):
-            if isinstance(part, int) and isinstance(some := value_at(known.data, key[:depth]), list):
+            if isinstance(part, int) and isinstance(some := value_at(scenario.data, key[:depth]), list):
                 name = ".".join(map(str, key[:depth]))
                 rule = f"there is no {name}.{part}: {name} has {len(some)}, counted from 0"
         raise InputError(dotted, quoted(value), rule, "see the keys with: tribodyn schema", OVERRIDES)
-    known.origins.put(key, OVERRIDES)
+    scenario.origins.put(key, OVERRIDES)
 
 
-def _put(known: _References, key: Key, value: Any) -> bool:
+def _put(scenario: _References, key: Key, value: Any) -> bool:
     """Put a value in; tables on the way are made, references on the way are opened. False: no table there."""
-    place: Any = known.data
+    place: Any = scenario.data
     for depth, part in enumerate(key[:-1], start=1):
         if key[depth:] != (LIKE,):  # another model to be like takes the place of the first
-            _put_content(known, key[:depth])
+            _put_content(scenario, key[:depth])
         if isinstance(place, dict):
             place = place.setdefault(str(part), {})
         elif isinstance(place, list) and isinstance(part, int) and part < len(place):
@@ -162,20 +162,20 @@ def _put(known: _References, key: Key, value: Any) -> bool:
     return True
 
 
-def _put_content(known: _References, key: Key) -> None:
+def _put_content(scenario: _References, key: Key) -> None:
     """Where the value at `key` names a file, put the file's content in its place."""
-    holder, mark = value_at(known.data, key[:-1]), known.at(key)
+    holder, mark = value_at(scenario.data, key[:-1]), scenario.at(key)
     if not isinstance(holder, dict) or mark is None:
         return
     name = holder.get(key[-1])
     if isinstance(name, dict) and LIKE in name and mark.folder:
-        _put_under(known, key, mark.folder)
+        _put_under(scenario, key, mark.folder)
         return
     if not isinstance(name, str):
         return
-    referring, dotted = _referring(known, key), ".".join(map(str, key))
+    referring, dotted = _referring(scenario, key), ".".join(map(str, key))
     if mark.folder:
-        _put_model(known, key, sources.find_model(name, mark.folder, dotted, referring), mark.folder)
+        _put_model(scenario, key, sources.find_model(name, mark.folder, dotted, referring), mark.folder)
     else:
         file = referring.parent / name
         if not sources.is_file(file):
@@ -191,7 +191,7 @@ def _put_content(known: _References, key: Key) -> None:
         else:
             column = curve[mark.columns[0]]
             holder[key[-1]] = _quantities(column) if mark.as_list else curve
-        known.origins.put(key, str(file))
+        scenario.origins.put(key, str(file))
 
 
 def _quantities(column: Mapping[str, Any]) -> list[Any]:
@@ -206,47 +206,47 @@ def _tables(curve: Mapping[str, Any]) -> list[dict[str, Any]]:
     return [dict(zip(curve, row, strict=True)) for row in rows]
 
 
-def _put_model(known: _References, key: Key, file: Path, folder: str, above: tuple[Path, ...] = ()) -> None:
+def _put_model(source: _References, key: Key, file: Path, folder: str, above: tuple[Path, ...] = ()) -> None:
     """Put the content of a model's file in; `above` are the files that are like it."""
-    value_at(known.data, key[:-1])[key[-1]] = content = sources.read_toml(file)
-    known.origins.put(key, str(file))
+    value_at(source.data, key[:-1])[key[-1]] = content = sources.read_toml(file)
+    source.origins.put(key, str(file))
     if LIKE in content:
-        _put_under(known, key, folder, (*above, file.resolve()))
+        _put_under(source, key, folder, (*above, file.resolve()))
 
 
-def _put_under(known: _References, key: Key, folder: str, above: tuple[Path, ...] = ()) -> None:
+def _put_under(scenario: _References, key: Key, folder: str, above: tuple[Path, ...] = ()) -> None:
     """Put the content of the model that the table at `key` is like under what the table says itself."""
-    origins = known.origins
-    table = value_at(known.data, key)
+    origins = scenario.origins
+    table = value_at(scenario.data, key)
     dotted = ".".join(map(str, (*key, LIKE)))
     name = table[LIKE]
-    holder = value_at(known.data, key[:-1])
+    holder = value_at(scenario.data, key[:-1])
     holder[key[-1]] = name  # until it is found: what is missing in the table then is no mistake of its own
     if not isinstance(name, str):
         raise InputError(dotted, quoted(name), "not the name of a model", "write a name in quotes")
-    file = sources.find_model(name, folder, dotted, _referring(known, (*key, LIKE)))
-    own = [(leaf, value, origins.of((*key, *leaf))) for leaf, value in _leaves(table) if leaf != (LIKE,)]
+    file = sources.find_model(name, folder, dotted, _referring(scenario, (*key, LIKE)))
+    leaves = [(leaf, value, origins.of((*key, *leaf))) for leaf, value in _leaves(table) if leaf != (LIKE,)]
     if file.resolve() in above:
         raise InputError(dotted, quoted(name), "is like itself", "name another file")
-    _put_model(known, key, file, folder, above)
-    for leaf, value, written_in in own:
+    _put_model(scenario, key, file, folder, above)
+    for leaf, value, written_in in leaves:
         at = (*key, *leaf)
-        if not _put(known, at, value):
+        if not _put(scenario, at, value):
             rule = f"{'.'.join(map(str, at[:-1]))} is not a table in {printable_path(file)}"
             raise InputError(".".join(map(str, at)), quoted(value), rule, "write the whole table", written_in)
         origins.put(at, written_in)
 
 
-def _referring(known: _References, key: Key) -> Path:
+def _referring(scenario: _References, key: Key) -> Path:
     """Return the file that names another at `key`; what --set names, the scenario might have named."""
-    written_in = known.origins.of(key)
-    return known.path if written_in == OVERRIDES else Path(written_in)
+    written_in = scenario.origins.of(key)
+    return scenario.path if written_in == OVERRIDES else Path(written_in)
 
 
 def _leaves(table: Mapping[str, Any], above: Key = ()) -> list[tuple[Key, Any]]:
     """Return keys and values of everything in a table that is no table, or one that is like a model."""
-    found: list[tuple[Key, Any]] = []
+    leaves: list[tuple[Key, Any]] = []
     for name, value in table.items():
         inner = isinstance(value, dict) and LIKE not in value
-        found += _leaves(value, (*above, name)) if inner else [((*above, name), value)]
-    return found
+        leaves += _leaves(value, (*above, name)) if inner else [((*above, name), value)]
+    return leaves

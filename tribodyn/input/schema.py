@@ -74,8 +74,8 @@ def tagged(annotation: Any, tag: str) -> type[BaseModel] | None:
     for part in get_args(annotation):
         if any(isinstance(mark, Tag) and mark.tag == tag for mark in get_args(annotation)):
             return next((inner.table for inner in inner_tables(annotation)), None)
-        if (found := tagged(part, tag)) is not None:
-            return found
+        if (table := tagged(part, tag)) is not None:
+            return table
     return None
 
 
@@ -96,16 +96,16 @@ def _step(
     name = str(key[place])
     following = key[place + 1] if place + 1 < len(key) else None
     if (field := fields_of(model).get(name)) is not None:
-        found = list(inner_tables(field.annotation))
+        inner_models = list(inner_tables(field.annotation))
     else:
         extra = _extra(model)
         return (extra, place + 1)
-    in_list = [inner for inner in found if inner.held is tuple]
-    if in_list and (isinstance(following, int) or len(in_list) == len(found)):
+    in_list = [inner for inner in inner_models if inner.held is tuple]
+    if in_list and (isinstance(following, int) or len(in_list) == len(inner_models)):
         after = next((part for part in (*key[place + 1 :], wanted) if not isinstance(part, int)), None)
         fitting = [inner.table for inner in in_list if after in inner.table.model_fields]
         return (*fitting, in_list[0].table)[0], place + 1
-    for inner in found:
+    for inner in inner_models:
         if inner.held is not tuple:
             return inner.table, place + 1 + (inner.held is dict and following is not None)
     return None, place + 1
@@ -133,13 +133,13 @@ def family_shapes(table: type[BaseModel]) -> tuple[tuple[str, ...], ...]:
 
 
 def _marked(table: type[BaseModel]) -> list[tuple[tuple[str, ...], Mark]]:
-    found: list[tuple[tuple[str, ...], Mark]] = []
+    marks: list[tuple[tuple[str, ...], Mark]] = []
     for name, field in fields_of(table).items():
-        found += [((name,), mark) for mark in parts_of(field) if isinstance(mark, (Reference, FamilyShape))]
+        marks += [((name,), mark) for mark in parts_of(field) if isinstance(mark, (Reference, FamilyShape))]
         for inner in inner_tables(field.annotation):
             above = (name,) if inner.held is None else (name, EACH)
-            found += [((*above, *key), mark) for key, mark in _marked(inner.table)]
-    return found
+            marks += [((*above, *key), mark) for key, mark in _marked(inner.table)]
+    return marks
 
 
 def expanded(pattern: tuple[str, ...], data: Any) -> Iterator[tuple[str | int, ...]]:
@@ -164,7 +164,7 @@ def matches(pattern: tuple[str, ...], key: Iterable[str | int]) -> bool:
     """Whether a key is one that a pattern stands for."""
     parts = tuple(map(str, key))
     return len(parts) == len(pattern) and all(
-        known in (EACH, part) for known, part in zip(pattern, parts, strict=True)
+        expected in (EACH, part) for expected, part in zip(pattern, parts, strict=True)
     )
 
 

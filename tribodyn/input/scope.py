@@ -72,10 +72,10 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
     return InputError(error.key, error.value, rule, remedy or _OUTSIDE[what][1], error.file)
 
 
-def names_gears(name: str, given: Any) -> bool:
+def names_gears(name: str, value: Any) -> bool:
     """Whether an unknown key is a table of a train: [gear.NAME], [[body]] or [[link]]."""
     if name == "gear":
         return (
-            isinstance(given, dict) and bool(given) and all(isinstance(one, dict) for one in given.values())
+            isinstance(value, dict) and bool(value) and all(isinstance(one, dict) for one in value.values())
         )
-    return name in ("body", "link") and isinstance(given, list)
+    return name in ("body", "link") and isinstance(value, list)

@@ -125,10 +125,10 @@ def _named(key: str, name: str, what: str, folders: Iterable[Path]) -> Path:
         if is_file(folder / f"{name}.toml"):
             return folder / f"{name}.toml"
     looked = list(dict.fromkeys(folder.resolve() for folder in folders))
-    known = sorted({known for folder in looked for known in names(folder)})
-    near = names_with(name, known)[:_MOST_NEAR] or list(filter(None, [near_name(name, known)]))
+    available = sorted({available for folder in looked for available in names(folder)})
+    near = names_with(name, available)[:_MOST_NEAR] or list(filter(None, [near_name(name, available)]))
     remedy = f"did you mean {' or '.join(map(quoted, near))}? " if near else ""
-    there = ", ".join(known) or "nothing"
+    there = ", ".join(available) or "nothing"
     places = " and ".join(map(str, looked))
     raise InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")
 
@@ -160,9 +160,9 @@ def read_toml(path: Path) -> dict[str, Any]:
         what, _, place = str(error).partition(" (at ")
         line, lines = re.match(r"line (\d+)", place), text.splitlines()
         number = int(line[1]) if line else len(lines)
-        given = lines[number - 1].strip() if 0 < number <= len(lines) else ""
-        rule = f"not TOML: {what[0].lower()}{what[1:]}" + (f" in {quoted(given)}" if given else "")
-        raise InputError(f"line {number}", None, rule, _toml_remedy(given), str(path)) from None
+        refused = lines[number - 1].strip() if 0 < number <= len(lines) else ""
+        rule = f"not TOML: {what[0].lower()}{what[1:]}" + (f" in {quoted(refused)}" if refused else "")
+        raise InputError(f"line {number}", None, rule, _toml_remedy(refused), str(path)) from None
 
 
 def _toml_remedy(line: str) -> str:

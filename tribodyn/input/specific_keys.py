@@ -21,29 +21,29 @@ class Owner(NamedTuple):
     others: tuple[str, ...] = ()  # keys of the same table that are not the owner's
 
 
-def own_values(owner: Owner, given: Mapping[str, Any]) -> dict[str, Any]:
+def own_values(owner: Owner, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values of the keys that are given, in SI units; raises the first of `own_key_errors`."""
-    for error in own_key_errors(owner, given):
+    for error in own_key_errors(owner, values):
         raise error
-    known = {parameter.name: parameter for parameter in owner.parameters}
-    return {name: value_in_si(known[name], value) for name, value in given.items()}
+    parameters = {parameter.name: parameter for parameter in owner.parameters}
+    return {name: value_in_si(parameters[name], value) for name, value in values.items()}
 
 
-def own_key_errors(owner: Owner, given: Mapping[str, Any]) -> list[InputError]:
+def own_key_errors(owner: Owner, values: Mapping[str, Any]) -> list[InputError]:
     """Return what is wrong with the keys: unknown, missing, of a wrong unit or sign."""
     errors = []
-    known = {parameter.name: parameter for parameter in owner.parameters}
-    there = (*known, *owner.others)
-    for name in (name for name in given if name not in known):
+    parameters = {parameter.name: parameter for parameter in owner.parameters}
+    there = (*parameters, *owner.others)
+    for name in (name for name in values if name not in parameters):
         near = near_name(name, there)
         remedy = f"keys of this {owner.what}: {', '.join(there) or 'none'}"
         remedy = f'did you mean "{near}"?' if near else remedy
-        errors.append(InputError(f"{owner.table}.{name}", quoted(given[name]), "unknown key", remedy))
-    for name, parameter in known.items():
+        errors.append(InputError(f"{owner.table}.{name}", quoted(values[name]), "unknown key", remedy))
+    for name, parameter in parameters.items():
         key = f"{owner.table}.{name}"
-        if name in given:
+        if name in values:
             try:
-                value_in_si(parameter, given[name], key)
+                value_in_si(parameter, values[name], key)
             except InputError as error:
                 errors.append(error)
         elif parameter.default is None and not parameter.optional:
@@ -142,8 +142,8 @@ def _points(value: Any, key: str) -> np.ndarray:
         try:
             columns.append(Column.model_validate(value[name]).in_si(units.LENGTH))
         except ValidationError:
-            given = quoted(value[name])
-            raise InputError(f"{key}.{name}", given, "not a column of numbers", remedy) from None
+            column = quoted(value[name])
+            raise InputError(f"{key}.{name}", column, "not a column of numbers", remedy) from None
         except units.NotAQuantity as error:
             raise InputError(f"{key}.{name}", None, error.rule, error.remedy) from None
     if len(columns[0]) != len(columns[1]):

@@ -130,9 +130,9 @@ _RANGE = re.compile(
 
 def two_ends(value: str) -> tuple[str, str, str] | None:
     """First, last and unit of a range that is written as in a sentence, "500-6000 rpm"; None: it is none."""
-    found = _RANGE.fullmatch(value)
-    unit = (found["own"] or found["unit"] or "") if found else ""
-    return (found["first"], found["last"], unit) if found and unit.isprintable() else None
+    match = _RANGE.fullmatch(value)
+    unit = (match["own"] or match["unit"] or "") if match else ""
+    return (match["first"], match["last"], unit) if match and unit.isprintable() else None
 
 
 def range_for_one(value: str) -> tuple[str, str] | None:
@@ -148,13 +148,13 @@ def range_for_one(value: str) -> tuple[str, str] | None:
 
 def decimal_comma(value: str) -> tuple[str, str] | None:
     """Rule and remedy for a number with a comma in it; None where there is none."""
-    found = _COMMA.fullmatch(value)
-    if found is None:
+    match = _COMMA.fullmatch(value)
+    if match is None:
         return None
-    point = f"{found['before']}.{found['after']}{found['rest']}".strip()
-    if len(found["after"]) != 3:
+    point = f"{match['before']}.{match['after']}{match['rest']}".strip()
+    if len(match["after"]) != 3:
         return "a comma in a number", f'write a decimal point: "{point}"'
-    whole = f"{found['before']}{found['after']}{found['rest']}".strip()
+    whole = f"{match['before']}{match['after']}{match['rest']}".strip()
     return "a comma in a number", f'write "{point}" or "{whole}", whichever is meant'
 
 
@@ -172,7 +172,7 @@ def spelling(number: str, unit: str, what: str) -> tuple[str, str] | None:
         return f'"{unit}" leaves open whether turns or radians are meant', written("rpm")
     if unit in _JOINED:
         return f'"{unit}" needs a sign of multiplication', written(_JOINED[unit])
-    alike = [known for known in COMMON_UNITS.get(what, ()) if known.casefold() == unit.casefold()]
+    alike = [candidate for candidate in COMMON_UNITS.get(what, ()) if candidate.casefold() == unit.casefold()]
     if len(alike) == 1:
         return f'"{unit}" is not a unit of {what}: capitals count', written(alike[0])
     if what == "power" and unit.casefold() in ("hp", "bhp"):

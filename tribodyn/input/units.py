@@ -189,8 +189,8 @@ def _factor(text: str, kind: Kind, write: str) -> float:
     if not text.strip():
         raise NotAQuantity("a number without a unit", write)
     for table in (COMMON_UNITS, OWN_UNITS):
-        if (known := table.get(kind.name, {}).get(text)) is not None:
-            return known
+        if (unit := table.get(kind.name, {}).get(text)) is not None:
+            return unit
     return _factor_by_pint(text, kind, write)
 
 

@@ -232,8 +232,8 @@ def _marks(table: type[BaseModel], key: str) -> list[Any]:
 
 def _is_list(table: type[BaseModel], key: str) -> bool:
     """Whether a list of tables stands at a key of the scenario."""
-    found = table.model_fields.get(key)
-    return found is not None and "tuple[" in str(found.annotation)
+    field = table.model_fields.get(key)
+    return field is not None and "tuple[" in str(field.annotation)
 
 
 def _is_table(mark: Any) -> bool:

@@ -104,18 +104,18 @@ _ARGUMENTS = {
 
 def checked(function: Function) -> Function:
     """Check the arguments of a function by their names before it is called; raises InputError."""
-    taken = signature(function)
-    names = [name for name in taken.parameters if name in _ARGUMENTS]
+    accepted = signature(function)
+    names = [name for name in accepted.parameters if name in _ARGUMENTS]
 
     @wraps(function)
     def call(*values: Any, **keys: Any) -> Any:
         try:
-            given = taken.bind(*values, **keys).arguments
+            arguments = accepted.bind(*values, **keys).arguments
         except TypeError:  # what Python says of the call itself
             return function(*values, **keys)
         for name in names:
-            due, default = _ARGUMENTS[name], taken.parameters[name].default
-            value = given.get(name, default)
+            due, default = _ARGUMENTS[name], accepted.parameters[name].default
+            value = arguments.get(name, default)
             if value is not default and not due.holds(value):
                 raise InputError(name, quoted(value), due.rule, due.remedy)
         return function(*values, **keys)

@@ -192,9 +192,9 @@ def _fit(compare: SignalComparison, sought: Sequence[Unknown], method: str, seed
         report(min(1.0, done / most))
         return compare(places)
 
-    own = shares_of(sought)
+    initial = shares_of(sought)
     power = 2 ** int(np.ceil(np.log2(STARTS * len(sought))))
-    starts = [own, *sobol(len(sought), power, seed)]
+    starts = [initial, *sobol(len(sought), power, seed)]
     fit = fitted(residuals, starts, _search(method, seed))
     if compare.failure and np.all(np.abs(fit.residuals) >= 1.0) and fit.deviation >= 1.0:
         raise InputError(

@@ -193,12 +193,12 @@ def line_contact(
         If the equations could not be solved.
     """
     _check_options(compressible, step, start, roughness)
-    known: ContactViscosity | None = None
+    at_pressure: ContactViscosity | None = None
     if lubricant is not None:
         numbers = viscosity, pressure_viscosity, viscosity_pressure_index, temperature_viscosity
         oil = named_oil(lubricant, oil_temperature, numbers)
-        known = contact_viscosity(oil)
-        fluid = fluid_of(oil, known, viscosity_band)._replace(compressible=compressible)
+        at_pressure = contact_viscosity(oil)
+        fluid = fluid_of(oil, at_pressure, viscosity_band)._replace(compressible=compressible)
         temperature_viscosity = float(oil.temperature_viscosity)
     else:
         if oil_temperature is not None or viscosity_band != "best":
@@ -254,7 +254,7 @@ def line_contact(
         moes_material=problem.moes_material,
         limits=(
             *_limits(problem, shear, abs(solved.friction) / line_load),
-            *(known.limits(problem.hertz_pressure, oil_temperature) if known is not None else ()),
+            *(at_pressure.limits(problem.hertz_pressure, oil_temperature) if at_pressure is not None else ()),
         ),
         solution=solution,
     )

@@ -27,14 +27,14 @@ def named_oil(name: str, temperature: float | None, numbers: tuple[Any, ...]) ->
     return read_lubricant(name, positive("oil_temperature", temperature, "K"))
 
 
-def fluid_of(oil: LubricantData, known: ContactViscosity, band: str) -> Fluid:
+def fluid_of(oil: LubricantData, at: ContactViscosity, band: str) -> Fluid:
     """Return the fluid of an oil, with the best estimate or an end of its band."""
-    laws = {"best": known.law, "lowest": known.lowest, "highest": known.highest}
+    laws = {"best": at.law, "lowest": at.lowest, "highest": at.highest}
     if band not in laws:
         raise unknown_name("viscosity_band", str(band), laws, "end of a band")
     eta, alpha = float(oil.inlet_viscosity), float(oil.pressure_viscosity)
     if (law := laws[band]) is None:
         if band != "best":
-            raise InputError("viscosity_band", quoted(band), f"there is none: {known.origin}", 'write "best"')
+            raise InputError("viscosity_band", quoted(band), f"there is none: {at.origin}", 'write "best"')
         return Fluid(eta, alpha, min(float(oil.viscosity_pressure_index), 1.0))
     return Fluid(eta, asymptotic_coefficient(law), law=law)

@@ -158,10 +158,10 @@ def open_run(path: Path, folder: str | None = None) -> Run:
 @cache
 def run_class(kind: str) -> type[Run]:
     """The class of the runs of a kind of study."""
-    own = STUDIES[kind].run_properties() if kind in STUDIES else None
-    if own is None:
+    base = STUDIES[kind].run_properties() if kind in STUDIES else None
+    if base is None:
         return Run
-    return type(own.__name__, (own, Run), {"__doc__": own.__doc__, "__module__": own.__module__})
+    return type(base.__name__, (base, Run), {"__doc__": base.__doc__, "__module__": base.__module__})
 
 
 @in_python()

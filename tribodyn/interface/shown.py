@@ -51,10 +51,10 @@ def of_sweep(record: SweepRecord) -> "Dataset":
     for name, values in record.listed.items():
         named = {"units": record.units(name), "long_name": record.long_name(name)}
         coordinates[name] = ("case", values, named)
-    beside = (
+    further = (
         {dim for name in record for dim in record.dims_of(name)} - {*record.dims} if record.listed else ()
     )
-    for name in beside:
+    for name in further:
         coordinates[name] = (name, record[name], {"units": record.units(name)})
     if record.directions:
         coordinates["direction"] = ("direction", np.array(record.directions))
@@ -126,19 +126,19 @@ def picture_of_run(record: Record, study: Study) -> str:
     from tribodyn.post.page.data import in_engineers_units, series_of, with_unit
     from tribodyn.post.style import literal
 
-    series = {found.name: found for found in series_of(record)}
+    series = {series_name.name: series_name for series_name in series_of(record)}
     names = [name for name in study.panels() if name in series] or list(series)
     if not names or not record.samples:
         return ""
-    given = np.asarray(record[record.axis], dtype=float)
-    axis, unit = in_engineers_units(given, record.units(record.axis))
-    start = given[0]
+    abscissa = np.asarray(record[record.axis], dtype=float)
+    axis, unit = in_engineers_units(abscissa, record.units(record.axis))
+    start = abscissa[0]
     if record.summary.get("cycles_done") and record.axis == "time" and record.samples > 1:
         start, _ = first_shown(record, CYCLES)
 
     def draw(axes: "Axes", name: str) -> None:
         for curve in series[name].curves:
-            inside = given[curve.places] >= start
+            inside = abscissa[curve.places] >= start
             axes.plot(axis[curve.places][inside], curve.values[inside], label=literal(curve.label))
         title = series[name].title if len(series[name].title) < LONGEST else name.replace("_", " ")
         axes.set_title(literal(with_unit(title, series[name].unit)), loc="left")

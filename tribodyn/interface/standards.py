@@ -202,19 +202,19 @@ def _with_units(
     part: str, standard: str, function: collections.abc.Callable[..., Any]
 ) -> collections.abc.Callable[..., Any]:
     """The function, with units of its arguments and one error for what it cannot be called with."""
-    taken, where = signature(function), f"{part}.{function.__name__}"
+    accepted, where = signature(function), f"{part}.{function.__name__}"
     units = [
-        f"{name} ({kind.si})" if (kind := _kind(f"{where}.{name}")) else name for name in taken.parameters
+        f"{name} ({kind.si})" if (kind := _kind(f"{where}.{name}")) else name for name in accepted.parameters
     ]
 
     @wraps(function, assigned=("__name__", "__qualname__"), updated=())
     def call(*values: Any, **keys: Any) -> Any:
         try:
-            bound = taken.bind(*values, **keys)
+            bound = accepted.bind(*values, **keys)
         except TypeError as error:
             raise InputError(where, None, str(error), f"it takes {', '.join(units)}") from None
         for name, value in bound.arguments.items():
-            bound.arguments[name] = _read(f"{where}.{name}", taken.parameters[name].annotation, value)
+            bound.arguments[name] = _read(f"{where}.{name}", accepted.parameters[name].annotation, value)
         try:
             result = function(*bound.args, **bound.kwargs)
         except (ArithmeticError, LookupError, TypeError, ValueError) as error:
@@ -227,8 +227,8 @@ def _with_units(
 
     call.__doc__ = f"{cleandoc(function.__doc__ or '')}\n\n{standard}. Arguments: {', '.join(units)}."
     call.__module__ = f"td.standards.{part}"
-    plain = [one.replace(annotation=Parameter.empty) for one in taken.parameters.values()]
-    call.__signature__ = taken.replace(parameters=plain)  # pyright: ignore[reportAttributeAccessIssue]
+    plain = [one.replace(annotation=Parameter.empty) for one in accepted.parameters.values()]
+    call.__signature__ = accepted.replace(parameters=plain)  # pyright: ignore[reportAttributeAccessIssue]
     return call
 
 
@@ -236,8 +236,8 @@ def _part(name: str) -> ModuleType:
     """All formulas, input structures and tables of a module."""
     about = _PARTS[name]
     source = iso6336 if name == "stiffness" else import_module(f"tribodyn.standards.{name}")
-    made = ModuleType(f"td.standards.{name}", source.__doc__)
-    made.__all__ = []  # pyright: ignore[reportAttributeAccessIssue]
+    module = ModuleType(f"td.standards.{name}", source.__doc__)
+    module.__all__ = []  # pyright: ignore[reportAttributeAccessIssue]
     for key, value in vars(source).items():
         if key.startswith("_") or key in about.internal.split():
             continue
@@ -246,9 +246,9 @@ def _part(name: str) -> ModuleType:
             value = _with_units(name, about.standard, value)
         elif not key.isupper():
             continue
-        setattr(made, key, value)
-        made.__all__.append(key)
-    return made
+        setattr(module, key, value)
+        module.__all__.append(key)
+    return module
 
 
 def __getattr__(name: str) -> Any:

@@ -58,15 +58,15 @@ def _function(verb: "Verb") -> Callable[..., Any]:
             return verb.function(case, progress=report, **options)
 
     function = wraps(verb.function)(answer if verb.answers else run)
-    own = list(inspect.signature(verb.function).parameters.values())
-    for place, parameter in enumerate(own):
+    parameters = list(inspect.signature(verb.function).parameters.values())
+    for place, parameter in enumerate(parameters):
         if hasattr(parameter.annotation, "__metadata__"):  # what the command line reads is left out
-            own[place] = parameter.replace(annotation=parameter.annotation.__origin__)
+            parameters[place] = parameter.replace(annotation=parameter.annotation.__origin__)
     any_number = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
     mine = inspect.signature(function, follow_wrapped=False).parameters.values()
     added = [parameter for parameter in mine if parameter.kind not in any_number]
     names = {parameter.name for parameter in added}
-    rest = [parameter for parameter in own[1:] if parameter.name not in names]
-    shown = [*added, *rest] if verb.answers else [*own, *added]
+    rest = [parameter for parameter in parameters[1:] if parameter.name not in names]
+    shown = [*added, *rest] if verb.answers else [*parameters, *added]
     vars(function)["__signature__"] = inspect.Signature(sorted(shown, key=lambda parameter: parameter.kind))
     return in_python()(checked(function))

@@ -106,10 +106,10 @@ class Sweep:
 
         study = study_of(self.scenario)
         with SweepRecord(self.path) as record:
-            said = sweep_verdict(record)
+            lines = sweep_verdict(record)
         return shown.block(
             shown.heading(str(self.scenario.get("title", self.path.stem)), self._state()),
-            verdict_list(said),
+            verdict_list(lines),
             shown.picture_of_sweep(self.data, study),
             self.data._repr_html_(),
         )

@@ -63,8 +63,8 @@ def with_slices(
     if mesh.slices > 1:
         judged = replace(mesh, compliance="energy") if mesh.at_load else mesh
         return mesh, too_few(assembly, materials, judged, gear_torque)
-    found = slices_needed(assembly, materials, mesh, gear_torque)
-    return replace(mesh, slices=found.slices), found.remark
+    needed = slices_needed(assembly, materials, mesh, gear_torque)
+    return replace(mesh, slices=needed.slices), needed.remark
 
 
 def loaded_flanks_of(

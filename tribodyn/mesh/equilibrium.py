@@ -93,14 +93,14 @@ def contacts(
     r, angle = cycle.signed_distance, cycle.pressure_angle
     speed, side = way * cycle.pinion_sense * pinion_speed, way * sliding_side(cycle)
     normal, length = normal_arms(cycle), cycle.face_width
-    own = cycle.pinion_sense, cycle.gear_sense
+    sense = cycle.pinion_sense, cycle.gear_sense
     if cycle.slices > 1:
         # of a slice that comes or goes over its whole width: what is inside it is not resolved
         length = cycle.slice_width / cycle.line_load_friction
     friction_arm = xp.stack(
         [
-            own[0] * (cycle.pinion_pitch_radius * sin(angle) + r),
-            own[1] * (cycle.gear_pitch_radius * sin(angle) - r),
+            sense[0] * (cycle.pinion_pitch_radius * sin(angle) + r),
+            sense[1] * (cycle.gear_pitch_radius * sin(angle) - r),
         ]
     )
     along_path = speed * cycle.pinion_speed - way * pinion_speed * friction_arm[0] if lever_arms else 0.0
@@ -115,7 +115,9 @@ def contacts(
         side,
         (cycle.pitch_point_length, rate) if averaged and not lever_arms else (0.0, 0.0),
         (cycle.in_contact * (cycle.side > 0))[:, None, :],
-        xp.stack([own[0] * cycle.pinion_pitch_radius * normal, own[1] * cycle.gear_pitch_radius * normal]),
+        xp.stack(
+            [sense[0] * cycle.pinion_pitch_radius * normal, sense[1] * cycle.gear_pitch_radius * normal]
+        ),
         friction_arm,
     )
 
@@ -140,9 +142,9 @@ def settled(seen: Contacts, share: Share) -> Equilibrium:
     Raises SimulationError if friction locks the mesh, no load of a pair balances the torque, or a law's
     coefficient grows without bound.
     """
-    found, change = _solved(seen, share)
-    mu = found.friction_coefficient
-    finite = np.all(np.isfinite(found.normal_load)) and np.all(np.isfinite(mu))
+    contacts, change = _solved(seen, share)
+    mu = contacts.friction_coefficient
+    finite = np.all(np.isfinite(contacts.normal_load)) and np.all(np.isfinite(mu))
     if not finite or np.any(seen.carrying * seen.arms(mu) < 0.0):
         slow = share(np.zeros_like(mu)).friction_load
         worst = float(np.max(seen.under(slow).surface.friction_coefficient * (slow > 0.0)))
@@ -152,7 +154,7 @@ def settled(seen: Contacts, share: Share) -> Equilibrium:
         )
     if change >= _TOLERANCE:
         raise SimulationError(f"load and friction coefficient do not settle: still moving by {change:.1e}")
-    return found
+    return contacts
 
 
 def _solved(seen: Contacts, share: Share) -> tuple[Equilibrium, float]:

@@ -71,12 +71,12 @@ def described(slices: int) -> dict[str, Variable]:
     """Fields as a record has them of a mesh cycle with so many slices, see `MESH_CYCLE`."""
     if slices == 1:
         return {name: variable for name, variable in MESH_CYCLE.items() if name not in _FACE}
-    found = {}
+    variables = {}
     for name, variable in MESH_CYCLE.items():
         dims = (*_PAIR, "slice") if variable.dims == _PAIR else variable.dims
         if name != "coupling":
-            found[name] = variable._replace(dims=dims)
-    return found
+            variables[name] = variable._replace(dims=dims)
+    return variables
 
 
 # 1 wherever the load is even along the face, and then a number may stand for the table.

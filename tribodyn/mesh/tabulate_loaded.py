@@ -86,8 +86,8 @@ def tabulate_loaded(
     pressed, coupling = [], np.zeros((*shape, shape[-1]))
     for number, flanks in enumerate(sides):
         slot = slice(number * pairs, (number + 1) * pairs)
-        own = np.s_[:, slot]
-        part = _pressed(flanks, torque, part_of(geometry, own), roll[own], error[own])
+        of_slot = np.s_[:, slot]
+        part = _pressed(flanks, torque, part_of(geometry, of_slot), roll[of_slot], error[of_slot])
         coupling[..., slot, slot] = part.coupling.reshape(*shape[:2], pairs, pairs)
         pressed.append(part)
     fields = {

@@ -45,8 +45,8 @@ def evaluated(text: str, variables: Mapping[str, Any]) -> Any:
         tree = ast.parse(text, mode="eval")
         with np.errstate(all="ignore"):
             # NumPy's numbers: the root of a negative one is then none, and not complex
-            known = {name: np.asarray(value, dtype=float) for name, value in variables.items()}
-            value = _value(tree.body, {"pi": np.float64(np.pi), **known})
+            names = {name: np.asarray(value, dtype=float) for name, value in variables.items()}
+            value = _value(tree.body, {"pi": np.float64(np.pi), **names})
     except (SyntaxError, RecursionError, MemoryError, TypeError, ValueError, ArithmeticError) as error:
         if isinstance(error, FormulaError):
             raise

@@ -50,13 +50,13 @@ def by_rows(function: Callable[[Any], Any], rows: tuple[Any, ...], count: int) -
     """
     xp, length = namespace(*rows), len(rows[0])
     if xp is np:
-        found = [function([row[i : i + count] for row in rows]) for i in range(0, length, count)]
-        return [xp.concatenate(parts) for parts in zip(*found, strict=True)]
+        results = [function([row[i : i + count] for row in rows]) for i in range(0, length, count)]
+        return [xp.concatenate(parts) for parts in zip(*results, strict=True)]
     import jax
 
     place = np.minimum(np.arange(-(-length // count) * count), length - 1).reshape(-1, count)
-    found = jax.lax.map(function, [xp.asarray(row)[place] for row in rows])
-    return [part.reshape(-1, *part.shape[2:])[:length] for part in found]
+    results = jax.lax.map(function, [xp.asarray(row)[place] for row in rows])
+    return [part.reshape(-1, *part.shape[2:])[:length] for part in results]
 
 
 def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -> Any:

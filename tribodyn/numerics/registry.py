@@ -106,11 +106,11 @@ class Registry(Generic[T]):
             thing = entries[0].load()
         except Exception as error:
             raise cannot_be_loaded(self.key, name, packages[0], error) from error
-        own = getattr(thing, "name", None) or getattr(thing, "kind", None)
+        actual = getattr(thing, "name", None) or getattr(thing, "kind", None)
         if not isinstance(thing, self._of):
             rule = f"{packages[0]} offers a {type(thing).__name__}, expected a {self._of.__name__}"
-        elif own != name:
-            rule = f"{packages[0]} offers it by this name, but it calls itself {quoted(own)}"
+        elif actual != name:
+            rule = f"{packages[0]} offers it by this name, but it calls itself {quoted(actual)}"
         else:
             return thing
         raise InputError(self.key, quoted(name), rule, f"mend or uninstall {packages[0]}")

@@ -41,7 +41,7 @@ def remembered(most: int) -> Callable[[F], F]:
     """
 
     def keeping(function: F) -> F:
-        known = functools.lru_cache(maxsize=most)(lambda call: function(*call.arguments))
+        cached = functools.lru_cache(maxsize=most)(lambda call: function(*call.arguments))
 
         @functools.wraps(function)
         def call(*arguments: Any) -> Any:
@@ -49,7 +49,7 @@ def remembered(most: int) -> Callable[[F], F]:
                 wanted = _Call(arguments)
             except TypeError:
                 return function(*arguments)
-            return known(wanted)
+            return cached(wanted)
 
         return cast(F, call)
 

@@ -81,8 +81,8 @@ def compare(records: Sequence[Record], reported: Reported) -> Comparison:
 
 def _refuse(records: Sequence[Record]) -> None:
     if len(records) < 2:
-        given = str(records[0].path) if records else None
-        raise InputError("compare", given, "there is nothing to compare it with", "name at least two")
+        path = str(records[0].path) if records else None
+        raise InputError("compare", path, "there is nothing to compare it with", "name at least two")
     seen = set()
     for record in records:
         if record.path.resolve() in seen:
@@ -139,8 +139,8 @@ def _flat(key: str, value: Any) -> Iterator[tuple[str, str]]:
 
 
 def _differing(conditions: Sequence[Mapping[str, str]]) -> dict[str, tuple[str, ...]]:
-    keys = dict.fromkeys(key for known in conditions for key in known)
-    values = {key: tuple(known.get(key, "–") for known in conditions) for key in keys}
+    keys = dict.fromkeys(key for condition in conditions for key in condition)
+    values = {key: tuple(condition.get(key, "–") for condition in conditions) for key in keys}
     different = {key: value for key, value in values.items() if len(set(value)) > 1}
     if "kind" in different:
         # another kind of study has no such key, which says nothing

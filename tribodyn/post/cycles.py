@@ -157,8 +157,8 @@ def key_points(record: Record) -> list[KeyPoint]:
     for name, place in places.items():
         passed = int(np.floor(place + _SAME_PHASE))
         phase = max(float(place) - passed, 0.0)
-        known = next((other for other in points if abs(other - phase) < _SAME_PHASE), phase)
-        points.setdefault(known, {})[1 - passed] = name
+        nearest = next((other for other in points if abs(other - phase) < _SAME_PHASE), phase)
+        points.setdefault(nearest, {})[1 - passed] = name
     return [KeyPoint(phase, names) for phase, names in sorted(points.items())]
 
 
@@ -258,8 +258,8 @@ def along_path(path: np.ndarray, pitch_radius: float) -> tuple[np.ndarray, np.nd
     angle = np.arctan2(np.where(backward, -y, y), np.abs(x))
     if at_pitch_point.any():
         order = np.argsort(distance[~at_pitch_point])
-        known = distance[~at_pitch_point][order], angle[~at_pitch_point][order]
-        angle[at_pitch_point] = np.interp(0.0, *known)
+        ordered = distance[~at_pitch_point][order], angle[~at_pitch_point][order]
+        angle[at_pitch_point] = np.interp(0.0, *ordered)
     order = np.argsort(distance)
     distance, angle = distance[order], angle[order]
     per_roll = 1.0 / (pitch_radius * np.cos(angle))

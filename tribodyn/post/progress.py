@@ -23,14 +23,14 @@ Report = Callable[[float], None]
 
 @contextmanager
 def progress_of(
-    given: Report | bool | None, label: str, total: float = 100.0, unit: str = "%"
+    wanted: Report | bool | None, label: str, total: float = 100.0, unit: str = "%"
 ) -> Iterator[Any]:
     """Give what Python's functions report to: their `progress`, a bar where it is None, or nothing."""
-    if given is None or given is True:
+    if wanted is None or wanted is True:
         with progress_bar(label, total, unit) as report:
             yield report
     else:
-        yield given or (lambda _fraction: None)
+        yield wanted or (lambda _fraction: None)
 
 
 @contextmanager

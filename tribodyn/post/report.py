@@ -174,11 +174,11 @@ def _without_judged_range(summary: Mapping[str, Any]) -> list[str]:
 
 def exceeded(summary: Mapping[str, Any], name: str, law: str) -> list[str]:
     """Say what exceeds the limits of a law, and in which share of the contact."""
-    found = summary.get(name)
-    if not isinstance(found, Mapping) or not found:
+    exceedances = summary.get(name)
+    if not isinstance(exceedances, Mapping) or not exceedances:
         return []
     shares: dict[str, float] = {}
-    for excess in found.values():
+    for excess in exceedances.values():
         what = meaning(str(excess["limit"]))
         shares[what] = max(float(excess["share"]), shares.get(what, 0.0))
     parts = [f"{what} in {_percent(share, up=True)}" for what, share in shares.items()]

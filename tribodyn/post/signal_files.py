@@ -14,14 +14,14 @@ from tribodyn.signals.sound import LEVEL, SOUND_RATES, Hearable, hearable, wav
 
 def signals_named(record: Record, names: Sequence[str]) -> list[SensorSignal]:
     """Signals of a record by their names, all where none is named; InputError where there is no such one."""
-    known = {signal.name: signal for signal in read_sensed(record).signals if len(signal.values) > 1}
-    if not known:
+    by_name = {signal.name: signal for signal in read_sensed(record).signals if len(signal.values) > 1}
+    if not by_name:
         rule, remedy = "holds no signals of sensors", "add a [[sensor]] to its scenario and run it again"
         raise InputError("record", str(record.path), rule, remedy)
     for name in names:
-        if name not in known:
-            raise unknown_name("sensor", name, known, "sensor")
-    return [known[name] for name in names or known]
+        if name not in by_name:
+            raise unknown_name("sensor", name, by_name, "sensor")
+    return [by_name[name] for name in names or by_name]
 
 
 def write_signals(
@@ -85,5 +85,5 @@ def write_sound(
             "output", str(target), "no name of a WAV file", f"write {target.with_suffix('.wav')}"
         )
     check_output(target, force)
-    heard = hearable(signal.values, signal.rate, rate, seconds, shift)
-    return write_output(target, wav(heard.samples, heard.rate), force=force), heard, signal
+    sound = hearable(signal.values, signal.rate, rate, seconds, shift)
+    return write_output(target, wav(sound.samples, sound.rate), force=force), sound, signal

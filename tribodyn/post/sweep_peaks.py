@@ -19,19 +19,19 @@ def peaks(record: SweepRecord) -> list[dict[str, Any]]:
     """
     from scipy.signal import find_peaks
 
-    found = []
+    maxima = []
     for name in record.settings.get("refine", {}).get("by", []):
         curves = np.where(record["status"] == DONE, record[name], np.nan)
         x = record.parameters[0].values
         for lane in np.ndindex(curves.shape[1:]):
             curve = curves[(slice(None), *lane)]
-            known = np.flatnonzero(np.isfinite(curve))
-            if known.size < 3:
+            finite = np.flatnonzero(np.isfinite(curve))
+            if finite.size < 3:
                 continue
-            tops, _ = find_peaks(curve[known], prominence=PROMINENCE * max(np.ptp(curve[known]), 1e-300))
-            for top in sorted(tops, key=lambda top: -curve[known[top]]):
-                before, place, after = known[top - 1 : top + 2]
-                found.append(
+            tops, _ = find_peaks(curve[finite], prominence=PROMINENCE * max(np.ptp(curve[finite]), 1e-300))
+            for top in sorted(tops, key=lambda top: -curve[finite[top]]):
+                before, place, after = finite[top - 1 : top + 2]
+                maxima.append(
                     {
                         "quantity": name,
                         "at": record.at((int(place), *lane)),
@@ -39,4 +39,4 @@ def peaks(record: SweepRecord) -> list[dict[str, Any]]:
                         "within": float(max(abs(x[place] - x[before]), abs(x[after] - x[place]))),
                     }
                 )
-    return found
+    return maxima

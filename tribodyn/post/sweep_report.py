@@ -74,8 +74,8 @@ def spread(record: SweepRecord, name: str) -> dict[str, np.ndarray] | None:
 
     None where no samples are varied. Failed cases are left out; NaN where none is left.
     """
-    drawn = record.settings.get("drawn", [])
-    over = tuple(number for number, dim in enumerate(record.dims) if dim in drawn)
+    random_dims = record.settings.get("drawn", [])
+    over = tuple(number for number, dim in enumerate(record.dims) if dim in random_dims)
     values = _values(record, name)
     return scatter(values, over) if over and values is not None else None
 
@@ -102,15 +102,15 @@ def weighted_mean(record: SweepRecord, name: str) -> np.ndarray | None:
 def _tables_over_all(record: SweepRecord, quantities: Sequence[Quantity]) -> list[Any]:
     """Scatter over the samples, means over weighed cases, each where nothing else is varied."""
     parts: list[Any] = []
-    drawn, weights = record.settings.get("drawn", []), record.settings.get("weights", {})
+    random_dims, weights = record.settings.get("drawn", []), record.settings.get("weights", {})
     done = record.count()["done"]
-    if drawn and all(dim in drawn for dim in record.dims):
+    if random_dims and all(dim in random_dims for dim in record.dims):
         titles = [name if name == "median" else f"{percentile:g} %" for name, percentile in SPREAD.items()]
         rows = []
         for quantity in quantities:
-            found = spread(record, quantity.name)
-            if found is not None and np.isfinite(found["median"]):
-                cells = [_written(record, quantity, float(found[name])) for name in SPREAD]
+            scatter = spread(record, quantity.name)
+            if scatter is not None and np.isfinite(scatter["median"]):
+                cells = [_written(record, quantity, float(scatter[name])) for name in SPREAD]
                 rows.append([quantity.title, *cells, quantity.unit])
         parts += [Text(""), _table((f"scatter of {done} samples", *titles, ""), (1, 2, 3), rows)]
     if weights and all(dim in weights for dim in record.dims):
@@ -172,12 +172,12 @@ def _head(record: SweepRecord) -> list[str]:
         lines.append(f"{first.key}: {begun} values and {more} more, of at most {most}, where {by} bends")
     if "solution" in record:
         solutions = record["solution"]
-        found = solutions[(solutions != "") & (solutions != "failed")]
+        reached = solutions[(solutions != "") & (solutions != "failed")]
         motions = ", ".join(
-            f"{number} {name}" for name, number in zip(*np.unique(found, return_counts=True), strict=True)
+            f"{number} {name}" for name, number in zip(*np.unique(reached, return_counts=True), strict=True)
         )
         lines += [f"motion: {motions}"] if motions else []
-    lines += [f"{key} = {taken}" for key, taken in record.settings.get("chosen", {}).items()]
+    lines += [f"{key} = {texts}" for key, texts in record.settings.get("chosen", {}).items()]
     return lines
 
 
@@ -195,8 +195,8 @@ def data_set_lines(record: SweepRecord) -> list[str]:
         )
     told = record.listed
     for name in ("label", "split"):
-        found = zip(*np.unique(told[name].astype(str), return_counts=True), strict=True)
-        lines.append(f"{name}: " + ", ".join(f"{number} {value}" for value, number in found))
+        counts = zip(*np.unique(told[name].astype(str), return_counts=True), strict=True)
+        lines.append(f"{name}: " + ", ".join(f"{number} {value}" for value, number in counts))
     lines[-1] += f", by drive: {len(np.unique(told['drive']))} of them"
     return lines
 
@@ -317,9 +317,9 @@ def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
         "directions": list(record.directions),
         "settings": record.settings,
         "figures": {name: {"units": record.units(name), "values": record[name]} for name in names},
-        "spread": {name: found for name in names if (found := spread(record, name)) is not None},
+        "spread": {name: statistic for name in names if (statistic := spread(record, name)) is not None},
         "weighted_mean": {
-            name: found for name in names if (found := weighted_mean(record, name)) is not None
+            name: statistic for name in names if (statistic := weighted_mean(record, name)) is not None
         },
         "peaks": peaks(record),
         "ends": branch_ends(record),

@@ -66,11 +66,11 @@ def over_course(summary: Mapping[str, Any]) -> Mapping[str, Any]:
         return summary
     run = summary.get("extremes", {}).get("run", {})
     names = ("hertz_pressure_max", "film_min", "film_parameter_min", "normal_load_max")
-    found = {name: run[name]["value"] for name in names if name in run and name in summary}
-    own = {
+    extremes = {name: run[name]["value"] for name in names if name in run and name in summary}
+    of_films = {
         name: course[name]["value"] for name in ("dynamic_factor", "contact_loss_fraction") if name in course
     }
-    return {**summary, **found, **own}
+    return {**summary, **extremes, **of_films}
 
 
 def on_course(course: Mapping[str, Any]) -> str:
@@ -78,17 +78,17 @@ def on_course(course: Mapping[str, Any]) -> str:
     ends = " to ".join(_rpm(course[f"{end}_speed"]) for end in ("first", "last"))
     parts = []
     if "dynamic_factor" in course:
-        found = course["dynamic_factor"]
+        extreme = course["dynamic_factor"]
         parts.append(
-            f"vibration raises the tooth forces to {found['value']:.2f} times their mean {_at(found)}"
+            f"vibration raises the tooth forces to {extreme['value']:.2f} times their mean {_at(extreme)}"
         )
     if "transmission_error_peak_to_peak" in course:
-        found = course["transmission_error_peak_to_peak"]
-        swing = with_unit("transmission_error_peak_to_peak", found["value"])
-        parts.append(f"the transmission error swings by up to {swing} {_at(found)}")
+        extreme = course["transmission_error_peak_to_peak"]
+        swing = with_unit("transmission_error_peak_to_peak", extreme["value"])
+        parts.append(f"the transmission error swings by up to {swing} {_at(extreme)}")
     if "contact_loss_fraction" in course and course["contact_loss_fraction"]["value"] > APART:
-        found = course["contact_loss_fraction"]
-        parts.append(f"the teeth are apart for up to {share(found['value'])} of the time {_at(found)}")
+        extreme = course["contact_loss_fraction"]
+        parts.append(f"the teeth are apart for up to {share(extreme['value'])} of the time {_at(extreme)}")
     else:
         parts.append("no tooth lifts off")
     return f"On the way from {ends} {'; '.join(parts)}."
@@ -99,10 +99,10 @@ def _rpm(speed: float) -> str:
     return f"{float(f'{speed * 30.0 / math.pi:.3g}'):g} rpm"
 
 
-def _at(found: Mapping[str, Any]) -> str:
+def _at(extreme: Mapping[str, Any]) -> str:
     """Where on the course of a run something is, over a few mesh cycles."""
-    order = f", mesh order {found['order']:.2g}" if "order" in found else ""
-    return f"at {_rpm(found['speed'])} ({found['time']:.3g} s{order})"
+    order = f", mesh order {extreme['order']:.2g}" if "order" in extreme else ""
+    return f"at {_rpm(extreme['speed'])} ({extreme['time']:.3g} s{order})"
 
 
 def moved(summary: Mapping[str, Any]) -> Iterable[str]:
@@ -154,11 +154,11 @@ def lost(summary: Mapping[str, Any]) -> Iterable[str]:
 
 def band_of(summary: Mapping[str, Any]) -> str:
     """The band of a friction coefficient solved with an estimated viscosity, in brackets; "" without one."""
-    known = numbers(summary)
-    if not {"friction_coefficient_mean", "friction_band_low", "friction_band_high"} <= set(known):
+    values = numbers(summary)
+    if not {"friction_coefficient_mean", "friction_band_low", "friction_band_high"} <= set(values):
         return ""
     low, high = (
-        known["friction_coefficient_mean"] * known[f"friction_band_{end}"] for end in ("low", "high")
+        values["friction_coefficient_mean"] * values[f"friction_band_{end}"] for end in ("low", "high")
     )
     return f" ({low:.3f} to {high:.3f}: the oil's viscosity at high pressure is estimated)"
 
@@ -198,7 +198,7 @@ def in_doubt_by(summary: Mapping[str, Any], what: str) -> float:
 
 def advised(summary: Mapping[str, Any]) -> Iterable[str]:
     """What to do, the most urgent first."""
-    found = numbers(summary)
+    values = numbers(summary)
     if "is too few" in str(summary.get("slice_remark")):
         yield f"To do: {summary['slice_remark']}"
     for what in ("film", "friction"):
@@ -207,11 +207,11 @@ def advised(summary: Mapping[str, Any]) -> Iterable[str]:
             solved = f'{what}.law = "solved" solves the contact itself, {SOLVED}'
             yield f"To do: {nearest}{solved}."
             return
-    if found.get("contact_loss_fraction", 0.0) > APART:
+    if values.get("contact_loss_fraction", 0.0) > APART:
         yield "To do: more load, more damping, tip relief or another speed keeps the teeth together."
-    elif found.get("dynamic_factor", 0.0) > RESONANT:
+    elif values.get("dynamic_factor", 0.0) > RESONANT:
         yield "To do: find the resonance with tribodyn sweep, and move speed or stiffness away from it."
-    elif found.get("film_parameter_min", SMOOTH) < ROUGH:
+    elif values.get("film_parameter_min", SMOOTH) < ROUGH:
         yield "To do: smoother flanks, thicker or cooler oil, or more speed raise the film."
 
 
@@ -228,14 +228,14 @@ def first(record: Record) -> Iterable[str]:
 
 def of_gears(record: Record) -> list[str]:
     """Lines of a record of gears; of any record those for which it has the quantities."""
-    found = over_course(record.summary)
-    parts = (moved(found), pressed(found), lost(found), outside(found), advised(found))
+    summary = over_course(record.summary)
+    parts = (moved(summary), pressed(summary), lost(summary), outside(summary), advised(summary))
     return [line for part in parts for line in part]
 
 
 def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> list[str]:
     """Lines of a sweep of gears; `place` writes the values of the parameters of a case."""
-    found = []
+    lines = []
 
     def extreme(name: str, find: Callable[[Any], Any]) -> tuple[float, str] | None:
         values = (
@@ -247,21 +247,21 @@ def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> li
         return float(values[at]), place(at)
 
     if loud := extreme("dynamic_factor", np.nanargmax):
-        found.append(f"Vibration is largest at {loud[1]}: tooth forces of {loud[0]:.2f} times their mean.")
+        lines.append(f"Vibration is largest at {loud[1]}: tooth forces of {loud[0]:.2f} times their mean.")
     if separated := extreme("contact_loss_fraction", np.nanargmax):
         many = int(np.sum(np.nan_to_num(record["contact_loss_fraction"]) > APART))
         longest = f"for {share(separated[0])} of the time at {separated[1]}"
-        found.append(f"The teeth separate in {many} cases, {longest}." if many else "No tooth lifts off.")
+        lines.append(f"The teeth separate in {many} cases, {longest}." if many else "No tooth lifts off.")
     if thin := extreme("film_parameter_min", np.nanargmin):
-        found.append(f"The film is thinnest at {thin[1]}: {thin[0]:.2g} times the roughness.")
+        lines.append(f"The film is thinnest at {thin[1]}: {thin[0]:.2g} times the roughness.")
     low, high = (extreme("efficiency", find) for find in (np.nanargmin, np.nanargmax))
     if low and high and low[0] < high[0]:
         ends = [f"{with_unit('efficiency', end[0])} at {end[1]}" for end in (low, high)]
-        found.append(f"The efficiency lies between {' and '.join(ends)}.")
-    found += _of_laws(record)
+        lines.append(f"The efficiency lies between {' and '.join(ends)}.")
+    lines += _of_laws(record)
     if failed := record.count()["failed"]:
-        found.append(f"{failed} of {record.count()['cases']} cases failed.")
-    return found
+        lines.append(f"{failed} of {record.count()['cases']} cases failed.")
+    return lines
 
 
 def _of_laws(record: SweepRecord) -> Iterable[str]:
@@ -326,9 +326,9 @@ def _why(exceeded: Any) -> str:
     """The limit that is exceeded in the largest share, one by the solved contact first; "" without any."""
     each = exceeded.values() if isinstance(exceeded, Mapping) else ()
     limits = [
-        (str(found.get("limit")), numbers(found).get("share", 0.0))
-        for found in each
-        if isinstance(found, Mapping)
+        (str(excess.get("limit")), numbers(excess).get("share", 0.0))
+        for excess in each
+        if isinstance(excess, Mapping)
     ]
     if not limits:
         return ""

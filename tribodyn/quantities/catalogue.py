@@ -45,5 +45,5 @@ def scatter(values: Any, over: tuple[int, ...] | None = None) -> dict[str, Any]:
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # no sample is known
-        found = np.nanpercentile(np.asarray(values, dtype=float), list(SPREAD.values()), axis=over)
-    return dict(zip(SPREAD, found, strict=True))
+        percentiles = np.nanpercentile(np.asarray(values, dtype=float), list(SPREAD.values()), axis=over)
+    return dict(zip(SPREAD, percentiles, strict=True))

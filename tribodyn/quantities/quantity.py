@@ -120,9 +120,9 @@ class Quantity(NamedTuple):
         number = self.in_unit(value)
         return format(int(number) if self.digits.endswith("d") else number, self.digits)
 
-    def written_of(self, found: Mapping[str, Any]) -> str:
+    def written_of(self, values: Mapping[str, Any]) -> str:
         """Its value in a mapping by names; a lower bound, where ``NAME_unlimited`` is true, with "≥"."""
-        return "≥ " * bool(found.get(f"{self.name}_unlimited")) + self.written(found[self.name])
+        return "≥ " * bool(values.get(f"{self.name}_unlimited")) + self.written(values[self.name])
 
     def with_unit(self, value: Any) -> str:
         """One value with its unit behind it."""

@@ -211,10 +211,10 @@ def describe(dataset: h5py.Dataset, variable: Variable) -> None:
 
 def scale(group: h5py.Group, name: str, variable: Variable, values: Any) -> h5py.Dataset:
     """Write a dimension scale, and return it."""
-    given = np.asarray(values)
-    text = given.dtype.kind == "U"
+    array = np.asarray(values)
+    text = array.dtype.kind == "U"
     # of fixed length, because Octave stops reading at other strings; the attribute makes xarray decode
-    dataset = group.create_dataset(name, data=np.char.encode(given, "utf-8") if text else given)
+    dataset = group.create_dataset(name, data=np.char.encode(array, "utf-8") if text else array)
     if text:
         dataset.attrs["_Encoding"] = "utf-8"
     describe(dataset, variable)

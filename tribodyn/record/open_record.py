@@ -46,10 +46,10 @@ def summary_of_today(summary: Mapping[str, Any], names: Collection[str]) -> dict
 
 def _without_normal(summary: Mapping[str, Any]) -> dict[str, Any]:
     def name_of(name: str) -> str:
-        found = _OF_A_MESH.fullmatch(name)
-        if not found:
+        match = _OF_A_MESH.fullmatch(name)
+        if not match:
             return name
-        return f"{found[1] or ''}transmission_error_{'' if found[2] else 'normal_'}{found[3]}"
+        return f"{match[1] or ''}transmission_error_{'' if match[2] else 'normal_'}{match[3]}"
 
     return {
         name_of(name): _without_normal(value) if isinstance(value, Mapping) else value
@@ -93,8 +93,8 @@ class OpenRecord:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
-        if found := blamed(self.path, error):
-            raise self._damaged(found) from found
+        if cause := blamed(self.path, error):
+            raise self._damaged(cause) from cause
 
     def close(self) -> None:
         """Close the file."""

@@ -137,8 +137,8 @@ class Record(OpenRecord):
         """Arrays and numbers of a group; of scales only those that are data themselves."""
         try:
             group = self._file[name]
-            own = attributes(group).items()
-            numbers = {key: value for key, value in own if not key.endswith("_units")}
+            items = attributes(group).items()
+            numbers = {key: value for key, value in items if not key.endswith("_units")}
             data = {key: item for key, item in group.items() if item.attrs["long_name"] != counted(key)}
             return {**{key: item[...] for key, item in data.items()}, **numbers}
         except (OSError, KeyError, RuntimeError) as error:

@@ -60,10 +60,10 @@ class Sensed(NamedTuple):
         """A signal by its name; by a number as of any tuple."""
         if not isinstance(name, str):
             return tuple(self)[name]
-        found = next((signal for signal in self.signals if signal.name == name), None)
-        if found is None:
+        match = next((signal for signal in self.signals if signal.name == name), None)
+        if match is None:
             raise KeyError(name)
-        return found
+        return match
 
 
 def write_sensed(sensed: Sensed, file: h5py.File) -> None:
@@ -118,7 +118,7 @@ def read_sensed(record: Record) -> Sensed:
         orders = np.asarray(lines["order"][...], dtype=float).tolist()
         if not np.all(np.abs(orders) < LARGEST_ORDER):
             raise ValueError("the order of a line is out of bounds")
-        known = tuple(
+        signal_lines = tuple(
             SignalLine(name, sort, order)
             for name, sort, order in zip(names, sorts, orders, strict=True)
             if sort in SORTS
@@ -129,7 +129,7 @@ def read_sensed(record: Record) -> Sensed:
         order = [str(table.get("name")) for table in _tables(record.scenario.get("sensor", ()))]
         place = {name: number for number, name in enumerate(order)}
         ordered = sorted(signals, key=lambda signal: place.get(signal.name, len(place)))
-        return Sensed(tuple(ordered), known, harmless(str(group.attrs["reference"])))
+        return Sensed(tuple(ordered), signal_lines, harmless(str(group.attrs["reference"])))
 
 
 def _tables(listed: Any) -> Iterable[Mapping[str, Any]]:
@@ -148,16 +148,16 @@ def _read_rate(part: Any) -> Iterable[SensorSignal]:
     for name, dataset in part.items():
         if name in ("time", "reference_angle"):
             continue
-        own = attributes(dataset)
-        made = {
+        held = attributes(dataset)
+        settings = {
             key: value
-            for key, value in own.items()
+            for key, value in held.items()
             if key not in ("units", "long_name", "kind") and key.islower()
         }
         values = np.asarray(dataset[...], dtype=float)
         if values.shape != time.shape or not np.all(np.isfinite(values)):
             raise ValueError(f"{name} is not a finite number throughout its time")
         yield SensorSignal(
-            harmless(name), str(own["kind"]), str(own["long_name"]), str(own["units"]), rate, time, angle,
-            values, made,
+            harmless(name), str(held["kind"]), str(held["long_name"]), str(held["units"]), rate, time, angle,
+            values, settings,
         )  # fmt: skip

@@ -278,9 +278,9 @@ def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, h5py.Dataset]:
 def _write_listed(file: h5py.File, head: SweepHead, cases: h5py.Dataset) -> None:
     """Write what is told of every case."""
     for name, (variable, values, key) in head.listed.items():
-        given = np.asarray(values)
-        text = given.dtype.kind == "U"
-        data = np.char.encode(np.char.add(given, ""), "utf-8") if text else given
+        array = np.asarray(values)
+        text = array.dtype.kind == "U"
+        data = np.char.encode(np.char.add(array, ""), "utf-8") if text else array
         dataset = file.create_dataset(
             name, data=data.astype(f"S{max(1, data.dtype.itemsize)}") if text else data
         )

@@ -126,8 +126,8 @@ class Judge:
         between_samples: bool = False,  # whether values are extremes between samples, which count in no share
     ) -> None:
         """Take a block of values."""
-        for name, given in quantities.items():
-            rule, values = RULES[name], np.asarray(given, dtype=float)
+        for name, quantity_values in quantities.items():
+            rule, values = RULES[name], np.asarray(quantity_values, dtype=float)
             if values.size == 0:
                 continue
             ends = np.array([np.fmax.reduce(values, axis=None), np.fmin.reduce(values, axis=None)])
@@ -141,12 +141,12 @@ class Judge:
                 continue
             beyond = np.where(np.isnan(values), -np.inf, rule.beyond(values))
             at = np.unravel_index(int(np.argmax(beyond)), values.shape)
-            value, known = float(values[at]), self._worst.get(name)
-            if known is None or not rule.beyond(np.array(value)) <= rule.beyond(np.array(known[0])):
-                found = {place: float(where[at[0]]) for place, where in (places or {}).items()}
+            value, worst = float(values[at]), self._worst.get(name)
+            if worst is None or not rule.beyond(np.array(value)) <= rule.beyond(np.array(worst[0])):
+                details = {place: float(where[at[0]]) for place, where in (places or {}).items()}
                 if pairs and len(at) > 1:
-                    found["pair"] = int(pairs[int(at[1])])
-                self._worst[name] = value, found
+                    details["pair"] = int(pairs[int(at[1])])
+                self._worst[name] = value, details
 
     def summary(self) -> dict[str, Any]:
         """What a summary says: the verdict, and the reasons; nothing where nothing was judged.
@@ -174,11 +174,11 @@ def judge_tribology(judge: Judge, summary: Mapping[str, Any]) -> None:
 
     Not by their maximum: where the load vanishes, laws give a film without bound.
     """
-    given = {"film_thickness": summary.get("film_min"), "film_parameter": summary.get("film_parameter_min")}
+    films = {"film_thickness": summary.get("film_min"), "film_parameter": summary.get("film_parameter_min")}
     for name, law in (("film_law_range", "closure"), ("friction_law_range", "friction")):
         inside = summary.get(f"{law}_in_range_fraction")
-        given[name] = None if inside is None else 1.0 - inside
-    judge.take({name: value for name, value in given.items() if value is not None})
+        films[name] = None if inside is None else 1.0 - inside
+    judge.take({name: value for name, value in films.items() if value is not None})
 
 
 def heat_of(flash_rise: Any, temperature: float | None) -> dict[str, Any]:
@@ -190,8 +190,8 @@ def heat_of(flash_rise: Any, temperature: float | None) -> dict[str, Any]:
 
 def verdict(summary: Mapping[str, Any]) -> str:
     """`INSIDE`, `OUTSIDE`, `EXTRAPOLATED`, or "" where nothing was judged."""
-    found = summary.get(TRUST)
-    return found if found in VERDICTS else ""
+    verdict_text = summary.get(TRUST)
+    return verdict_text if verdict_text in VERDICTS else ""
 
 
 def number(summary: Mapping[str, Any]) -> int:
@@ -201,36 +201,36 @@ def number(summary: Mapping[str, Any]) -> int:
 
 def reasons(summary: Mapping[str, Any]) -> list[str]:
     """Why a result is not inside the model: quantity, value, limit, for what share, and where; in words."""
-    return [_sentence(rule, known) for rule, known in _broken(summary)]
+    return [_sentence(rule, breach) for rule, breach in _broken(summary)]
 
 
 def warnings(summary: Mapping[str, Any]) -> list[str]:
     """What lies outside the model, in words; laws that are extrapolated are no warning."""
     return [
-        f"{OUTSIDE}: {_sentence(rule, known)}" for rule, known in _broken(summary) if not rule.extrapolates
+        f"{OUTSIDE}: {_sentence(rule, breach)}" for rule, breach in _broken(summary) if not rule.extrapolates
     ]
 
 
 def brief(summary: Mapping[str, Any]) -> str:
     """The same without values, for the remark on a case of a sweep; "" where it is not outside."""
-    broken = [rule.short(float(known["value"])) for rule, known in _broken(summary) if not rule.extrapolates]
+    broken = [rule.short(float(value["value"])) for rule, value in _broken(summary) if not rule.extrapolates]
     return f"{OUTSIDE}: {', '.join(broken)}" if broken else ""
 
 
 def attributes(summary: Mapping[str, Any]) -> dict[str, str]:
     """What the root of a record says: the verdict, and the reasons, one per line."""
-    found = verdict(summary)
-    return {TRUST: found, REASONS: "\n".join(reasons(summary))} if found else {}
+    verdict_text = verdict(summary)
+    return {TRUST: verdict_text, REASONS: "\n".join(reasons(summary))} if verdict_text else {}
 
 
 def _broken(summary: Mapping[str, Any]) -> Iterator[tuple[Rule, Mapping[str, Any]]]:
-    given = summary.get(REASONS)
-    if verdict(summary) not in (OUTSIDE, EXTRAPOLATED) or not isinstance(given, Mapping):
+    stated = summary.get(REASONS)
+    if verdict(summary) not in (OUTSIDE, EXTRAPOLATED) or not isinstance(stated, Mapping):
         return
     for name, rule in RULES.items():
-        known = given.get(name)
-        if isinstance(known, Mapping) and {"value", "limit"} <= set(known):
-            yield rule, known
+        breach = stated.get(name)
+        if isinstance(breach, Mapping) and {"value", "limit"} <= set(breach):
+            yield rule, breach
 
 
 #: How places are written.
@@ -242,11 +242,11 @@ _PLACES = {
 }
 
 
-def _sentence(rule: Rule, known: Mapping[str, Any]) -> str:
-    value, limit = float(known["value"]), float(known["limit"])
+def _sentence(rule: Rule, breach: Mapping[str, Any]) -> str:
+    value, limit = float(breach["value"]), float(breach["limit"])
     side = "at least" if value < limit else "at most"
     sentence = f"{rule.label} {rule.shown(value)}, {side} {rule.shown(limit)}"
-    share = known.get("share")
+    share = breach.get("share")
     if share is not None and float(share) <= 0.0:  # an extreme that lies between two samples
         sentence += ", outside between samples only"
     elif share is not None and float(share) >= 1.0:
@@ -254,6 +254,6 @@ def _sentence(rule: Rule, known: Mapping[str, Any]) -> str:
     elif share is not None:
         sentence += f", outside in {min(max(100.0 * float(share), 0.01), 99.9):.3g} % of the samples"
     places = [
-        text.format(float(known[name])) for name, text in _PLACES.items() if known.get(name) is not None
+        text.format(float(breach[name])) for name, text in _PLACES.items() if breach.get(name) is not None
     ]
     return f"{sentence}, worst {', '.join(places)}" if places else sentence

@@ -58,13 +58,13 @@ def withheld(summary: Mapping[str, Any]) -> dict[str, Any]:
 
 def reasons(summary: Mapping[str, Any]) -> dict[str, str]:
     """Name of every quantity that is withheld -> why; names in nested summaries joined by `/`."""
-    found = {}
+    by_name = {}
     for name, value in summary.items():
         if isinstance(value, Mapping):
-            found |= {f"{name}/{inner}": why for inner, why in reasons(value).items()}
+            by_name |= {f"{name}/{inner}": why for inner, why in reasons(value).items()}
         elif name.endswith(WITHHELD):
-            found[name.removesuffix(WITHHELD)] = str(value)
-    return found
+            by_name[name.removesuffix(WITHHELD)] = str(value)
+    return by_name
 
 
 def samples_withheld(name: str, values: Any) -> Any:
@@ -98,11 +98,11 @@ def remarks(summary: Mapping[str, Any]) -> list[str]:
 
 
 def _own_remarks(summary: Mapping[str, Any]) -> list[str]:
-    found = [str(summary["warning"])] if summary.get("warning") else []
+    remarks = [str(summary["warning"])] if summary.get("warning") else []
     by_reason: dict[str, list[str]] = {}
     for name, why in reasons(summary).items():
         by_reason.setdefault(why, []).append(name)
-    return found + [f"withheld: {', '.join(names)}, {why}" for why, names in by_reason.items()]
+    return remarks + [f"withheld: {', '.join(names)}, {why}" for why, names in by_reason.items()]
 
 
 def warned(remark: str) -> str:

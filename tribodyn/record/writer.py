@@ -79,7 +79,7 @@ class RecordWriter:
         check_target(self.path, force, head.origin)
 
     def __enter__(self) -> Self:
-        made = False
+        created = False
         try:
             with locked(self.path) as self._lock:
                 refuse_existing(self.path, self._force, self._head.origin)  # another may just have ended
@@ -87,13 +87,13 @@ class RecordWriter:
                 self._place = blank.places
                 with replacing(self.partial, scratch_path(self.path)) as scratch:
                     disk.write_new(scratch, blank.content, blank.blanks)
-                    made = True
+                    created = True
                 self._file, self._open = disk.open_existing(self.partial), True
             return self
         except KeyboardInterrupt:
             if self._open:
                 self._close()
-            if made:  # there is nothing in it
+            if created:  # there is nothing in it
                 self.partial.unlink(missing_ok=True)
                 self._lock.release()
             raise

@@ -120,7 +120,7 @@ class HousingData:
 
         Of a mode −ω² φ_force φ_point/(m (ω_0² − ω² + 2 i ζ ω_0 ω)).
         """
-        found = np.zeros(len(frequency), dtype=complex)
+        accelerance = np.zeros(len(frequency), dtype=complex)
         name, direction = force
         for mode in self.modes:
             shape = mode.shape.get(name, ())
@@ -128,11 +128,11 @@ class HousingData:
                 continue
             moved = shape[direction] * mode.points.get(point, 0.0) / mode.mass
             over = mode.frequency**2 - frequency**2 + 2j * mode.damping_ratio * mode.frequency * frequency
-            found -= moved * frequency**2 / over
+            accelerance -= moved * frequency**2 / over
         for path in self.transfers:
             if (path.point, path.at, DIRECTIONS[path.direction]) == (point, name, direction):
-                found += np.interp(frequency, path.frequency, path.response, left=0.0, right=0.0)
-        return found
+                accelerance += np.interp(frequency, path.frequency, path.response, left=0.0, right=0.0)
+        return accelerance
 
     def memory(self) -> float:
         """Seconds after which its modes have forgotten a force, to e^−8."""

@@ -95,12 +95,12 @@ def kurtogram(values: Float[Array, " sample"], rate: float, levels: int = 6) -> 
     least = _FAINT * float(np.sum(np.abs(lines) ** 2))
     parts = sorted({2**level for level in range(levels + 1)} | {3 * 2**level for level in range(levels - 1)})
     parts = [count for count in parts if len(lines) // count >= FEWEST] or [1]
-    widths, found = [], []
+    widths, kurtosis = [], []
     for count in parts:
         edges = np.round(np.linspace(0, len(lines), count + 1)).astype(int)
-        found.append(np.array([_of_band(lines[a:b], least) for a, b in itertools.pairwise(edges)]))
+        kurtosis.append(np.array([_of_band(lines[a:b], least) for a, b in itertools.pairwise(edges)]))
         widths.append(rate / 2.0 / count)
-    return Kurtogram(tuple(widths), tuple(found))
+    return Kurtogram(tuple(widths), tuple(kurtosis))
 
 
 def _of_band(lines: Complex[Array, " line"], least: float) -> float:

@@ -99,8 +99,8 @@ def sideband_level_factor(average: Float[Array, " sample"], teeth: int) -> float
     One per shaft, by the average of its own turn: it rises where the gear runs out or its shaft is bent
     (Večeř, Kreidl & Šmíd, Acta Polytechnica 45 (2005) 35).
     """
-    _, beside = next(mesh_harmonics(average, teeth, 1), (0.0, [0.0]))
-    return _over(sum(beside), rms(average))
+    _, amplitudes = next(mesh_harmonics(average, teeth, 1), (0.0, [0.0]))
+    return _over(sum(amplitudes), rms(average))
 
 
 def sideband_energy_ratio(average: Float[Array, " sample"], teeth: int, sidebands: int = 6) -> float:
@@ -109,8 +109,8 @@ def sideband_energy_ratio(average: Float[Array, " sample"], teeth: int, sideband
     Near 0 of a gear without run-out; above 1 teeth differ (Hanna, Hatch, Kalb & others, Detection of wind
     turbine gear tooth defects using sideband energy ratio, China Wind Power 2011).
     """
-    mesh, beside = next(mesh_harmonics(average, teeth, min(sidebands, teeth - 1)), (0.0, [0.0]))
-    return _over(sum(beside), mesh)
+    mesh, amplitudes = next(mesh_harmonics(average, teeth, min(sidebands, teeth - 1)), (0.0, [0.0]))
+    return _over(sum(amplitudes), mesh)
 
 
 def of_signal(values: Float[Array, " sample"]) -> dict[str, float]:
@@ -128,13 +128,13 @@ def of_average(average: Float[Array, " sample"], teeth: Sequence[int]) -> dict[s
 
     Where less than `FLOOR` of the average is left, its moments say nothing: NaN.
     """
-    left, rest = residual(average, teeth), difference(average, teeth)
-    known, least = float("nan"), FLOOR * rms(average)
+    remainder, rest = residual(average, teeth), difference(average, teeth)
+    undefined, least = float("nan"), FLOOR * rms(average)
     return {
         "fm0": fm0(average, teeth),
-        "fm4": fm4(rest) if rms(rest) > least else known,
-        "m6a": m6a(rest) if rms(rest) > least else known,
-        "na4": na4(left) if rms(left) > least else known,
+        "fm4": fm4(rest) if rms(rest) > least else undefined,
+        "m6a": m6a(rest) if rms(rest) > least else undefined,
+        "na4": na4(remainder) if rms(remainder) > least else undefined,
         "energy_ratio": energy_ratio(average, teeth),
         "sideband_level_factor": max(sideband_level_factor(average, z) for z in teeth),
         "sideband_energy_ratio": max(sideband_energy_ratio(average, z) for z in teeth),

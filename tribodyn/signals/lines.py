@@ -91,18 +91,18 @@ def named_orders(
             yield NamedOrder(k * line.order, label, line.sort)
             if line.sort != MESH:
                 continue
-            for beside in slow:
+            for modulating in slow:
                 for n in (*range(-sidebands, 0), *range(1, sidebands + 1)):
-                    order = k * line.order + n * beside.order
+                    order = k * line.order + n * modulating.order
                     if 0.0 < order <= most:
                         times = "" if abs(n) == 1 else f"{abs(n)} "
                         sign = "−" if n < 0 else "+"
-                        yield NamedOrder(order, f"{label} {sign} {times}{beside.name}", "sideband")
+                        yield NamedOrder(order, f"{label} {sign} {times}{modulating.name}", "sideband")
 
 
-def names_at(order: float, known: Sequence[NamedOrder], within: float) -> list[NamedOrder]:
+def names_at(order: float, candidates: Sequence[NamedOrder], within: float) -> list[NamedOrder]:
     """What an order may be, the nearest first; meshes before others that are as near."""
-    near = [one for one in known if abs(one.order - order) <= within]
+    near = [one for one in candidates if abs(one.order - order) <= within]
     return sorted(
         near,
         key=lambda one: (

@@ -39,17 +39,19 @@ def _weights(cutoff: float, slope: bool) -> tuple[np.ndarray, float]:
     root = np.sqrt(np.maximum(1.0 - (away * cutoff / REACH) ** 2, 0.0))
     inside = np.abs(away) <= half
     window, wave = np.where(inside, np.i0(_BETA * root), 0.0), np.sinc(2.0 * cutoff * away)
-    found = wave * window
-    whole = np.sum(found, axis=1, keepdims=True)
+    kernel = wave * window
+    whole = np.sum(kernel, axis=1, keepdims=True)
     if not slope:
-        return found / whole, half
+        return kernel / whole, half
     turn_rate = 2.0 * np.pi * cutoff
     turn = turn_rate * away
     near = np.abs(turn) < 1e-4
-    found = window * np.where(near, turn * turn_rate / 3.0, (wave - np.cos(turn)) / np.where(near, 1.0, away))
+    kernel = window * np.where(
+        near, turn * turn_rate / 3.0, (wave - np.cos(turn)) / np.where(near, 1.0, away)
+    )
     # none of a constant
-    found -= window * np.sum(found, axis=1, keepdims=True) / np.sum(window, axis=1, keepdims=True)
-    return found / whole, half
+    kernel -= window * np.sum(kernel, axis=1, keepdims=True) / np.sum(window, axis=1, keepdims=True)
+    return kernel / whole, half
 
 
 def at_places(
@@ -67,22 +69,22 @@ def at_places(
     values, places = np.asarray(values, dtype=float), np.asarray(places, dtype=float)
     flat = values.reshape(len(values), -1)
     cutoff = np.minimum(cutoff, 0.5)
-    found = np.empty((len(places), flat.shape[1]))
-    known, table, half = 0.0, np.empty((0, 0)), 0.0
+    resampled = np.empty((len(places), flat.shape[1]))
+    tabulated, table, half = 0.0, np.empty((0, 0)), 0.0
     for start in range(0, len(places), _TOGETHER):
         part = slice(start, start + _TOGETHER)
         now = float(np.mean(cutoff[part] if np.ndim(cutoff) else cutoff))
-        if abs(now - known) > 1e-6 * now:
-            known, (table, half) = now, _weights(now, slope)
+        if abs(now - tabulated) > 1e-6 * now:
+            tabulated, (table, half) = now, _weights(now, slope)
         first = np.ceil(places[part] - half)
         row = (first - (places[part] - half)) * _BETWEEN
         low = np.minimum(row.astype(int), _BETWEEN - 1)
         share = (row - low)[:, None]
         index = first.astype(int)[:, None] + np.arange(table.shape[1])
-        taken = flat[np.clip(index, 0, len(flat) - 1)]
+        samples = flat[np.clip(index, 0, len(flat) - 1)]
         weights = table[low] * (1.0 - share) + table[low + 1] * share
-        found[part] = np.einsum("pt,ptc->pc", weights, taken, optimize=True)
-    return found.reshape(len(places), *values.shape[1:])
+        resampled[part] = np.einsum("pt,ptc->pc", weights, samples, optimize=True)
+    return resampled.reshape(len(places), *values.shape[1:])
 
 
 def resampled(

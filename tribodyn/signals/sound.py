@@ -65,7 +65,7 @@ def hearable(
         raise InputError("shift", shift, rule, "1 leaves the frequencies as they are")
     count = int(np.floor((len(values) - 1) * sound_rate / played)) + 1
     around = values - np.mean(values)
-    heard = at_places(around, np.arange(count) * played / sound_rate, 0.5 * sound_rate / played)
+    audible = at_places(around, np.arange(count) * played / sound_rate, 0.5 * sound_rate / played)
     fade = min(int(FADE * sound_rate), count // 4)
     apart = count - fade
     repeats = max(1, int(np.ceil((seconds * sound_rate - fade) / max(apart, 1))))
@@ -75,7 +75,7 @@ def hearable(
         rise[-fade:] = rise[:fade][::-1]
     samples = np.zeros(apart * repeats + fade)
     for number in range(repeats):
-        samples[number * apart : number * apart + count] += rise * heard
+        samples[number * apart : number * apart + count] += rise * audible
     between = at_places(around, np.arange(len(around) * BETWEEN) / BETWEEN, 0.5)
     ends = BETWEEN * ceil(REACH)  # where the low-pass overshoots, and which are faded
     between = between[ends:-ends] if len(between) > 4 * ends else between

@@ -45,10 +45,10 @@ class AmplitudeSpectrum(NamedTuple):
             return 0.0
         peak = first + int(np.argmax(near))
         highest = float(self.amplitudes[peak])
-        beside = [self.amplitudes[at] for at in (peak - 1, peak + 1) if 0 < at < len(self.amplitudes)]
-        if not lines or not peak or not beside or not 0.0 < highest >= max(beside):
+        neighbours = [self.amplitudes[at] for at in (peak - 1, peak + 1) if 0 < at < len(self.amplitudes)]
+        if not lines or not peak or not neighbours or not 0.0 < highest >= max(neighbours):
             return highest
-        return highest / _height(self.taper, float(max(beside)) / highest)
+        return highest / _height(self.taper, float(max(neighbours)) / highest)
 
 
 def _height(taper: Taper, ratio: float) -> float:

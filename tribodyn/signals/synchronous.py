@@ -102,5 +102,5 @@ def mesh_harmonics(
     """Amplitudes of every harmonic of a mesh, and of its sidebands −n … −1, 1 … n, up to half the samples."""
     amplitudes = 2.0 * np.abs(np.fft.rfft(average)) / len(average)
     for mesh in range(teeth, len(amplitudes) - sidebands, teeth):
-        beside = [float(amplitudes[mesh + n]) for n in range(-sidebands, sidebands + 1) if n]
-        yield float(amplitudes[mesh]), beside
+        sideband = [float(amplitudes[mesh + n]) for n in range(-sidebands, sidebands + 1) if n]
+        yield float(amplitudes[mesh]), sideband

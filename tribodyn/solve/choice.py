@@ -92,16 +92,16 @@ def _places(
     if len(of_cycles) > SEGMENTS:
         spread = np.linspace(0, len(of_cycles) - 1, SEGMENTS).round().astype(int)
         of_cycles = [of_cycles[place] for place in spread]
-    passed, phases, found = [], [], []
+    passed, phases, interval_numbers = [], [], []
     for number, interval in of_cycles:
         low, high = float(start[interval]), float(end[interval])
         count = len(intervals(schedule, int(chosen[number])))
         places = list(np.linspace(low, high, max(LEAST, PHASES // count)))
         for m, mesh in enumerate(model.meshes):
             segment = int(np.asarray(schedule.segment)[interval, m])
-            own = np.asarray(mesh.table.boundary)[segment : segment + 2]
+            ends = np.asarray(mesh.table.boundary)[segment : segment + 2]
             distance = np.asarray(mesh.table.channel)[segment, :, :, _DISTANCE, 0]
-            nodes = np.linspace(float(own[0]), float(own[1]), distance.shape[0] + 1)[:-1]
+            nodes = np.linspace(float(ends[0]), float(ends[1]), distance.shape[0] + 1)[:-1]
             slices = np.shape(mesh.table.face_position)[0]  # which reverse one after the other: of a pair one
             for slot in np.flatnonzero(np.asarray(mesh.table.in_contact)[segment])[::slices]:
                 before, after = sorted((0, -1), key=lambda i, slot=slot: distance[i, slot])
@@ -115,8 +115,8 @@ def _places(
         distinct = np.unique(np.round(places, DIGITS))
         phases += list(distinct)
         passed += [number] * len(distinct)
-        found += [interval] * len(distinct)
-    return np.array(passed) + np.array(phases), np.array(phases), np.array(found)
+        interval_numbers += [interval] * len(distinct)
+    return np.array(passed) + np.array(phases), np.array(phases), np.array(interval_numbers)
 
 
 def choose(method: str, model: Model, state: Float[Array, " state"]) -> Choice:

@@ -119,9 +119,9 @@ def seek_again(models: Sequence[Model], result: Ensemble, plan: March, workers: 
             extremes=True,
             workers=workers,
         )
-        found = extremes_of(result.extremes, there)
-        take_in(found, again.extremes)
-        put_extremes(result.extremes, there, found)
+        extremes = extremes_of(result.extremes, there)
+        take_in(extremes, again.extremes)
+        put_extremes(result.extremes, there, extremes)
 
 
 def one_by_one(

@@ -127,19 +127,19 @@ def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> F
     scale = _scales(model, deflection)[unknown]
     tolerance = 1e-6 * float(np.linalg.norm(residual(values))) + 1e-30
     loose = not are_linear(model.links.own)
-    found = _root(residual, values, scale, tolerance, loose)
-    if found is None:  # damping of a moving error holds the flanks all but apart, or deep in each other
+    root = _root(residual, values, scale, tolerance, loose)
+    if root is None:  # damping of a moving error holds the flanks all but apart, or deep in each other
         for share in np.linspace(0.0, 1.0, DAMPING_STEPS).tolist():
             meshes = tuple(mesh._replace(damping=share * mesh.damping) for mesh in model.meshes)
-            found = _root(
+            root = _root(
                 partial(residual, model=model._replace(meshes=meshes)), values, scale, tolerance, loose
             )
-            if found is None:
+            if root is None:
                 sides = [np.asarray(mesh.table.side) for mesh in model.meshes]
                 pressed = all(bool(np.any(of * way > 0)) for of, way in zip(sides, side, strict=True))
                 raise SimulationError(DAMPED_AWAY if share else NOT_FOUND if pressed else APART)
-            values = found
-    y[unknown] = found
+            values = root
+    y[unknown] = root
     if unbounded(y, model):
         moved = max(float(largest_displacement(m, y, model)) for m in range(layout.meshes))
         raise SimulationError(TOO_SOFT.format(moved))
@@ -273,15 +273,15 @@ def _apart_unloaded(model: Model, phase: float, interval: int) -> list[dict[floa
     """Distances of the flanks of every mesh while no bearing is loaded, by side, as rotational errors, m."""
     work = contacts_of(model)
     derivatives(phase, 0.0, interval, np.zeros(model.layout.states), model, work, {})
-    found = []
+    distances = []
     for m, mesh in enumerate(model.meshes):
         by_side: dict[float, list[float]] = {}
         for i, side in enumerate(np.asarray(mesh.table.side).tolist()):
             if work[m][PRESENT, i] > 0.0:
                 gap = float(-work[m][APPROACH, i] / (work[m][COS, i] * work[m][LEAN_COS, i]))
                 by_side.setdefault(side, []).append(gap)
-        found.append(by_side)
-    return found
+        distances.append(by_side)
+    return distances
 
 
 def _maximum_gap(model: Model, m: int, interval: int, side: float) -> float:

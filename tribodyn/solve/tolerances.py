@@ -98,10 +98,10 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
     # one after the other: a flywheel hangs on its carrier, and that on pins
     waiting = [k for k in range(layout.links) if min(layout.first[k], layout.second[k]) >= 0]
     while waiting:
-        left = [k for k in waiting if not _scaled_by_link(k, model, of_body)]
-        if len(left) == len(waiting):
+        unscaled = [k for k in waiting if not _scaled_by_link(k, model, of_body)]
+        if len(unscaled) == len(waiting):
             break
-        waiting = left
+        waiting = unscaled
     scale = np.empty(layout.states)
     half = layout.half
     for body in range(layout.bodies):
@@ -165,15 +165,15 @@ def _loaded(model: Model, state: Float[Array, " state"], tables: list[TableScale
     constant = float(model.bodies.load[layout.output])
     still = model._replace(options=model.options._replace(drive=DRIVE_SPEED))
     torque = np.abs(flow(still, varying if constant >= 0.0 else -varying).on_driven)
-    found = np.empty(len(model.meshes))
+    deflection = np.empty(len(model.meshes))
     for m, mesh in enumerate(model.meshes):
         table, motion = mesh.table, motion_of(m, state, model)
         segment = int(np.asarray(model.schedule.segment)[0, m])
         there = np.asarray(table.in_contact)[segment] > 0
         pairs, side = np.asarray(table.channel)[segment, 0, there, :, 0], np.asarray(table.side)[there]
         pressed = side * motion.towards * pairs[:, _COSINE] + motion.across * pairs[:, _SINE] - pairs[:, _GAP]
-        found[m] = max(float(np.max(pressed)), tables[m].per_torque * torque[m])
-    return found
+        deflection[m] = max(float(np.max(pressed)), tables[m].per_torque * torque[m])
+    return deflection
 
 
 def _energy(model: Model, m: int, loaded: float, table: TableScales) -> float:
@@ -199,13 +199,13 @@ def tolerances_of_many(
     models: Sequence[Model], states: Float[Array, "case state"], rtol: float
 ) -> Float[Array, "case state"]:
     """Absolute tolerances of many cases; what depends on a table alone is computed once per table."""
-    known: dict[int, TableScales] = {}
+    by_table: dict[int, TableScales] = {}
     tolerances = np.empty(states.shape)
     for case, model in enumerate(models):
         for mesh in model.meshes:
-            if id(mesh.table) not in known:
-                known[id(mesh.table)] = table_scales(mesh)
-        tables = [known[id(mesh.table)] for mesh in model.meshes]
+            if id(mesh.table) not in by_table:
+                by_table[id(mesh.table)] = table_scales(mesh)
+        tables = [by_table[id(mesh.table)] for mesh in model.meshes]
         loaded = _loaded(model, states[case], tables)
         energy = [_energy(model, m, loaded[m], table) for m, table in enumerate(tables)]
         scales = MeshScales(tables, np.maximum(loaded, _least(model)), np.array(energy))

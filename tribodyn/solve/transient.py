@@ -78,24 +78,24 @@ class MarchedAgain:
             method = choose(AUTO, self._model, state).method
             self._native = NativeIntegrator(method, self._model, 0, self._tolerances)
             self._native.extremes = True
-        found = no_extremes(self._model.layout)
+        extremes = no_extremes(self._model.layout)
         for cycle in range(len(part.samples) // self._samples):
             self._native.started = False
             again = self._native.integrate(part.samples[cycle * self._samples], first_cycle + cycle, 1)
             assert again.extremes is not None
-            take_in(found, again.extremes)
-        return part._replace(extremes=found)
+            take_in(extremes, again.extremes)
+        return part._replace(extremes=extremes)
 
 
 def make_integrator(
     method: str, model: Model, samples: int, tolerances: StepTolerances, extremes: bool = False
 ) -> Integrator:
     """Return the integrator that a method's name stands for; `extremes` says whether they are sought."""
-    made = integrator_class(method)(method, model, samples, tolerances)
+    integrator = integrator_class(method)(method, model, samples, tolerances)
     if runs(method) is not Runs.NATIVE:
-        made = MarchedAgain(made, model, samples, tolerances)
-    made.extremes = extremes
-    return made
+        integrator = MarchedAgain(integrator, model, samples, tolerances)
+    integrator.extremes = extremes
+    return integrator
 
 
 def cycles_at_once(method: str, cycles: int, samples: int, steps: int = 0, done: int = 0) -> int:

@@ -145,17 +145,17 @@ def rim_factor(gear: BendingGear) -> float:
 
 def beyond(gear: BendingGear, notch: float) -> list[str]:
     """What of a root lies outside the limits of the standard; none: all is inside."""
-    found = []
+    exceeded = []
     thinnest = 1.75 * gear.normal_module if gear.internal else 0.5 * gear.tooth_height
     if gear.rim < thinnest:
-        found.append(
+        exceeded.append(
             f"rim {1e3 * gear.rim:.3g} mm, below {1e3 * thinnest:.3g} mm, for which Y_B is extrapolated"
         )
     if not 1.0 <= notch < 8.0:
-        found.append(f"notch parameter q_s {notch:.2g}, outside 1 to 8, for which Y_S holds")
+        exceeded.append(f"notch parameter q_s {notch:.2g}, outside 1 to 8, for which Y_S holds")
     if math.degrees(gear.helix_angle) > 30.0:
-        found.append("helix angle above 30°: Y_β is that of 30°")
-    return found
+        exceeded.append("helix angle above 30°: Y_β is that of 30°")
+    return exceeded
 
 
 def deep_tooth_factor(virtual_contact_ratio: float, quality: float) -> float:
@@ -171,23 +171,23 @@ def face_factor(face_load: float, slenderness: float) -> float:
     return face_load ** (slender**2 / (1.0 + slender + slender**2))
 
 
-def root_stress(found: Stress, load_factor: float) -> float:
+def root_stress(stress: Stress, load_factor: float) -> float:
     """σ_F, Pa: σ_F0 K with K = K_A K_γ K_v K_Fβ K_Fα, K_Fα = K_Hα: (2)."""
-    return found.nominal * load_factor
+    return stress.nominal * load_factor
 
 
-def relative_factors(gear: BendingGear, found: Stress, metal: Metal) -> Relative:
+def relative_factors(gear: BendingGear, stress: Stress, metal: Metal) -> Relative:
     """Y_δrelT (58), Y_RrelT (62) to (70), Y_X (71) to (75) and Y_M (annex B) of a material."""
     layer = slip_layer(metal)
-    own, test = (
-        1.0 + math.sqrt(layer * (1.0 + 2.0 * notch) / _GRADIENT) for notch in (found.notch, _TEST_NOTCH)
+    gear_support, test = (
+        1.0 + math.sqrt(layer * (1.0 + 2.0 * notch) / _GRADIENT) for notch in (stress.notch, _TEST_NOTCH)
     )
     return Relative(
-        own / test,
+        gear_support / test,
         _surface(metal, gear.roughness),
         _size(metal, 1e3 * gear.normal_module),
-        _alternating(metal, found.correction) if gear.reversed else 1.0,
-        _static_notch(metal, found.correction),
+        _alternating(metal, stress.correction) if gear.reversed else 1.0,
+        _static_notch(metal, stress.correction),
     )
 
 

@@ -84,8 +84,8 @@ def safety(bins: Sequence[Bin], curve: StressCurve) -> float:
     highest = max(one.stress for one in loaded)
 
     def excess(logarithm: float) -> float:
-        found = damage(loaded, curve, math.exp(logarithm))
-        return min(found, 1e30) - 1.0
+        miner_sum = damage(loaded, curve, math.exp(logarithm))
+        return min(miner_sum, 1e30) - 1.0
 
     low, high = (math.log(bound * curve.stress[-1] / highest) for bound in _SAFETIES)
     return math.exp(float(cast(Any, brentq(excess, low, high, xtol=1e-10))))
@@ -93,5 +93,5 @@ def safety(bins: Sequence[Bin], curve: StressCurve) -> float:
 
 def life_share(bins: Sequence[Bin], curve: StressCurve, required: float) -> float:
     """How many times the bins' cycles are endured at a required safety; infinite where nothing is damaged."""
-    found = damage(bins, curve, required)
-    return 1.0 / found if found > 0.0 else math.inf
+    miner_sum = damage(bins, curve, required)
+    return 1.0 / miner_sum if miner_sum > 0.0 else math.inf

@@ -129,7 +129,7 @@ def rounded(tolerance: float) -> float:
 def outside(teeth: int, module: float, diameter: float, face_width: float, edition: int = 2013) -> list[str]:
     """Say which sizes are outside the range of an edition; that of 1995 limits no number of teeth."""
     of_1995 = edition == 1995
-    found = []
+    exceeded = []
     for name, value, (least, greatest), factor, unit in (
         ("number of teeth", teeth, (1, math.inf) if of_1995 else TEETH, 1.0, ""),
         ("module", module, MODULE, 1e3, " mm"),
@@ -138,5 +138,5 @@ def outside(teeth: int, module: float, diameter: float, face_width: float, editi
     ):
         if not least * (1 - 1e-12) <= value <= greatest * (1 + 1e-12):
             limits = f"{factor * least:g} to {factor * greatest:g}{unit}"
-            found.append(f"{name} {factor * value:g}{unit}, it is for {limits}")
-    return found
+            exceeded.append(f"{name} {factor * value:g}{unit}, it is for {limits}")
+    return exceeded

@@ -47,8 +47,8 @@ def running_in(treatment: Treatment | None, contact_limit: float, speed: float) 
 
 def helix_running_in(treatment: Treatment | None, contact_limit: float, speed: float) -> FlankRunIn:
     """y_β of F_βx of one gear: ISO 6336-1:2019, (46) to (51): twice y_α and its limits, from memory."""
-    found = running_in(treatment, contact_limit, speed)
-    return FlankRunIn(min(2.0 * found.share, 1.0), 2.0 * found.most)
+    profile = running_in(treatment, contact_limit, speed)
+    return FlankRunIn(min(2.0 * profile.share, 1.0), 2.0 * profile.most)
 
 
 def run_in(deviation: float, gears: tuple[FlankRunIn, FlankRunIn]) -> float:
@@ -136,15 +136,15 @@ def dynamic_factor(mesh: DynamicMesh) -> DynamicFactor:
     main = c1 * pitch + c2 * profile + c4 * relief + 1.0
     beyond = c5 * pitch + c6 * profile + c7
     if ratio <= lower:
-        found, name = ratio * (c1 * pitch + c2 * profile + c3 * relief) + 1.0, "subcritical"
+        factor, name = ratio * (c1 * pitch + c2 * profile + c3 * relief) + 1.0, "subcritical"
     elif ratio <= _MAIN:
-        found, name = main, "main resonance"
+        factor, name = main, "main resonance"
     elif ratio < _SUPERCRITICAL:
         share = (_SUPERCRITICAL - ratio) / (_SUPERCRITICAL - _MAIN)
-        found, name = beyond + (main - beyond) * share, "intermediate"
+        factor, name = beyond + (main - beyond) * share, "intermediate"
     else:
-        found, name = beyond, "supercritical"
-    return DynamicFactor(max(found, 1.0), ratio, speed, name)
+        factor, name = beyond, "supercritical"
+    return DynamicFactor(max(factor, 1.0), ratio, speed, name)
 
 
 def disc_mass(

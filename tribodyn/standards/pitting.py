@@ -137,20 +137,22 @@ def single_pair_factors(path: ContactPath, unmodified: float = 1.0) -> tuple[flo
     ]
     pitches = [whole / z for z in path.teeth]
     beyond = path.contact_ratio - 1.0
-    found = []
-    for own, other in ((0, 1), (1, 0)):
-        inner = (roots[own] - pitches[own]) * (roots[other] - beyond * pitches[other])
-        found.append(tangent / math.sqrt(inner) if inner > 0.0 else 1.0)
+    ratios = []
+    for raised, other in ((0, 1), (1, 0)):
+        inner = (roots[raised] - pitches[raised]) * (roots[other] - beyond * pitches[other])
+        ratios.append(tangent / math.sqrt(inner) if inner > 0.0 else 1.0)
     part = min(path.overlap_ratio, 1.0)
     wide = math.sqrt(unmodified)
-    own = [max(m - part * (m - wide), 1.0) if z > 0 else 1.0 for m, z in zip(found, path.teeth, strict=True)]
-    return own[0], own[1]
+    raised = [
+        max(m - part * (m - wide), 1.0) if z > 0 else 1.0 for m, z in zip(ratios, path.teeth, strict=True)
+    ]
+    return raised[0], raised[1]
 
 
-def contact_stress(found: Geometry, load_factor: float) -> tuple[float, float]:
+def contact_stress(geometry: Geometry, load_factor: float) -> tuple[float, float]:
     """σ_H of pinion and gear, Pa: Z_B, Z_D σ_H0 √K with K = K_A K_γ K_v K_Hβ K_Hα: (2), (3)."""
-    raised = found.nominal * math.sqrt(load_factor)
-    return found.single_pair[0] * raised, found.single_pair[1] * raised
+    raised = geometry.nominal * math.sqrt(load_factor)
+    return geometry.single_pair[0] * raised, geometry.single_pair[1] * raised
 
 
 def influences(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> Influences:
@@ -217,10 +219,10 @@ def work_hardening(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> tuple[floa
 
 def _hardened_roughness(mesh: PittingMesh, harder: int) -> float:
     """Equivalent roughness Rz_H of the harder flank against the softer, µm, held within 3 and 16: (43)."""
-    own, other = mesh.roughness[harder], mesh.roughness[1 - harder]
+    hard, other = mesh.roughness[harder], mesh.roughness[1 - harder]
     speed = mesh.pinion_speed * abs(mesh.reference_radius[0])
-    found = 1e6 * own * (0.01 / _reduced_radius(mesh)) ** 0.33 * (own / other) ** 0.66
-    return min(max(found / (1e6 * mesh.viscosity_40 * speed / 1500.0) ** 0.33, 3.0), 16.0)
+    rough = 1e6 * hard * (0.01 / _reduced_radius(mesh)) ** 0.33 * (hard / other) ** 0.66
+    return min(max(rough / (1e6 * mesh.viscosity_40 * speed / 1500.0) ** 0.33, 3.0), 16.0)
 
 
 def permissible(metal: Metal, influence: float) -> StressCurve:

@@ -28,7 +28,7 @@ def rainflow(course: Sequence[float] | Float[Array, " sample"]) -> list[LoadCycl
     Of four reversals in a row the inner two are a cycle where their range is not larger than both beside it;
     they are taken out. What is left grows and shrinks, and counts as half cycles: ASTM E1049-85, 5.4.4.
     """
-    found, rest = list[LoadCycle](), list[float]()
+    cycles, rest = list[LoadCycle](), list[float]()
     for point in reversals(course):
         rest.append(point)
         while len(rest) >= 4:
@@ -36,9 +36,9 @@ def rainflow(course: Sequence[float] | Float[Array, " sample"]) -> list[LoadCycl
             inner = abs(second - first)
             if inner > abs(first - before) or inner > abs(after - second):
                 break
-            found.append(LoadCycle(min(first, second), max(first, second), 1.0))
+            cycles.append(LoadCycle(min(first, second), max(first, second), 1.0))
             del rest[-3:-1]
-    return found + [LoadCycle(min(a, b), max(a, b), 0.5) for a, b in pairwise(rest)]
+    return cycles + [LoadCycle(min(a, b), max(a, b), 0.5) for a, b in pairwise(rest)]
 
 
 def rainflow_repeated(course: Sequence[float] | Float[Array, " sample"]) -> list[LoadCycle]:

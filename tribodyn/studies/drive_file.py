@@ -50,8 +50,8 @@ class DriveModel(NamedTuple):
 
     def sheet(self, assembly: Assembly) -> dict[str, Any]:
         """The geometry sheet: name to (value, unit), of pinion and gear in tables of their own."""
-        given = [(body.mass, body.inertia) for body in self.masses]
-        masses = body_masses(assembly, given, [material.density for material in self.materials])
+        specified = [(body.mass, body.inertia) for body in self.masses]
+        masses = body_masses(assembly, specified, [material.density for material in self.materials])
         return sheet_of(self.table, assembly, masses) | self.rounded
 
     @property
@@ -141,8 +141,8 @@ def _of_table(written: dict[str, Any], path: Path, overrides: Mapping[str, Any])
     except ValidationError as error:
         if "family" not in written:
             raise _no_pair(path, "not a pair of gears: it names no family of paths of contact") from None
-        known = unresolved_keys(unresolved)
-        mistakes = [mistake for mistake in explain(error, _DriveAlone) if mistake.key not in known]
+        unresolved_names = unresolved_keys(unresolved)
+        mistakes = [mistake for mistake in explain(error, _DriveAlone) if mistake.key not in unresolved_names]
         raise InputErrors([origins.locate(mistake) for mistake in (*unresolved, *mistakes)]) from None
     errors = [*unresolved, *broken_drive_rules(table)]
     if errors:

@@ -70,8 +70,8 @@ def read_measured(source: Source) -> Measured:
     falls = np.flatnonzero(np.diff(values[abscissa]) <= 0.0)
     if falls.size:
         row = int(falls[0]) + 2
-        given = f"row {row}: {values[abscissa][row - 1]:g}"
-        raise bad(abscissa, given, "does not increase from row to row", "sort the rows by the first column")
+        cell = f"row {row}: {values[abscissa][row - 1]:g}"
+        raise bad(abscissa, cell, "does not increase from row to row", "sort the rows by the first column")
     return Measured(
         label, abscissa, values, {name: column["unit"].strip() for name, column in columns.items()}
     )
@@ -114,8 +114,8 @@ def beside(record: Record, measured: Measured, name: str, align: str = "given") 
         first = next(column for column in measured.values if column != measured.abscissa)
         y, target = _simulated(record, measured, first), measured.values[first]
         tried = np.linspace(-cycle / 2.0, cycle / 2.0, SHIFTS)
-        found = [_correlation(_at(at + whole - s, x, y, periodic), target) for s in tried]
-        shift = float(tried[int(np.argmax(found))]) if np.any(np.isfinite(found)) else 0.0
+        correlations = [_correlation(_at(at + whole - s, x, y, periodic), target) for s in tried]
+        shift = float(tried[int(np.argmax(correlations))]) if np.any(np.isfinite(correlations)) else 0.0
     y, target = _simulated(record, measured, name), measured.values[name]
     there = _at(at + whole - shift, x, y, periodic)
     both = np.isfinite(there)
@@ -150,19 +150,19 @@ def _correlation(one: np.ndarray, other: np.ndarray) -> float:
 def _abscissa(record: Record, measured: Measured) -> tuple[np.ndarray, float, bool]:
     """The measured abscissa of a record, SI; the length of a mesh cycle on it; whether it repeats with 1."""
     name = measured.abscissa
-    own = "phase" if name == PHASE else name
+    axis = "phase" if name == PHASE else name
     teeth = record.mesh_cycle.get("pinion_teeth") if "mesh_cycle" in record.groups else None
-    if own == record.axis or (own == TIME and TIME in record) or (own == ANGLE and own in record):
-        x = np.asarray(record[own], dtype=float)
+    if axis == record.axis or (axis == TIME and TIME in record) or (axis == ANGLE and axis in record):
+        x = np.asarray(record[axis], dtype=float)
     elif name == PHASE and teeth and ANGLE in record:
         x = (record[ANGLE] - record[ANGLE][0]) * (teeth / (2.0 * np.pi))
     else:
-        known = [record.axis, *(other for other in (ANGLE,) if other in record)]
-        known += [PHASE] if (teeth and ANGLE in record) or record.axis == "phase" else []
-        raise unknown_name("measured", name, known, "abscissa of this record: the first column")
+        names = [record.axis, *(other for other in (ANGLE,) if other in record)]
+        names += [PHASE] if (teeth and ANGLE in record) or record.axis == "phase" else []
+        raise unknown_name("measured", name, names, "abscissa of this record: the first column")
     if len(x) < 2:
         raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
-    if own == record.axis == "phase":
+    if axis == record.axis == "phase":
         return x, 1.0, True
     if name == PHASE or not teeth:
         return x, 1.0 if name == PHASE else 0.1 * float(np.ptp(x)), False
@@ -173,10 +173,10 @@ def _abscissa(record: Record, measured: Measured) -> tuple[np.ndarray, float, bo
 
 def _simulated(record: Record, measured: Measured, name: str) -> np.ndarray:
     """A dataset of the record in the measured unit; InputError where it has none of that name."""
-    curves = [own for own in record if record.dims_of(own) == (record.axis,) and own != record.axis]
+    curves = [key for key in record if record.dims_of(key) == (record.axis,) and key != record.axis]
     if name not in curves:
         if near := near_name(name, curves):
-            curves = [near, *(own for own in curves if own != near)]
+            curves = [near, *(key for key in curves if key != near)]
         raise unknown_name("measured", name, curves, "quantity of this record over its axis")
     return np.asarray(record[name], dtype=float) / _factor(measured, name, record.units(name))
 
@@ -210,7 +210,8 @@ def measured_figure(records: Sequence[Record], source: Source, align: str = "giv
             if name != measured.abscissa:
                 curves = [(record, beside(record, measured, name, align)) for record in records]
                 lines = [
-                    (record.label, found.x, found.y, _said(found, measured, name)) for record, found in curves
+                    (record.label, result.x, result.y, _said(result, measured, name))
+                    for record, result in curves
                 ]
                 panels.append(MeasuredPanel(name, measured.units[name], values, lines))
     except InputError as error:
@@ -222,14 +223,14 @@ def measured_figure(records: Sequence[Record], source: Source, align: str = "giv
         return draw(measured.label, measured.abscissa, measured.units[measured.abscissa], at, panels)
 
 
-def _said(found: Beside, measured: Measured, name: str) -> str:
+def _said(fit: Beside, measured: Measured, name: str) -> str:
     """How far apart the two are, and how the simulation was moved."""
     from tribodyn.studies.measured import spelled
 
     unit = spelled(measured.units[name], name)
     along = spelled(measured.units[measured.abscissa], measured.abscissa)
-    text = f"difference {found.difference:.3g} {unit}".rstrip() + f" RMS, correlation {found.correlation:.3f}"
-    shift, offset = found.moved
+    text = f"difference {fit.difference:.3g} {unit}".rstrip() + f" RMS, correlation {fit.correlation:.3f}"
+    shift, offset = fit.moved
     moves = [f"{shift:+.3g} {along}"] * (shift != 0.0) + [f"{offset:+.3g} {unit}".rstrip()] * (offset != 0.0)
     return text + (f"; simulation moved by {' and '.join(moves)}" if moves else "")
 
@@ -264,12 +265,12 @@ def draw(label: str, abscissa: str, unit: str, x: np.ndarray, panels: Sequence[M
     )
     for letter, axes, panel in zip("abcdef", rows, panels, strict=False):
         axes.plot(x, panel.measured, color=INK, label=literal(f"measured: {label}"), zorder=3, **marks)
-        said = []
+        notes = []
         for number, (name, at, values, text) in enumerate(panel.curves):
             axes.plot(at, values, color=PALETTE[number % len(PALETTE)], label=literal(name), linewidth=1.2)
-            said.append(f"{name}: {text}" if len(panel.curves) > 1 else text)
+            notes.append(f"{name}: {text}" if len(panel.curves) > 1 else text)
         axes.set_ylabel(literal(spelled(panel.unit, panel.name)))
-        lines = map(literal, [panel.name.replace("_", " ").capitalize(), *said])
+        lines = map(literal, [panel.name.replace("_", " ").capitalize(), *notes])
         mark_panel(axes, letter if len(panels) > 1 else "", "\n".join(lines))
         axes.margins(x=0.01)
     along = spelled(unit, abscissa)

@@ -42,14 +42,14 @@ def names(records: Sequence[Record]) -> tuple[str, ...]:
 
 def drawable(records: Sequence[Record]) -> "Mapping[str, Drawing]":
     """Figures that these records hold enough for, by name."""
-    known = drawings(records)
-    return {name: drawn for name, drawn in known.items() if all(map(drawn.fits, records))}
+    by_name = drawings(records)
+    return {name: drawing for name, drawing in by_name.items() if all(map(drawing.fits, records))}
 
 
 def drawings(records: Sequence[Record]) -> "Mapping[str, Drawing]":
     """Figures that the studies of all records have; InputError where they share no quantities."""
     first, *others = [study.drawings() for study in _studies_of(records, "draw them apart")]
-    return {name: drawn for name, drawn in first.items() if all(name in other for other in others)}
+    return {name: drawing for name, drawing in first.items() if all(name in other for other in others)}
 
 
 def _studies_of(records: Sequence[Record], remedy: str) -> list[Study]:
@@ -87,15 +87,15 @@ def figure(
         raise InputError("against", against, "no such abscissa", "phase or time")
     if isinstance(cycles, int) and cycles < 1:
         raise InputError("cycles", cycles, "at least one mesh cycle is drawn", "1 or more")
-    known = drawings(records)
-    if name not in known:
+    by_name = drawings(records)
+    if name not in by_name:
         raise _unknown(name, "no such figure", drawable(records))
     whole = cycles == "auto" and any(transient(record) for record in records)
     shown = None if whole else max(map(shown_cycles, records))
     number = shown if cycles == "auto" else cycles
     with house_style():
         over = against or ("time" if whole else "phase")
-        return with_whole_markers(known[name].draw(records, View(number, over, against is not None)))
+        return with_whole_markers(by_name[name].draw(records, View(number, over, against is not None)))
 
 
 def overview(record: Record) -> "Figure":
@@ -152,18 +152,18 @@ def sweep_figure(
     from tribodyn.post.figures.drawing import with_whole_markers
     from tribodyn.post.style import house_style
 
-    known = drawable_of_sweep(records)
-    name = next(iter(known)) if name == OVERVIEW else name
-    if name not in known:
-        raise _unknown(name, "no such figure of a sweep", known)
+    by_name = drawable_of_sweep(records)
+    name = next(iter(by_name)) if name == OVERVIEW else name
+    if name not in by_name:
+        raise _unknown(name, "no such figure of a sweep", by_name)
     with house_style():
-        return with_whole_markers(known[name].draw(records, at or {}))
+        return with_whole_markers(by_name[name].draw(records, at or {}))
 
 
-def _unknown(name: str, rule: str, known: Mapping[str, object]) -> InputError:
-    near = near_name(name, known)
+def _unknown(name: str, rule: str, names: Mapping[str, object]) -> InputError:
+    near = near_name(name, names)
     hint = f"did you mean {near}? " if near else ""
-    return InputError("plot", name, rule, f"{hint}There are: {', '.join(known)}")
+    return InputError("plot", name, rule, f"{hint}There are: {', '.join(names)}")
 
 
 def sweep_table(record: SweepRecord) -> "Group":
@@ -188,12 +188,12 @@ def report(
     if not records:
         raise InputError("records", None, "there is nothing to report on", "name at least one record")
     studies = _studies_of(records, "make a page of its own")
-    own = studies[0].own_page()
-    if own and figures and len(records) == 1:
+    own_page = studies[0].own_page()
+    if own_page and figures and len(records) == 1:
         if measured is not None:
             rule = f"{studies[0].about}: its page has no curves over a run"
             raise InputError("measured", None, rule, "omit it")
-        return own(records[0])
+        return own_page(records[0])
     contents = [
         PageContent(
             study.reported(),
@@ -213,8 +213,8 @@ def report(
     if measured is not None:
         from tribodyn.studies.measured import measured_figure
 
-        drawn = "measured", "the simulation beside it", measured_figure(records, measured, align)
-        contents[0] = contents[0]._replace(pictures=[drawn, *contents[0].pictures])
+        overlay = "measured", "the simulation beside it", measured_figure(records, measured, align)
+        contents[0] = contents[0]._replace(pictures=[overlay, *contents[0].pictures])
     return page(records, contents, figures)
 
 
@@ -224,8 +224,8 @@ def _pictures_of_sensors(record: Record) -> "list[tuple[str, str, Figure]]":
         return []
     from tribodyn.post.figures.sensors import DRAWINGS
 
-    known = drawable([record])
-    return [(name, known[name].about, figure(name, [record])) for name in DRAWINGS if name in known]
+    by_name = drawable([record])
+    return [(name, by_name[name].about, figure(name, [record])) for name in DRAWINGS if name in by_name]
 
 
 def sheet(record: Record | SweepRecord) -> "Sequence[TextTable]":

@@ -25,15 +25,15 @@ def tree(layout: TrainLayout, turning_links: tuple[bool, ...]) -> list[TreeBranc
     joints = [(a, b, m, -1) for m, (a, b) in enumerate(zip(layout.driver, layout.driven, strict=True))]
     ends = zip(layout.first, layout.second, turning_links, strict=True)
     joints += [(a, b, -1, k) for k, (a, b, turns) in enumerate(ends) if b >= 0 and turns]
-    found: list[TreeBranch] = []
+    branches: list[TreeBranch] = []
     reached = [0, *(a for k, a in enumerate(layout.first) if layout.holds[k])]
     for nearer in reached:
         for a, b, mesh, link in joints:
             body = b if a == nearer else a
             if nearer in (a, b) and body not in reached:
                 reached.append(body)
-                found.append(TreeBranch(body, nearer, mesh, link))
-    return found
+                branches.append(TreeBranch(body, nearer, mesh, link))
+    return branches
 
 
 class Flow(NamedTuple):
@@ -135,6 +135,6 @@ def _shared(model: Any, wanted: Float[Array, " body"]) -> tuple[Float[Array, " m
     loads[[turn_of(body, layout) for body in range(layout.bodies)]] = wanted
     if not model.options.drive:  # what holds the reference's speed bears the rest
         balance, loads = np.delete(balance, layout.lag, axis=0), np.delete(loads, layout.lag)
-    found, *_ = np.linalg.lstsq(balance, loads)
+    forces, *_ = np.linalg.lstsq(balance, loads)
     radii = np.array([float(mesh.driven_radius) for mesh in model.meshes])
-    return found[: len(radii)] * radii, {k: float(found[row] * scale) for row, k in link_of}
+    return forces[: len(radii)] * radii, {k: float(forces[row] * scale) for row, k in link_of}

@@ -74,37 +74,37 @@ def kinematics(
     """
     _refuse_idle_gears(gears, meshes)
     joints = [_by_bodies(gears, mesh) for mesh in meshes]
-    found = _spread(len(bodies), gears, meshes, joints, couplings, source, sense, sets)
-    drives = [turn_set(bodies, one, found) for one in sets]
-    _refuse_unreached(bodies, gears, found)
+    turning_of = _spread(len(bodies), gears, meshes, joints, couplings, source, sense, sets)
+    drives = [turn_set(bodies, one, turning_of) for one in sets]
+    _refuse_unreached(bodies, gears, turning_of)
     for place, mesh in enumerate(meshes):
         if mesh.of_set < 0:
-            _check_mesh(bodies, gears, mesh, joints[place], found)
+            _check_mesh(bodies, gears, mesh, joints[place], turning_of)
     for coupling in couplings:
-        _check_coupling(bodies, coupling, found)
+        _check_coupling(bodies, coupling, turning_of)
 
     driving = [
-        _driving(gears, mesh, found)
+        _driving(gears, mesh, turning_of)
         if mesh.of_set < 0
         else driving_in_set(gears, mesh, sets[mesh.of_set], drives[mesh.of_set])
         for mesh in meshes
     ]
-    away = [min(found[end].away for end in joint) for joint in joints]
-    turning = [place for place, (driver, _) in enumerate(driving) if found[gears[driver].body].speed]
+    away = [min(turning_of[end].away for end in joint) for joint in joints]
+    turning = [place for place, (driver, _) in enumerate(driving) if turning_of[gears[driver].body].speed]
     reference = min(turning, key=lambda m: (away[m], m))
     order = (reference, *(place for place in range(len(meshes)) if place != reference))
     carrier = [sets[mesh.of_set].members[CARRIER] if mesh.of_set >= 0 else -1 for mesh in meshes]
     driving, carrier = [driving[place] for place in order], [carrier[place] for place in order]
     first = gears[driving[0][0]].body
-    if carrier[0] >= 0 and first in sets[meshes[reference].of_set].planets and found[carrier[0]].speed:
+    if carrier[0] >= 0 and first in sets[meshes[reference].of_set].planets and turning_of[carrier[0]].speed:
         first = carrier[0]
     numbers = (first, *(body for body in range(len(bodies)) if body != first))
     new = {body: index for index, body in enumerate(numbers)} | {-1: -1}
-    scale = found[first].speed
-    ratio = tuple(found[body].speed / scale for body in numbers)
+    scale = turning_of[first].speed
+    ratio = tuple(turning_of[body].speed / scale for body in numbers)
     cycles = [
         abs(gears[driver].teeth)
-        * abs(found[gears[driver].body].signed - (found[by].signed if by >= 0 else 0))
+        * abs(turning_of[gears[driver].body].signed - (turning_of[by].signed if by >= 0 else 0))
         for (driver, _), by in zip(driving, carrier, strict=True)
     ]
     rate = tuple(each / cycles[0] for each in cycles)
@@ -113,7 +113,7 @@ def kinematics(
         meshes=order,
         input=new[source],
         ratio=ratio,
-        sense=tuple(found[body].sense for body in numbers),
+        sense=tuple(turning_of[body].sense for body in numbers),
         driver=tuple(new[gears[driver].body] for driver, _ in driving),
         driven=tuple(new[gears[driven].body] for _, driven in driving),
         gears=tuple(driving),
@@ -123,10 +123,10 @@ def kinematics(
     )
 
 
-def _driving(gears: Sequence[Toothed], mesh: Joint, found: dict[int, Turning]) -> tuple[int, int]:
+def _driving(gears: Sequence[Toothed], mesh: Joint, turning: dict[int, Turning]) -> tuple[int, int]:
     """Driving and driven gear of a mesh in the housing."""
     one, two = mesh.ends
-    return (one, two) if found[gears[one].body].away < found[gears[two].body].away else (two, one)
+    return (one, two) if turning[gears[one].body].away < turning[gears[two].body].away else (two, one)
 
 
 def _by_bodies(gears: Sequence[Toothed], mesh: Joint) -> tuple[int, int]:
@@ -171,12 +171,12 @@ def _spread(
             ratio = Fraction(-gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth)
             meshing[one].append((two, ratio))
             meshing[two].append((one, 1 / ratio))
-    for own in sets:
-        one, two = own.turning()
-        ratio = speeds(own.teeth, own.held, one)[two]
-        meshing[own.members[one]].append((own.members[two], ratio))
-        meshing[own.members[two]].append((own.members[one], 1 / ratio))
-    found = {source: Turning(Fraction(1), sense, 0)}
+    for gearset in sets:
+        one, two = gearset.turning()
+        ratio = speeds(gearset.teeth, gearset.held, one)[two]
+        meshing[gearset.members[one]].append((gearset.members[two], ratio))
+        meshing[gearset.members[two]].append((gearset.members[one], 1 / ratio))
+    turning = {source: Turning(Fraction(1), sense, 0)}
     waiting = deque([source])
     done: set[int] = set()
     while waiting:
@@ -184,21 +184,21 @@ def _spread(
         if body in done:
             continue
         done.add(body)
-        speed, way, away = found[body]
+        speed, way, away = turning[body]
         for other in coupled[body]:
-            if other not in found or found[other].away > away:
-                found[other] = Turning(speed, way, away)
+            if other not in turning or turning[other].away > away:
+                turning[other] = Turning(speed, way, away)
                 waiting.appendleft(other)
         for other, ratio in meshing[body]:
-            if other not in found:
-                found[other] = Turning(speed * abs(ratio), way if ratio > 0 else -way, away + 1)
+            if other not in turning:
+                turning[other] = Turning(speed * abs(ratio), way if ratio > 0 else -way, away + 1)
                 waiting.append(other)
-    return found
+    return turning
 
 
-def _refuse_unreached(bodies: Sequence[Named], gears: Sequence[Toothed], found: dict[int, Turning]) -> None:
+def _refuse_unreached(bodies: Sequence[Named], gears: Sequence[Toothed], turning: dict[int, Turning]) -> None:
     for place, body in enumerate(bodies):
-        if place in found:
+        if place in turning:
             continue
         gear = next((gear for gear in gears if gear.body == place), None)
         key = body.key if gear is None else gear.key
@@ -211,9 +211,9 @@ def _check_mesh(
     gears: Sequence[Toothed],
     mesh: Joint,
     joint: tuple[int, int],
-    found: dict[int, Turning],
+    turning: dict[int, Turning],
 ) -> None:
-    one, two = (found[body] for body in joint)
+    one, two = (turning[body] for body in joint)
     names = [bodies[body].name for body in joint]
     external = gears[mesh.ends[0]].teeth * gears[mesh.ends[1]].teeth > 0
     if (one.sense == two.sense) is external:
@@ -229,8 +229,8 @@ def _check_mesh(
         raise InputError(mesh.key, None, rule, "change numbers of teeth, or open the loop")
 
 
-def _check_coupling(bodies: Sequence[Named], coupling: Joint, found: dict[int, Turning]) -> None:
-    one, two = (found[body] for body in coupling.ends)
+def _check_coupling(bodies: Sequence[Named], coupling: Joint, turning_of: dict[int, Turning]) -> None:
+    one, two = (turning_of[body] for body in coupling.ends)
     names = [bodies[body].name for body in coupling.ends]
     if one.sense != two.sense or one.speed != two.speed:
         speeds = [f"{turning.sense * turning.speed}" for turning in (one, two)]

@@ -124,7 +124,7 @@ def _driven_cycles(gears: Sequence[ToothedShaft], mesh: Engagement, direction: f
 def entering_teeth(
     gears: Sequence[ToothedShaft],
     meshes: Sequence[Engagement],
-    found: Phases,
+    phases: Phases,
     further: Sequence[float] | None = None,
 ) -> list[tuple[int, int]]:
     """Numbers of the driver's and the driven gear's teeth that entered every mesh last, at turn 0.
@@ -136,15 +136,15 @@ def entering_teeth(
     numbers = []
     for place, mesh in enumerate(meshes):
         driver, driven = (gears[end] for end in mesh.gears)
-        one, two = (found.teeth[end] for end in mesh.gears)
-        ahead = found.meshes[place] + (further[place] if further is not None else 0.0)
+        one, two = (phases.teeth[end] for end in mesh.gears)
+        ahead = phases.meshes[place] + (further[place] if further is not None else 0.0)
         turned = round(ahead - ahead % 1.0)
         cycles = (
             _driver_cycles(driver, mesh, one + (0.0 if driver.teeth > 0 else pi)),
             _driven_cycles(gears, mesh, two + (0.0 if driven.teeth > 0 else pi)),
         )
-        own = (round(number - found.meshes[place]) + turned for number in cycles)
-        first, second = own
+        entering = (round(number - phases.meshes[place]) + turned for number in cycles)
+        first, second = entering
         numbers.append((first % abs(driver.teeth), second % abs(driven.teeth)))
     return numbers
 

@@ -40,9 +40,9 @@ def speeds(teeth: SetTeeth, held: str, driving: str) -> dict[str, Fraction]:
     """Speeds of sun, ring, carrier and planets over that of the driving member; one member is held."""
     factors = willis(teeth)
     (driven,) = (member for member in MEMBERS if member not in (held, driving))
-    found = {held: Fraction(0), driving: Fraction(1), driven: Fraction(-factors[driving], factors[driven])}
-    rolling = -Fraction(teeth.sun, teeth.planet) * (found[SUN] - found[CARRIER])
-    return {**{member: found[member] for member in MEMBERS}, "planet": found[CARRIER] + rolling}
+    relative = {held: Fraction(0), driving: Fraction(1), driven: Fraction(-factors[driving], factors[driven])}
+    rolling = -Fraction(teeth.sun, teeth.planet) * (relative[SUN] - relative[CARRIER])
+    return {**{member: relative[member] for member in MEMBERS}, "planet": relative[CARRIER] + rolling}
 
 
 def mesh_frequency(teeth: SetTeeth, turning: dict[str, float]) -> float:
@@ -102,8 +102,8 @@ def nearest_teeth(teeth: SetTeeth, angles: Sequence[float], most: int = 12) -> l
     for change in range(most + 1):
         steps = {(0, change), (0, -change), (change, 0), (-change, 0)}
         tried = sorted((teeth.sun + sun, teeth.ring + ring) for sun, ring in steps)
-        if found := [(sun, ring) for sun, ring in tried if sun > 0 > ring and fits(sun, ring)]:
-            return found
+        if fitting := [(sun, ring) for sun, ring in tried if sun > 0 > ring and fits(sun, ring)]:
+            return fitting
     return []
 
 

@@ -53,8 +53,8 @@ def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int
     """
     axes = joined(count, couplings)  # the axis of every body
     centre = {axes[0]: (0.0, 0.0)}
-    given = [mesh.azimuth is not None for mesh in meshes]
-    while _place_one(meshes, given, axes, centre):
+    with_azimuth = [mesh.azimuth is not None for mesh in meshes]
+    while _place_one(meshes, with_azimuth, axes, centre):
         pass
     azimuths = tuple(_azimuth(mesh, *(centre[axes[end]] for end in mesh.ends)) for mesh in meshes)
     return Centres(np.array([centre[axes[body]] for body in range(count)]), azimuths)
@@ -70,11 +70,11 @@ def joined(count: int, pairs: Sequence[tuple[int, int]]) -> list[int]:
 
 
 def _place_one(
-    meshes: Sequence[Distance], given: Sequence[bool], axes: Sequence[int], centre: dict[int, tuple]
+    meshes: Sequence[Distance], with_azimuth: Sequence[bool], axes: Sequence[int], centre: dict[int, tuple]
 ) -> bool:
     """Place one more axis, by a mesh with an azimuth where there is one; False: there is none to place."""
     for wanted in (True, False):
-        for mesh, has in zip(meshes, given, strict=True):
+        for mesh, has in zip(meshes, with_azimuth, strict=True):
             one, two = (axes[end] for end in mesh.ends)
             if has is not wanted or (one in centre) == (two in centre):
                 continue
@@ -132,11 +132,11 @@ def moves_of(
     (along_x, along_y), (across_x, across_y) = frame
     tilts = np.array([[0.0, 0.0, 0.0, -along_y, along_x], [0.0, 0.0, 0.0, -across_y, across_x]])
     for end, sign in enumerate((1.0, -1.0)):
-        own = moves[end]
-        own[TOWARDS] = sign * (np.array([along_x, along_y, 0.0, 0.0, 0.0]) + places[end] * tilts[0])
-        own[ACROSS] = sign * (np.array([across_x, across_y, 0.0, 0.0, 0.0]) + places[end] * tilts[1])
-        own[ALONG_Z] = np.array([0.0, 0.0, sign, 0.0, 0.0]) - radii[end] * tilts[1]
-        own[LEAN_ALONG], own[LEAN_ACROSS] = sign * tilts
+        move = moves[end]
+        move[TOWARDS] = sign * (np.array([along_x, along_y, 0.0, 0.0, 0.0]) + places[end] * tilts[0])
+        move[ACROSS] = sign * (np.array([across_x, across_y, 0.0, 0.0, 0.0]) + places[end] * tilts[1])
+        move[ALONG_Z] = np.array([0.0, 0.0, sign, 0.0, 0.0]) - radii[end] * tilts[1]
+        move[LEAN_ALONG], move[LEAN_ACROSS] = sign * tilts
     return moves
 
 

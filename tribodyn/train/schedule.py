@@ -165,8 +165,8 @@ def interval_of(
     first, start = np.asarray(schedule.first), np.asarray(schedule.start)
     cycle_of_start = np.searchsorted(first[1:], np.arange(len(start)), side="right")
     at = np.mod(whole, schedule.period) + phase
-    found = np.searchsorted(cycle_of_start + start, at, side="right") - 1
-    return whole, phase, np.clip(found, 0, len(start) - 1)
+    interval = np.searchsorted(cycle_of_start + start, at, side="right") - 1
+    return whole, phase, np.clip(interval, 0, len(start) - 1)
 
 
 def intervals(schedule: Schedule, cycle: int) -> range:

@@ -33,12 +33,12 @@ def nominal_torques(
     bodies, meshes = len(motion.bodies), len(teeth)
     held = [body for body in range(bodies) if motion.ratio[body] == 0]
     balance = np.zeros((bodies, meshes + len(couplings) + 1 + len(held)))
-    for mesh, (own, other) in enumerate(teeth):
+    for mesh, (driver_arm, other) in enumerate(teeth):
         driver, driven, carrier = motion.driver[mesh], motion.driven[mesh], motion.carrier[mesh]
-        balance[driver, mesh] -= own
+        balance[driver, mesh] -= driver_arm
         balance[driven, mesh] += other
         if carrier >= 0:  # the pin bears what the planet's forces have about the axis of the set
-            on_both = other * motion.sense[driven] - own * motion.sense[driver]
+            on_both = other * motion.sense[driven] - driver_arm * motion.sense[driver]
             balance[carrier, mesh] -= motion.sense[carrier] * on_both
     scale = float(np.mean(teeth))  # a coupling's torque counts like that of a gear of the mean size
     for place, (one, two) in enumerate(couplings, start=meshes):
@@ -47,9 +47,9 @@ def nominal_torques(
     balance[motion.input, meshes + len(couplings)] = scale
     for place, body in enumerate(held, start=meshes + len(couplings) + 1):
         balance[body, place] = scale
-    found, *_ = np.linalg.lstsq(balance, np.asarray(loads, dtype=float), rcond=None)
+    forces, *_ = np.linalg.lstsq(balance, np.asarray(loads, dtype=float), rcond=None)
     return Torques(
-        tuple(float(force * other) for force, (_, other) in zip(found[:meshes], teeth, strict=True)),
-        float(found[meshes + len(couplings)] * scale),
-        tuple(float(torque * scale) for torque in found[meshes : meshes + len(couplings)]),
+        tuple(float(force * other) for force, (_, other) in zip(forces[:meshes], teeth, strict=True)),
+        float(forces[meshes + len(couplings)] * scale),
+        tuple(float(torque * scale) for torque in forces[meshes : meshes + len(couplings)]),
     )

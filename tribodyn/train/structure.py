@@ -150,13 +150,13 @@ def layout_of(
     spatial: int = 0,
     *,
     pins: Sequence[int] = (),
-    holds: Sequence[int] = (),
+    holding: Sequence[int] = (),
     frames: int = 0,
     carriers: Sequence[int] = (),
 ) -> TrainLayout:
     """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output.
 
-    `pins` and `holds` are numbers of links, see `TrainLayout`; only bodies that stand still are held.
+    `pins` and `holding` are numbers of links, see `TrainLayout`; only bodies that stand still are held.
     `carriers` are those of the meshes; none: all in the housing.
     """
     half = 2 * planar + bodies + 3 * spatial
@@ -182,7 +182,7 @@ def layout_of(
         first=first,
         second=second,
         pins=places([int(link in pins) for link in range(len(links))]),
-        holds=places([int(link in holds) for link in range(len(links))]),
+        holds=places([int(link in holding) for link in range(len(links))]),
         frames=number(frames),
         input=number(drives),
         output=number(loaded),

@@ -74,29 +74,33 @@ def driving_in_set(
     return (central, planet) if is_driver else (planet, central)
 
 
-def turn_set(bodies: Sequence[Named], own: SetMembers, found: dict[int, Turning]) -> str:
+def turn_set(bodies: Sequence[Named], gearset: SetMembers, turning_of: dict[int, Turning]) -> str:
     """Add a set's held member and planets to what turns; returns which of sun and ring drives the planets."""
-    held = own.members[own.held]
-    if held in found and found[held].speed:
+    held = gearset.members[gearset.held]
+    if held in turning_of and turning_of[held].speed:
         rule = f"{bodies[held].name} is held, and other stages or shafts turn it"
-        raise InputError(f"{own.key}.held", own.held, rule, "hold another member, or part the two")
-    members = [own.members[name] for name in own.turning() if own.members[name] in found]
+        raise InputError(f"{gearset.key}.held", gearset.held, rule, "hold another member, or part the two")
+    members = [gearset.members[name] for name in gearset.turning() if gearset.members[name] in turning_of]
     if len(members) < 2:
-        names = " nor ".join(bodies[own.members[name]].name for name in own.turning())
+        names = " nor ".join(bodies[gearset.members[name]].name for name in gearset.turning())
         rule = f"the input turns neither {names} of this planetary stage"
         remedy = "add the [[stage]], [[shaft]] or [[link]] that turns one of them"
-        raise InputError(own.key, None, rule, remedy)
-    driving = min(own.turning(), key=lambda name: found[own.members[name]].away)
-    turning = found[own.members[driving]]
-    each = {name: speed * turning.signed for name, speed in speeds(own.teeth, own.held, driving).items()}
+        raise InputError(gearset.key, None, rule, remedy)
+    driving = min(gearset.turning(), key=lambda name: turning_of[gearset.members[name]].away)
+    turning = turning_of[gearset.members[driving]]
+    each = {
+        name: speed * turning.signed for name, speed in speeds(gearset.teeth, gearset.held, driving).items()
+    }
     for name, speed in each.items():
-        for body in own.planets if name == "planet" else (own.members[name],):
+        for body in gearset.planets if name == "planet" else (gearset.members[name],):
             rolling = speed if name == CARRIER else speed - each[CARRIER]
             way = -1 if rolling < 0 else 1
-            if body == held and body in found and found[body].sense != way:
+            if body == held and body in turning_of and turning_of[body].sense != way:
                 rule = f"{bodies[body].name} is held in two stages whose planets roll in opposite senses"
-                raise InputError(f"{own.key}.held", own.held, rule, "name two gears, one in each stage")
+                raise InputError(
+                    f"{gearset.key}.held", gearset.held, rule, "name two gears, one in each stage"
+                )
             if name == "planet" or body == held:
-                found[body] = Turning(abs(speed), way, turning.away + 1 if body != held else HELD)
-    enters = willis(own.teeth)[SUN] * (each[SUN] - each[CARRIER]) / willis(own.teeth)[driving]
+                turning_of[body] = Turning(abs(speed), way, turning.away + 1 if body != held else HELD)
+    enters = willis(gearset.teeth)[SUN] * (each[SUN] - each[CARRIER]) / willis(gearset.teeth)[driving]
     return SUN if enters * turning.sense > 0 else RING

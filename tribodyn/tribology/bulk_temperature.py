@@ -130,19 +130,19 @@ def network_temperatures(network: Network, heat: Heat, oil_temperature: float) -
         oil = (entering + share * heat.housing + flow) / (network.oil_flow + to_ambient)
     housing = oil
     if network.housing_ambient > 0.0:
-        given = network.oil_housing * oil + network.housing_ambient * network.ambient_temperature
-        housing = (heat.housing + given) / (network.oil_housing + network.housing_ambient)
+        supplied = network.oil_housing * oil + network.housing_ambient * network.ambient_temperature
+        housing = (heat.housing + supplied) / (network.oil_housing + network.housing_ambient)
     return Temperatures(
         oil + heat.pinion / network.pinion_oil, oil + heat.gear / network.gear_oil, oil, housing
     )
 
 
-def heat_given_off(network: Network, found: Temperatures, oil_temperature: float) -> float:
+def heat_given_off(network: Network, at: Temperatures, oil_temperature: float) -> float:
     """Heat that leaves with the oil flow and to ambient, W; where the oil is held, what the gears give it."""
     if network.holds_oil:
-        return network.pinion_oil * (found.pinion - found.oil) + network.gear_oil * (found.gear - found.oil)
-    carried = network.oil_flow * (found.oil - oil_temperature)
-    return carried + network.housing_ambient * (found.housing - network.ambient_temperature)
+        return network.pinion_oil * (at.pinion - at.oil) + network.gear_oil * (at.gear - at.oil)
+    carried = network.oil_flow * (at.oil - oil_temperature)
+    return carried + network.housing_ambient * (at.housing - network.ambient_temperature)
 
 
 def fixed_point(

@@ -99,15 +99,15 @@ def settled(case: CaseType) -> CaseType:
         if not is_open(case) or 0.0 in _duty(case):
             return case
         film = AUTO
-    contact, given, changed = _along(case), law_input(case), {}
+    contact, inputs, changed = _along(case), law_input(case), {}
     if friction == AUTO:
-        found = nearest(FRICTION_LAWS, given, contact)
-        changed["friction"] = replace(case.friction, law=found.law.name, **_why(found))
-        if film is None and not found.law.reads_film:
+        nearest_law = nearest(FRICTION_LAWS, inputs, contact)
+        changed["friction"] = replace(case.friction, law=nearest_law.law.name, **_why(nearest_law))
+        if film is None and not nearest_law.law.reads_film:
             film = AUTO
     if film == AUTO:
-        found = nearest(FILM_LAWS, given, contact)
-        changed["film"] = FilmData(found.law.name, **_why(found))
+        nearest_law = nearest(FILM_LAWS, inputs, contact)
+        changed["film"] = FilmData(nearest_law.law.name, **_why(nearest_law))
     return replace(case, **changed)  # pyright: ignore[reportArgumentType]  (cases are dataclasses)
 
 
@@ -115,8 +115,8 @@ def _duty(case: Lubricated) -> tuple[float, float]:
     return abs(float(case.operating.gear_torque)), abs(float(case.operating.pinion_speed))
 
 
-def _why(found: LawAtDuty) -> dict[str, Any]:
-    return {"chosen": found.reason, "ratio": found.ratio if found.solved else None}
+def _why(candidate: LawAtDuty) -> dict[str, Any]:
+    return {"chosen": candidate.reason, "ratio": candidate.ratio if candidate.solved else None}
 
 
 def _along(case: Lubricated) -> LocalContact:
@@ -147,21 +147,21 @@ def _along(case: Lubricated) -> LocalContact:
     return local_contact(load, curvature, speed * motion.entrainment, speed * motion.sliding, *speeds)
 
 
-def nearest(laws: Registry[Any], given: LawInput, contact: LocalContact) -> LawAtDuty:
+def nearest(laws: Registry[Any], inputs: LawInput, contact: LocalContact) -> LawAtDuty:
     """The law nearest to the solved contact along a way of `PLACES` contacts, see the module."""
-    films, coefficients = _solved(given, contact)
+    films, coefficients = _solved(inputs, contact)
     right = films if laws is FILM_LAWS else coefficients
-    found = sorted(_candidates(laws, given, contact, right), key=lambda candidate: candidate.distance)
-    alike = [each for each in found if each.distance <= found[0].distance + math.log(ALIKE)]
-    return next((each for each in alike if each.inside >= HOLDS), found[0])
+    ordered = sorted(_candidates(laws, inputs, contact, right), key=lambda candidate: candidate.distance)
+    alike = [each for each in ordered if each.distance <= ordered[0].distance + math.log(ALIKE)]
+    return next((each for each in alike if each.inside >= HOLDS), ordered[0])
 
 
-def _solved(given: LawInput, contact: LocalContact) -> tuple[Float[Array, " place"], Float[Array, " place"]]:
+def _solved(inputs: LawInput, contact: LocalContact) -> tuple[Float[Array, " place"], Float[Array, " place"]]:
     """Films (m) and friction coefficients of the contacts `SOLVED`; NaN where there is no solution."""
     ratio = np.maximum(np.abs(contact.sliding) / contact.entrainment, LEAST_SLIDING)
     columns = contact.line_load, contact.entrainment, contact.curvature, ratio
     rows = np.log(np.stack(np.broadcast_arrays(*columns), axis=1))[SOLVED]
-    values = _solutions(contact_of(given), tuple(map(tuple, rows.tolist())))
+    values = _solutions(contact_of(inputs), tuple(map(tuple, rows.tolist())))
     return np.exp(values[:, 0]), np.exp(values[:, 1])
 
 
@@ -169,8 +169,8 @@ def _solved(given: LawInput, contact: LocalContact) -> tuple[Float[Array, " plac
 def _solutions(contact: Contact, duties: tuple[tuple[float, ...], ...]) -> Float[Array, "place 3"]:
     """`solve_one` of each duty, from this process, from the cache, or solved."""
     digest = hashlib.sha256(digest_of(solve_one.__module__) + repr((contact, duties)).encode()).hexdigest()
-    made = lambda: {"values": np.array([_one(contact, np.array(duty)) for duty in duties])}  # noqa: E731
-    return arrays_kept_or_made(CACHE, digest, made)["values"]
+    solve = lambda: {"values": np.array([_one(contact, np.array(duty)) for duty in duties])}  # noqa: E731
+    return arrays_kept_or_made(CACHE, digest, solve)["values"]
 
 
 def _one(contact: Contact, duty: Float[Array, " number"]) -> Float[Array, " 3"]:
@@ -181,10 +181,10 @@ def _one(contact: Contact, duty: Float[Array, " number"]) -> Float[Array, " 3"]:
 
 
 def _candidates(
-    laws: Registry[Any], given: LawInput, contact: LocalContact, right: Float[Array, " place"]
+    laws: Registry[Any], inputs: LawInput, contact: LocalContact, right: Float[Array, " place"]
 ) -> Iterator[LawAtDuty]:
     heat = contact.line_load * np.abs(contact.sliding)
-    known, names = np.isfinite(right), list[str]()
+    solved, names = np.isfinite(right), list[str]()
     for name, law in laws.items():
         if law.judged is None or law.table_error is not None:
             continue
@@ -192,7 +192,7 @@ def _candidates(
             continue
         names.append(name)
         try:
-            state, limits = surface_and_limits(contact, _made(law, given))
+            state, limits = surface_and_limits(contact, _made(law, inputs))
         except InputError:  # a mean over the mesh without pressure angle at the pitch point
             continue
         film = law.table == "film"
@@ -201,21 +201,21 @@ def _candidates(
         inside = math.nan
         if not np.all(np.isnan(least)):
             inside = float(np.average(least >= 1.0, weights=np.ones(PLACES) if film else heat))
-        if not np.any(known):
+        if not np.any(solved):
             judged = law.judged.ratio if inside >= HOLDS else law.judged.outside or law.judged.ratio
             yield LawAtDuty(law, inside, judged, solved=False)
             continue
         values = state.central_film_thickness if film else np.abs(state.friction_coefficient)
-        ratio = np.broadcast_to(values, (PLACES,))[SOLVED][known] / right[known]
+        ratio = np.broadcast_to(values, (PLACES,))[SOLVED][solved] / right[solved]
         if film:
             with np.errstate(divide="ignore"):  # a film of 0
                 middle = float(np.exp(np.mean(np.log(ratio))))
         else:
-            middle = float(np.average(ratio, weights=heat[SOLVED][known] * right[known]))
+            middle = float(np.average(ratio, weights=heat[SOLVED][solved] * right[solved]))
         yield LawAtDuty(law, inside, (float(np.min(ratio)), middle, float(np.max(ratio))), solved=True)
 
 
-def _made(law: FilmLaw | FrictionLaw, given: LawInput) -> Closure:
+def _made(law: FilmLaw | FrictionLaw, inputs: LawInput) -> Closure:
     if isinstance(law, FilmLaw):
-        return closure(given, law, FRICTION_LAWS["none"])
-    return closure(given, FILM_LAWS[law.film], law)
+        return closure(inputs, law, FRICTION_LAWS["none"])
+    return closure(inputs, FILM_LAWS[law.film], law)

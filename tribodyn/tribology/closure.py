@@ -84,9 +84,9 @@ def closure_of(case: Lubricated) -> Closure:
     meaning, or comes from outside this package and does not work (`trial.try_laws`).
     """
     film, friction = laws_of(case)
-    made = untried_closure_of(case)
-    try_laws(film, friction, made)
-    return made
+    closure = untried_closure_of(case)
+    try_laws(film, friction, closure)
+    return closure
 
 
 def untried_closure_of(case: Lubricated) -> Closure:
@@ -102,7 +102,7 @@ def law_input(case: Lubricated) -> LawInput:
 
 
 def closure(
-    given: LawInput,
+    inputs: LawInput,
     film: FilmLaw,
     friction: FrictionLaw,
     film_values: dict[str, Any] | None = None,
@@ -110,9 +110,9 @@ def closure(
 ) -> Closure:
     """Return surfaces and laws with the parameters that these make of what is given; raises as `made`."""
     return Closure(
-        given.surfaces,
-        ActiveLaw(film.functions, film.made(given, film_values or {})),
-        ActiveLaw(friction.functions, friction.made(given, friction_values or {})),
+        inputs.surfaces,
+        ActiveLaw(film.functions, film.made(inputs, film_values or {})),
+        ActiveLaw(friction.functions, friction.made(inputs, friction_values or {})),
     )
 
 
@@ -182,17 +182,17 @@ def law_quantities(case: Lubricated) -> dict[str, Any]:
 
 def law_ratios(case: Lubricated) -> dict[str, Any]:
     """Names of the laws in use and their ratios to the solved contact, where they were compared."""
-    found: dict[str, Any] = {}
+    by_law: dict[str, Any] = {}
     for law, data in zip(laws_of(case), (case.film, case.friction), strict=True):
-        found[f"{law.table}_law"] = law.name
+        by_law[f"{law.table}_law"] = law.name
         if data.ratio is not None:
             ratios = dict(zip(("low", "median", "high"), data.ratio, strict=True))
-            found[f"{law.table}_judged"] = {**ratios, "at_duty": 1.0}
+            by_law[f"{law.table}_judged"] = {**ratios, "at_duty": 1.0}
         elif law.judged is not None:
             ratios = dict(zip(("low", "median", "high"), law.judged.ratio, strict=True))
             outside = dict(zip(_OUTSIDE, law.judged.outside or (), strict=False))
-            found[f"{law.table}_judged"] = {**ratios, **outside, "limits": law.judged.limits}
-    return found
+            by_law[f"{law.table}_judged"] = {**ratios, **outside, "limits": law.judged.limits}
+    return by_law
 
 
 def exceeded_limits(
@@ -204,17 +204,17 @@ def exceeded_limits(
     the power that friction takes there. `film_outside` is the share of the contacts, `friction_outside` that
     of the loss, outside the limits by the solved contact, or its authors' of a law without such.
     """
-    found: dict[str, Any] = {}
+    exceedances: dict[str, Any] = {}
     parts = (("closure", closure_shares, None), ("friction", friction_shares, loss))
     for law, (name, shares, weight) in zip(laws_of(case), parts, strict=True):
         if limits := exceeded(shares, law.named_limits):
-            found[f"{name}_exceeded"] = limits
+            exceedances[f"{name}_exceeded"] = limits
         if law.limits and shares.shape[-1] == len(law.limits) and len(shares):
             judged = law.judged.limits if law.judged else 0
             outside = np.any(shares[:, -judged:] < 1.0, axis=1)
             weighed = weight if weight is not None and np.any(weight > 0.0) else None
-            found[f"{law.table}_outside"] = float(np.average(outside, weights=weighed))
-    return found
+            exceedances[f"{law.table}_outside"] = float(np.average(outside, weights=weighed))
+    return exceedances
 
 
 def surfaces_of(case: Lubricated) -> Surfaces:

@@ -73,11 +73,11 @@ class ContactViscosity(NamedTuple):
 
     def limits(self, pressure: float, temperature: float | None) -> tuple[str, ...]:
         """Say what does not cover friction solved at a Hertz pressure, Pa, and an oil temperature, K."""
-        found = []
+        limits = []
         if self.estimated:
-            found.append(f"viscosity at high pressure estimated: {self.origin}")
+            limits.append(f"viscosity at high pressure estimated: {self.origin}")
         if pressure > self.maximum_pressure:
-            found.append(
+            limits.append(
                 f"p_H {pressure / 1e9:.4g} GPa is above {self.maximum_pressure / 1e9:.4g} GPa, up to which "
                 f"the viscosity was measured: friction is extrapolated"
             )
@@ -86,11 +86,11 @@ class ContactViscosity(NamedTuple):
                 limit - ZERO_CELSIUS
                 for limit in (self.measured.minimum_temperature, self.measured.maximum_temperature)
             )
-            found.append(
+            limits.append(
                 f"The oil at {temperature - ZERO_CELSIUS:.4g} °C: its viscosity under pressure was measured "
                 f"from {low:.4g} to {high:.4g} °C"
             )
-        return tuple(found)
+        return tuple(limits)
 
 
 def contact_viscosity(lubricant: LubricantData) -> ContactViscosity:
@@ -110,9 +110,9 @@ def contact_viscosity(lubricant: LubricantData) -> ContactViscosity:
         raise InputError("lubricant", None, rule, "use a law of formulas, or differences")
     temperature = float(temperature)
     if sheet.law is not None:
-        own = PressureLaw((LawPart(sheet.law.law),), temperature)
+        law = PressureLaw((LawPart(sheet.law.law),), temperature)
         origin = "measured, viscosity_law of the lubricant"
-        return ContactViscosity(origin, own, asymptotic_coefficient(own), measured=sheet.law)
+        return ContactViscosity(origin, law, asymptotic_coefficient(law), measured=sheet.law)
     return _estimated(lubricant, temperature)
 
 
@@ -120,16 +120,18 @@ def _estimated(lubricant: LubricantData, temperature: float) -> ContactViscosity
     """The best estimate by type, and the lowest and highest rise of the measured oils of the type."""
     sheet, coefficient = lubricant.sheet, float(lubricant.pressure_viscosity)
     assert sheet is not None
-    given, mineral = "pressure_viscosity" in sheet.given, sheet.type == "mineral"
+    stated, mineral = "pressure_viscosity" in sheet.given, sheet.type == "mineral"
     names = MINERAL if mineral else tuple(MEASURED)
     scaled = {name: with_coefficient(MEASURED[name], temperature, coefficient) for name in names}
-    own = {} if given else {name: LawPart(MEASURED[name]) for name in (MINERAL if mineral else (STAND_IN,))}
-    kind = scaled if mineral or given else own
+    parts = (
+        {} if stated else {name: LawPart(MEASURED[name]) for name in (MINERAL if mineral else (STAND_IN,))}
+    )
+    kind = scaled if mineral or stated else parts
     best = [kind[name] for name in (MINERAL if mineral else (STAND_IN,))]
     law = PressureLaw(tuple(part._replace(weight=1.0 / len(best)) for part in best), temperature)
-    single = [PressureLaw((part,), temperature) for part in (*scaled.values(), *own.values())]
+    single = [PressureLaw((part,), temperature) for part in (*scaled.values(), *parts.values())]
     single.sort(key=lambda each: float(each.rise(np.array([_COMPARED]), temperature)[0][0]))
     how = "at the oil's α" if kind is scaled else "as measured"
     origin = f"by type {sheet.type}, from {' and '.join(MINERAL) if mineral else STAND_IN} {how}"
-    found = asymptotic_coefficient(law)
-    return ContactViscosity(origin, law, found, single[0], single[-1], estimated=True)
+    at_zero = asymptotic_coefficient(law)
+    return ContactViscosity(origin, law, at_zero, single[0], single[-1], estimated=True)

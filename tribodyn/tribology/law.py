@@ -176,12 +176,12 @@ class KeyedLaw:
     @property
     def named_limits(self) -> tuple[str, ...]:
         """The limits; those by the solved contact end with "(judged)"."""
-        own = len(self.limits) - (self.judged.limits if self.judged is not None else 0)
-        return (*self.limits[:own], *(f"{limit} (judged)" for limit in self.limits[own:]))
+        unjudged = len(self.limits) - (self.judged.limits if self.judged is not None else 0)
+        return (*self.limits[:unjudged], *(f"{limit} (judged)" for limit in self.limits[unjudged:]))
 
     def __post_init__(self) -> None:
         for function in self.functions:
-            if not any(function is known for known in LAWS):
+            if not any(function is builtin for builtin in LAWS):
                 law(function)
 
     @property
@@ -189,34 +189,34 @@ class KeyedLaw:
         """The functions that kernels and models hold."""
         raise NotImplementedError
 
-    def made(self, given: Any, values: dict[str, Any]) -> Any:
-        """Make the parameters; keys without a value take their default; `given` as `parameters` takes it.
+    def made(self, inputs: Any, values: dict[str, Any]) -> Any:
+        """Make the parameters; keys without a value take their default; `inputs` as `parameters` takes it.
 
         Raises InputError if a value is unknown or missing, or has no meaning under these conditions.
         """
-        known = {key.name: key.default for key in self.keys}
+        defaults = {key.name: key.default for key in self.keys}
         for name, value in values.items():
-            if name not in known:
-                near = near_name(name, known)
-                remedy = f'did you mean "{near}"?' if near else f"its keys: {', '.join(known) or 'none'}"
+            if name not in defaults:
+                near = near_name(name, defaults)
+                remedy = f'did you mean "{near}"?' if near else f"its keys: {', '.join(defaults) or 'none'}"
                 raise InputError(
                     f"{self.table}.{name}", quoted(value), f'no key of law "{self.name}"', remedy
                 )
-        full = known | values
+        full = defaults | values
         for key in self.keys:
             if full[key.name] is None:
                 rule = f'missing: law = "{self.name}" needs it'
                 raise InputError(f"{self.table}.{key.name}", None, rule, f"give it: {key.about}")
         if self.parameters is not None:
-            return self.parameters(given, **full)
+            return self.parameters(inputs, **full)
         return values_of(full)
 
     def with_values(self, **values: float) -> Self:
         """Return the law with other values of its keys, in SI units, where none are given."""
-        known = [key.name for key in self.keys]
-        if unknown := [name for name in values if name not in known]:
+        names = [key.name for key in self.keys]
+        if unknown := [name for name in values if name not in names]:
             raise TypeError(
-                f"law {self.name} has no key {unknown[0]}; its keys: {', '.join(known) or 'none'}"
+                f"law {self.name} has no key {unknown[0]}; its keys: {', '.join(names) or 'none'}"
             )
         keys = tuple(key._replace(default=values.get(key.name, key.default)) for key in self.keys)
         return replace(self, keys=keys)

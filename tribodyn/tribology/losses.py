@@ -185,25 +185,25 @@ def losses_of_pair(
 
     Viscosity (dynamic, Pa·s) and density (kg/m³) are those of the oil that surrounds the gears.
     """
-    found: dict[str, Loss] = {}
+    losses: dict[str, Loss] = {}
     dipping = [wheel for wheel in wheels if wheel.immersion > 0.0]
     if data.churning == "changenet-velex":
         volume = data.oil_volume or 0.0
-        found["churning"] = _sum(changenet_velex(wheel, viscosity, density, volume) for wheel in dipping)
+        losses["churning"] = _sum(changenet_velex(wheel, viscosity, density, volume) for wheel in dipping)
     elif data.churning is not None:
-        found["churning"] = _sum(iso_14179_1(wheel, viscosity, density) for wheel in dipping)
+        losses["churning"] = _sum(iso_14179_1(wheel, viscosity, density) for wheel in dipping)
     if data.windage is not None:
         windage = {"dawson": dawson, "anderson-loewenthal": anderson_loewenthal}[data.windage]
-        counted = [wheel for wheel, own in zip(wheels, data.counted, strict=True) if own]
-        found["windage"] = _sum(map(windage, counted))
+        counted = [wheel for wheel, is_counted in zip(wheels, data.counted, strict=True) if is_counted]
+        losses["windage"] = _sum(map(windage, counted))
     if data.bearings is not None:
         turning = [(drag, wheel.speed) for wheel, drag in zip(wheels, data.drag, strict=True)]
-        found["bearings"] = _sum(
+        losses["bearings"] = _sum(
             palmgren(drag, speed, viscosity, density)
             for drag, speed in (*turning, *data.further)
             if drag is not None
         )
-    return found
+    return losses
 
 
 def _sum(losses: Iterable[Loss]) -> Loss:

@@ -198,12 +198,12 @@ class OilSheet:
 
     def values(self, temperature: Any) -> dict[str, OilValue]:
         """All numbers of `LubricantData` at a temperature (K), with their origin."""
-        found: dict[str, OilValue] = {}
+        values: dict[str, OilValue] = {}
 
         def put(name: str, value: Any, origin: str, spread: tuple[float, float] | None = None) -> Any:
             if name in self.given:
                 value, origin, spread = self.given[name], GIVEN, None
-            found[name] = OilValue(value, UNITS[name], origin, spread)
+            values[name] = OilValue(value, UNITS[name], origin, spread)
             return value
 
         at_hand = "ASTM D341 and density over temperature"
@@ -217,9 +217,9 @@ class OilSheet:
         put("viscosity_pressure_index", index, "pressure_viscosity and inlet_viscosity, Roelands")
         slope = temperature_viscosity_at(self.viscosity_40, self.viscosity_100, self.density_15, temperature)
         put("temperature_viscosity", slope, f"slope of {at_hand}")
-        for name, usual in by_type(self.type).items():
-            put(name, usual.value, usual.source, usual.spread)
-        return found
+        for name, typical in by_type(self.type).items():
+            put(name, typical.value, typical.source, typical.spread)
+        return values
 
 
 #: Where the defaults of `LubricantData` are from.
@@ -287,13 +287,13 @@ def oil_values(lubricant: LubricantData) -> dict[str, OilValue]:
     if lubricant.sheet is not None:
         return lubricant.sheet.values(lubricant.temperature)
     typical = by_type(lubricant.type) if lubricant.type is not None else {}
-    found = {}
+    values = {}
     for name, unit in UNITS.items():
-        value, usual = getattr(lubricant, name), typical.get(name)
+        value, typical_value = getattr(lubricant, name), typical.get(name)
         if lubricant.given is None or name in lubricant.given:
-            found[name] = OilValue(value, unit, GIVEN)
-        elif usual is not None:
-            found[name] = OilValue(value, unit, usual.source, usual.spread)
+            values[name] = OilValue(value, unit, GIVEN)
+        elif typical_value is not None:
+            values[name] = OilValue(value, unit, typical_value.source, typical_value.spread)
         else:
-            found[name] = OilValue(value, unit, DEFAULTS[name])
-    return found
+            values[name] = OilValue(value, unit, DEFAULTS[name])
+    return values

@@ -94,9 +94,9 @@ class DoolittleTait(NamedTuple):
         stiffer = 1.0 + self.bulk_modulus_slope
         share = 1.0 - np.log1p(stiffer * pressure / modulus) / stiffer
         grown = 1.0 + self.expansion * warmer
-        left = grown * share - occupied
-        free = np.maximum(left, _LEAST_FREE)
-        held = left < _LEAST_FREE
+        free_volume = grown * share - occupied
+        free = np.maximum(free_volume, _LEAST_FREE)
+        held = free_volume < _LEAST_FREE
         by_pressure = -grown / (modulus + stiffer * pressure)
         by_heat = self.expansion * share + grown * -self.bulk_modulus_decay * pressure / (
             modulus + stiffer * pressure
@@ -132,8 +132,8 @@ class PressureLaw(NamedTuple):
         for law, factor, weight in self.parts:
             value, by_pressure, by_heat = law.exponent(factor * pressure, warm)
             ambient, _, ambient_heat = law.exponent(np.zeros_like(warm), warm)
-            found = value - ambient, factor * by_pressure, by_heat - ambient_heat
-            total = [known + weight * more for known, more in zip(total, found, strict=True)]
+            terms = value - ambient, factor * by_pressure, by_heat - ambient_heat
+            total = [summed + weight * more for summed, more in zip(total, terms, strict=True)]
         return total[0], total[1], total[2]
 
     def softened(self, share: float) -> "PressureLaw":
@@ -156,8 +156,8 @@ def asymptotic_coefficient(law: PressureLaw) -> float:
 
 def with_coefficient(law: MeasuredLaw, temperature: float, coefficient: float) -> LawPart:
     """A measured oil's law over pressures such that its α* at a temperature is `coefficient` (1/Pa)."""
-    own = asymptotic_coefficient(PressureLaw((LawPart(law),), temperature))
-    return LawPart(law, coefficient / own)
+    coefficient_of_law = asymptotic_coefficient(PressureLaw((LawPart(law),), temperature))
+    return LawPart(law, coefficient / coefficient_of_law)
 
 
 class MeasuredViscosity(NamedTuple):

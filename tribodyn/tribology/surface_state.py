@@ -43,12 +43,12 @@ def _film_and_heat(contact, surfaces, film, friction):
     """Evaluate the laws in use once: the film law's results, friction coefficient, flash temperature rise."""
     evaluated = film.functions.film(contact, surfaces, film.parameters)
     # so that no friction law evaluates the film again
-    known = ActiveLaw(FilmFunctions(film_given, film_range_not_stated), evaluated)
-    coefficient = friction.functions.coefficient(contact, known, surfaces, friction.parameters)
+    film_as_given = ActiveLaw(FilmFunctions(film_given, film_range_not_stated), evaluated)
+    coefficient = friction.functions.coefficient(contact, film_as_given, surfaces, friction.parameters)
     temperature = friction.functions.flash_temperature(
-        contact, known, surfaces, friction.parameters, coefficient
+        contact, film_as_given, surfaces, friction.parameters, coefficient
     )
-    return evaluated, known, coefficient, temperature
+    return evaluated, film_as_given, coefficient, temperature
 
 
 @law
@@ -67,12 +67,12 @@ def surface_state(contact: LocalContact, closure: Closure) -> SurfaceState:
 def surface_and_limits(contact: LocalContact, closure: Closure) -> tuple[SurfaceState, tuple[Any, Any]]:
     """`surface_state`, and what film and friction law say of their limits, one array per limit."""
     surfaces, film, friction = closure
-    evaluated, known, coefficient, temperature = _film_and_heat(contact, surfaces, film, friction)
+    evaluated, film_as_given, coefficient, temperature = _film_and_heat(contact, surfaces, film, friction)
     log_smooth, rough, share = evaluated
     zero = 0.0 * log_smooth
     half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
     of_film = film.functions.in_range(contact, surfaces, film.parameters)
-    of_friction = friction.functions.in_range(contact, known, surfaces, friction.parameters)
+    of_friction = friction.functions.in_range(contact, film_as_given, surfaces, friction.parameters)
     state = SurfaceState(
         zero + coefficient,
         zero + share,
@@ -154,15 +154,15 @@ def exceeded(shares: np.ndarray, limits: Sequence[str]) -> dict[str, dict[str, A
     """
     if len(limits) != shares.shape[-1]:
         return {}
-    found = []
+    exceedances = []
     for column, limit in zip(shares.T, limits, strict=True):
         outside = column < 1.0
         if np.any(outside):
             least = float(np.min(column[outside]))
             factor = {"factor": 1.0 / least} if least > 0.0 else {}
-            found.append({"limit": limit, "share": float(np.mean(outside)), **factor})
-    found.sort(key=lambda limit: -limit.get("factor", np.inf))
-    return {str(number): value for number, value in enumerate(found, start=1)}
+            exceedances.append({"limit": limit, "share": float(np.mean(outside)), **factor})
+    exceedances.sort(key=lambda limit: -limit.get("factor", np.inf))
+    return {str(number): value for number, value in enumerate(exceedances, start=1)}
 
 
 def fraction_in_range(in_range: Any) -> float | None:

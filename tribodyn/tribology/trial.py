@@ -66,9 +66,9 @@ def _value(law: FilmLaw | FrictionLaw, contact: Any, closure: Closure) -> Any:
 def _unmarked(function: Any) -> Iterator[FunctionType]:
     """Functions in Python that a law refers to by name and that are neither elementary nor marked."""
     cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
-    known = {**function.__globals__, **{name: cell.cell_contents for name, cell in cells.items()}}
+    names = {**function.__globals__, **{name: cell.cell_contents for name, cell in cells.items()}}
     for name in (*function.__code__.co_names, *function.__code__.co_freevars):
-        other = known.get(name)
+        other = names.get(name)
         if (
             isinstance(other, FunctionType)
             and other.__module__ != elementary.__name__

@@ -190,16 +190,16 @@ def compare(
 
 
 def compare_paper(
-    paper: str, values: Mapping[str, tuple[Any, str]], beside: Mapping[str, Mapping[str, Any]] | None = None
+    paper: str, values: Mapping[str, tuple[Any, str]], choices: Mapping[str, Mapping[str, Any]] | None = None
 ) -> list[Row]:
-    """Compare all rows of a paper: `values` has value and note by row, `beside` the values of other choices.
+    """Compare all rows of a paper: `values` has value and note by row, `choices` the values of other choices.
 
     A choice need not have every row, and is shown where its value is another one.
     """
     others = {
         key: {
             choice: other[key]
-            for choice, other in (beside or {}).items()
+            for choice, other in (choices or {}).items()
             if key in other and other[key] != values[key][0]
         }
         for key in values

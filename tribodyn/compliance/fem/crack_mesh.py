@@ -44,7 +44,7 @@ class CrackedMesh(NamedTuple):
 
 def cracked_mesh(loaded: LoadedTooth, crack: Crack, refined: float = 1.0) -> CrackedMesh:
     """Mesh a cracked tooth, `refined` times as fine; InputError where the crack's tip leaves the body."""
-    fillet, flank, own = half_outline(loaded)
+    fillet, flank, flank_distance = half_outline(loaded)
     start = mouth(loaded, crack.tangent).place
     tip = start + crack.depth * np.array([-np.cos(crack.angle), -np.sin(crack.angle)])
     shape = _Domain(loaded, fillet, flank)
@@ -71,7 +71,7 @@ def cracked_mesh(loaded: LoadedTooth, crack: Crack, refined: float = 1.0) -> Cra
     on_flank = np.asarray(KDTree(outline).query(upper[2][1:-1])[1])
     reach = np.hypot(*flank.T)
     order = np.argsort(reach)
-    distance = np.interp(np.hypot(*points[on_flank].T), reach[order], own[order])
+    distance = np.interp(np.hypot(*points[on_flank].T), reach[order], flank_distance[order])
     held = np.arange(len(outline), count)
     return CrackedMesh(points, sound, cracked, held, on_flank, distance)
 
@@ -159,15 +159,15 @@ def _spread(curve: Points, size: Size) -> Points:
 def _quadtree(loaded: LoadedTooth, size: Size) -> Points:
     """Middles of squares that are as small as wished where they are."""
     reach = 1.1 * max(abs(float(loaded.tooth.tip_radius)), abs(float(loaded.body.bore_radius)))
-    corners, width, found = np.array([[-reach, -reach]]), 2.0 * reach, []
+    corners, width, middles = np.array([[-reach, -reach]]), 2.0 * reach, []
     for _ in range(_FINEST):
         middle = corners + width / 2.0
         small = size(middle) >= width
-        found.append(middle[small])
+        middles.append(middle[small])
         width /= 2.0
         quarters = width * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])
         corners = (corners[~small][:, None] + quarters).reshape(-1, 2)
-    return np.concatenate(found)
+    return np.concatenate(middles)
 
 
 def _triangles(points: Points, shape: _Domain) -> NDArray[np.int64]:

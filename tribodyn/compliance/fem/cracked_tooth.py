@@ -43,9 +43,9 @@ def solved_crack_compliance(
 
     kept = arrays_kept_or_made("fem", name, made)
     distance, added = np.asarray(kept["distance"]), np.asarray(kept["added"])
-    own = np.asarray(r) if loaded.side == "pinion" else -np.asarray(r)
+    tooth_distance = np.asarray(r) if loaded.side == "pinion" else -np.asarray(r)
     order = np.argsort(distance)
-    within = np.clip(own, distance.min(), distance.max())
+    within = np.clip(tooth_distance, distance.min(), distance.max())
     return (
         CubicSpline(distance[order], added[order])(within)
         * thinning(loaded)

@@ -181,13 +181,13 @@ def face_of(model: GearModel, opening: Openings) -> EndFace:
     free = ~np.isin(number, half.held)
     axis, edge = np.isin(number, half.axis), np.isin(number, half.edge)
     unit = np.eye(len(number))
-    own, shared = unit[:, free], unit[:, free & ~axis & ~edge]
+    antisymmetric, shared = unit[:, free], unit[:, free & ~axis & ~edge]
     none = np.zeros_like(shared)
     return EndFace(
         opening,
-        np.hstack([own, none]),
-        np.hstack([own * axis[:, None], shared]),
-        np.hstack([own * edge[:, None], none]),
+        np.hstack([antisymmetric, none]),
+        np.hstack([antisymmetric * axis[:, None], shared]),
+        np.hstack([antisymmetric * edge[:, None], none]),
     )
 
 

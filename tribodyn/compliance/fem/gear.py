@@ -261,5 +261,5 @@ def _parted(
 ) -> tuple[Float[Array, "2 radius"], Float[Array, "sector radius radius"]]:
     """Part readings (sector, M + 2 M, M) into those inside, (2, M), and between, (sector, M, M)."""
     count = seen.shape[2]
-    own = seen[NEIGHBOURS, count:].reshape(2, count, count)
-    return np.einsum("dmm->dm", own), seen[:, :count]
+    inside = seen[NEIGHBOURS, count:].reshape(2, count, count)
+    return np.einsum("dmm->dm", inside), seen[:, :count]

@@ -56,22 +56,22 @@ def relieved(
     The last three loads, and readers, are the half's momentum; what is returned has them no more. `opposite`
     are the readings with all readers on the other half.
     """
-    own, across = np.s_[:-3], np.s_[-3:]
+    readings, across = np.s_[:-3], np.s_[-3:]
     if order >= len(_MOTION):
-        return reading[own, own]
+        return reading[readings, readings]
     motion = _MOTION[order]
     # a load on the other half does to a reader what the mirrored load does to the mirrored reader, with the
     # conjugate phase
     both = reading[:, across] + opposite[:, across].conj() * _MIRROR
     flipped = opposite[across, across] + reading[across, across].conj() * _MIRROR
-    moved = reading[across, own] + _MIRROR[:, None] * opposite[across, own]
+    moved = reading[across, readings] + _MIRROR[:, None] * opposite[across, readings]
     inner = motion.conj() @ (both[across] + _MIRROR[:, None] * flipped) @ motion
     mass = 2.0 * np.einsum("dk,dk,k->", inertia.motion, inertia.momentum, np.abs(motion) ** 2)
-    force = motion.conj() @ (inertia.motion.T @ loads[:, own]) / mass
-    side = np.where(mirrored[own, None], _MIRROR, 1.0)
-    shift = (readers[own] @ inertia.motion * side) @ motion
+    force = motion.conj() @ (inertia.motion.T @ loads[:, readings]) / mass
+    side = np.where(mirrored[readings, None], _MIRROR, 1.0)
+    shift = (readers[readings] @ inertia.motion * side) @ motion
     return (
-        reading[own, own]
-        - np.outer(both[own] @ motion, force)
+        reading[readings, readings]
+        - np.outer(both[readings] @ motion, force)
         - np.outer(shift, motion.conj() @ moved / mass - inner / mass * force)
     )

@@ -105,8 +105,8 @@ def press(
         change = np.max(np.abs(trial - load), axis=-1) / part.mean
         settled = (change < _SETTLED) & np.all(touching == active, axis=-1)
         load, active = np.maximum(trial, 0.0), touching
-        for field, found in zip(result, new._replace(load=load), strict=True):
-            field[rows[settled]] = found[settled]
+        for field, solution in zip(result, new._replace(load=load), strict=True):
+            field[rows[settled]] = solution[settled]
         if np.all(settled):
             return result
         rows, load, active = rows[~settled], load[~settled], active[~settled]

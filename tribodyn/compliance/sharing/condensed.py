@@ -77,7 +77,7 @@ def _condensed(
     """Condense pairs under loads (position, pair, slice) with Λ (position, pair, slice, pair, slice)."""
     positions, pairs, slices = load.shape
     total = np.sum(load, axis=-1)
-    own = np.einsum("tjmjn->tjmn", matrix)
+    pair_compliance = np.einsum("tjmjn->tjmn", matrix)
     across = matrix * ~np.eye(pairs, dtype=bool)[:, None, :, None]
     moved = np.einsum("tjmkn,tkn->tjm", across, load)
     level = np.hypot(total, minimum_load)
@@ -85,7 +85,7 @@ def _condensed(
     alone = press_pairs(
         flexible,
         curvature.reshape(-1, 1),
-        own.reshape(-1, 1, slices, 1, slices),
+        pair_compliance.reshape(-1, 1, slices, 1, slices),
         unit,
         unit,
         (gap + moved).reshape(-1, 1, slices),
@@ -95,12 +95,12 @@ def _condensed(
     at = np.maximum(alone, (_MINIMUM_SLICE / slices * level)[..., None])
     width = flexible.width / slices
     secant = contact_deflection(flexible, curvature[..., None], at / width)[0] / at
-    compliance, share = _stiff_together(own, secant, alone)
+    compliance, share = _stiff_together(pair_compliance, secant, alone)
     coupling = np.einsum("tjm,tjmkn,tkn->tjk", share, across, share, optimize=True)
 
     touching = np.argmin(gap + moved, axis=-1)[..., None] == np.arange(slices)
     weight = np.where(total[..., None] > 0, load / np.maximum(total, 1e-300)[..., None], touching)
-    reached = gap + moved + np.einsum("tjmn,tjn->tjm", own, load) + secant * load
+    reached = gap + moved + np.einsum("tjmn,tjn->tjm", pair_compliance, load) + secant * load
     open_gap = (
         np.sum(weight * reached, axis=-1) - compliance * total - np.einsum("tjk,tk->tj", coupling, total)
     )
@@ -108,7 +108,7 @@ def _condensed(
 
 
 def _stiff_together(
-    own: Float[Array, "position pair slice slice"],
+    slice_compliance: Float[Array, "position pair slice slice"],
     secant: Float[Array, "position pair slice"],
     load: Float[Array, "position pair slice"],
 ) -> tuple[Float[Array, "position pair"], Float[Array, "position pair slice"]]:
@@ -117,7 +117,7 @@ def _stiff_together(
     joined = np.clip(load / (_JOINING * np.mean(load, axis=-1, keepdims=True)), 0.0, 1.0)
     joined = joined**2 * (3.0 - 2.0 * joined)
     # A x = 1 with A = Λ + s/j, as (j Λ + s) x = j, which holds for j = 0 too
-    matrix = own * joined[..., None] + np.eye(slices) * secant[..., None]
+    matrix = slice_compliance * joined[..., None] + np.eye(slices) * secant[..., None]
     stiffness = np.linalg.solve(matrix, joined[..., None])[..., 0]
     whole = np.sum(stiffness, axis=-1)
     return 1.0 / whole, stiffness / whole[..., None]

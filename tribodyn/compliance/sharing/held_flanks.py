@@ -100,9 +100,9 @@ class HeldFlanks:
         """Share it in a few mesh cycles, all positions of which are solved together."""
         flexible, faces = self.flanks.flexible, self.faces
         motion, cycles = faces.geometry.motion, len(gap)
-        own = sense(flexible.assembly.path.gear_pitch_radius)
+        gear_sense = sense(flexible.assembly.path.gear_pitch_radius)
         side = np.sign(motion.signed_distance) * friction_coefficient[..., None]
-        lever = own * (faces.lever + side * motion.gear_friction_arm)
+        lever = gear_sense * (faces.lever + side * motion.gear_friction_arm)
         rows = (cycles * self.shape[0], *self.shape[1:])
 
         def every(values: Float[Array, "..."], shape: tuple[int, ...] = self.shape) -> Float[Array, "..."]:
@@ -121,5 +121,5 @@ class HeldFlanks:
             )
             for part in in_batches(rows)
         ]
-        found = SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
-        return SharedLoad(*(field.reshape(cycles, -1, *field.shape[1:]) for field in found))
+        shared = SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
+        return SharedLoad(*(field.reshape(cycles, -1, *field.shape[1:]) for field in shared))

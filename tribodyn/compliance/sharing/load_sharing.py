@@ -190,8 +190,8 @@ def press_slices(
     matrix = compliance.reshape(positions, places, places)
     load, deflection, overlap, stiffness = press(matrix, local, arms, levers, gaps, torque)
     load = load.reshape(gap.shape)
-    taken, _ = contact_deflection(flexible, curvature, load / contact_length)
-    return SharedLoad(load, deflection, overlap.reshape(gap.shape), taken, stiffness)
+    approach, _ = contact_deflection(flexible, curvature, load / contact_length)
+    return SharedLoad(load, deflection, overlap.reshape(gap.shape), approach, stiffness)
 
 
 def extended_rolls(
@@ -280,8 +280,8 @@ class LoadedFlanks(NamedTuple):
         geometry = pair_geometry(self.flexible.assembly, roll)
         motion = geometry.motion
         side = np.sign(motion.signed_distance)
-        own = sense(self.flexible.assembly.path.gear_pitch_radius)
-        lever = own * (motion.gear_normal_arm + side * friction_coefficient * motion.gear_friction_arm)
+        gear_sense = sense(self.flexible.assembly.path.gear_pitch_radius)
+        lever = gear_sense * (motion.gear_normal_arm + side * friction_coefficient * motion.gear_friction_arm)
         extra = self.gap(geometry) if gap is None else np.asarray(gap, dtype=float)
         extra = extra if extra.ndim == 3 else extra[..., None]
         whole = np.broadcast_to(geometry.gap[..., None] + extra, (*roll.shape, self.slices))

@@ -65,19 +65,19 @@ def oblique_compliance(
     ):
         at = radius + raised(flexible.assembly, section, side)
         wave_number = wave_numbers(length, slices, coupled)
-        own, between = responses(gear, material.poisson_ratio, wave_number)
+        same_tooth, between = responses(gear, material.poisson_ratio, wave_number)
         place = at_radii(gear.radius, at)
         scale = material.youngs_modulus * length
         basis = modes(len(wave_number), slices)
         if len(wave_number) == 1:
-            _add_apart(matrix, own[0], between[0], place, sign, scale / slices)
+            _add_apart(matrix, same_tooth[0], between[0], place, sign, scale / slices)
             continue
         wave = basis.T[:, :, None] * place[..., None, :]  # (position, pair, slice, n, M)
         for later in range(pairs):
             for earlier in range(max(0, later - NEIGHBOURS), later):
                 rows = between[:, NEIGHBOURS + sign * (later - earlier)]
                 _add_both(matrix, earlier, later, _by_modes(wave[:, earlier], rows, wave[:, later]) / scale)
-        tooth = _OneTooth(gear, section.tooth(side), material.poisson_ratio, wave_number, own, between)
+        tooth = _OneTooth(gear, section.tooth(side), material.poisson_ratio, wave_number, same_tooth, between)
         for pair in range(pairs):
             matrix[:, pair, :, pair] += tooth.compliance(at[:, pair], wave[:, pair], basis) / scale
         _add_free_ends(matrix, gear, at, length, sign, material.youngs_modulus)
@@ -86,7 +86,7 @@ def oblique_compliance(
 
 def _add_apart(
     matrix: Float[Array, "position pair slice pair slice"],
-    own: Float[Array, " radius"],
+    same_tooth: Float[Array, " radius"],
     between: Float[Array, "sector radius radius"],
     place: Float[Array, "position pair slice radius"],
     sign: int,
@@ -96,7 +96,7 @@ def _add_apart(
     pairs, slices = matrix.shape[1:3]
     along = np.arange(slices)
     for later in range(pairs):
-        matrix[:, later, along, later, along] += place[:, later] @ own / scale
+        matrix[:, later, along, later, along] += place[:, later] @ same_tooth / scale
         for earlier in range(max(0, later - NEIGHBOURS), later):
             rows = between[NEIGHBOURS + sign * (later - earlier)]
             value = np.sum(place[:, earlier] @ rows * place[:, later], axis=-1) / scale
@@ -135,7 +135,7 @@ class _OneTooth:
         tooth: Tooth,
         poisson_ratio: float,
         wave_number: Float[Array, " wave"],
-        own: Float[Array, "wave radius"],
+        same_tooth: Float[Array, "wave radius"],
         between: Float[Array, "wave sector radius radius"],
     ) -> None:
         """Take the half-space out of what was solved."""
@@ -149,7 +149,7 @@ class _OneTooth:
         steps = np.hypot(*np.diff(profile, axis=1))
         self._profile = np.hypot(*profile), np.concatenate([[0.0], np.cumsum(steps)])
         along = self.along(gear.radius)
-        self.mean = own - self.surface[:, None]
+        self.mean = same_tooth - self.surface[:, None]
         apart = np.abs(along[:, None] - along) + np.eye(len(along))
         softness = 2.0 * (1.0 - poisson_ratio**2) / np.pi
         line = [np.log(self.near / apart), *(k0(k * apart) for k in wave_number[1:])]

@@ -29,8 +29,8 @@ def on_pins(
 ) -> GearCompliance:
     """Take an internal gear's compliance, in its fit, to the support that its rim has."""
     loaded, ratio = loaded_tooth(assembly, side, held), material.poisson_ratio
-    own = distance_at_radius(loaded.path, fitted.radius)
-    even = tooth_compliance(loaded, material, 1.0, own if side == "pinion" else -own)
+    distance = distance_at_radius(loaded.path, fitted.radius)
+    even = tooth_compliance(loaded, material, 1.0, distance if side == "pinion" else -distance)
     strain = ratio / (1.0 - ratio)  # plane strain by plane stress
 
     def softer(pitches: int) -> Any:

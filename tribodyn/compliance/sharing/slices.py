@@ -80,10 +80,10 @@ def pair_harmonics(
     reaches = geometry.pinion_radius, geometry.gear_radius
     # On the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other.
     for gear, material, reach, sign in zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True):
-        own, between = responses(gear, material.poisson_ratio, wave_number)
+        same_tooth, between = responses(gear, material.poisson_ratio, wave_number)
         at = np.clip(reach, gear.radius[0], gear.radius[-1])
         scale = material.youngs_modulus * flexible.width
-        diagonal += np.moveaxis(CubicSpline(gear.radius, own.T)(at), -1, 0) / scale
+        diagonal += np.moveaxis(CubicSpline(gear.radius, same_tooth.T)(at), -1, 0) / scale
         for mode, rows in enumerate(between):
             for pitches in range(1, min(count - 1, NEIGHBOURS) + 1):
                 surface = RectBivariateSpline(gear.radius, gear.radius, rows[NEIGHBOURS + sign * pitches])
@@ -193,8 +193,8 @@ def _add_free_ends(
         along = end_modes(ends, flexible.width, slices)
         place = at_radii(ends.radius, reach)
         for later in range(pairs):
-            own = np.einsum("pklm,tm->tpkl", ends.own, place[:, later])
-            matrix[:, later, :, later] += _spread(along, own) / material.youngs_modulus
+            direct = np.einsum("pklm,tm->tpkl", ends.own, place[:, later])
+            matrix[:, later, :, later] += _spread(along, direct) / material.youngs_modulus
             for earlier in range(max(0, later - NEIGHBOURS), later):
                 rows = ends.between[:, :, :, NEIGHBOURS + sign * (later - earlier)]
                 opened = np.einsum(

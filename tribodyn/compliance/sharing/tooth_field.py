@@ -108,8 +108,8 @@ def tooth_field(
     of_x, of_y, of_xy = (part[:, kept.profile] for part in (x, y, xy))
     along[:, kept.profile] = cosine**2 * of_x + sine**2 * of_y + 2.0 * cosine * sine * of_xy
     flank = np.hypot(place[0], place[1])[kept.profile]
-    own = int(kept.profile[int(np.argmin(np.abs(flank - reach[pair])))])
-    return ToothField(place, kept.cells, kept.profile, own, gear.depth, flanks.face(), von_mises, along)
+    node = int(kept.profile[int(np.argmin(np.abs(flank - reach[pair])))])
+    return ToothField(place, kept.cells, kept.profile, node, gear.depth, flanks.face(), von_mises, along)
 
 
 class _Shown(NamedTuple):
@@ -200,12 +200,12 @@ def _stress(
 ) -> Float[Array, "2 node 6"]:
     """Amplitudes of σ_x, σ_y, σ_z, τ_xy, τ_xz, τ_yz at the nodes, Pa, of displacements m E."""
     shear, lame = moduli(poisson_ratio)
-    found = []
+    components = []
     for u, v, w in np.moveaxis(moved, 2, 1):
         (u_x, v_x, w_x), (u_y, v_y, w_y) = ([slope @ part for part in (u, v, w)] for slope in kept.slopes)
         volume = lame * (u_x + v_y + k * w)
         normal = [volume + 2.0 * shear * part for part in (u_x, v_y, k * w)]
-        found.append(
+        components.append(
             np.stack([*normal, shear * (u_y + v_x), shear * (w_x - k * u), shear * (w_y - k * v)], axis=-1)
         )
-    return np.stack(found)
+    return np.stack(components)

@@ -59,8 +59,8 @@ def tooth_stress(
     line_load = per_width / seen.length
     half = half_width(flexible, seen.curvature, line_load)
     with np.errstate(invalid="ignore", divide="ignore"):
-        found = np.where(line_load > 0.0, 2.0 * line_load / (np.pi * half), 0.0)
-    pressure = found[:, NEIGHBOURS : NEIGHBOURS + pairs].reshape(slice_load.shape)
+        hertz_pressure = np.where(line_load > 0.0, 2.0 * line_load / (np.pi * half), 0.0)
+    pressure = hertz_pressure[:, NEIGHBOURS : NEIGHBOURS + pairs].reshape(slice_load.shape)
     highest = np.max(pressure, axis=(0, 1, 2))
     mean = np.sqrt(np.mean(highest**2))  # of line loads, which go with the square
     roots: list[Float[Array, "tooth time"]] = []

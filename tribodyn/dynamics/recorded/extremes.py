@@ -312,6 +312,6 @@ def vertex(start, middle, end):
     bend = start + end - 2.0 * middle
     rise = 4.0 * middle - 3.0 * start - end
     share = -0.25 * rise / minimum(bend, -1e-300)
-    known = minimum(start, end) > LOWEST
-    inside = known & (bend < 0.0) & (share > 0.0) & (share < 1.0)
+    recorded = minimum(start, end) > LOWEST
+    inside = recorded & (bend < 0.0) & (share > 0.0) & (share < 1.0)
     return where(inside, share, 0.0), where(inside, start + 0.5 * rise * share, start)

@@ -36,8 +36,8 @@ def over_faces(
         return slots
     result = {}
     loaded = line_load.reshape(count, pairs, slices)
-    known = ~np.isnan(slots["pressure_angle"].reshape(count, pairs, slices))
-    chosen = np.argmax(np.where(known, loaded + 1e-300, 0.0), axis=2)[:, :, None]
+    evaluated = ~np.isnan(slots["pressure_angle"].reshape(count, pairs, slices))
+    chosen = np.argmax(np.where(evaluated, loaded + 1e-300, 0.0), axis=2)[:, :, None]
     for name, values in slots.items():
         if values.ndim < 2 or name in others:
             result[name] = values
@@ -61,7 +61,7 @@ def over_faces(
         rubbing = np.nan_to_num(slots["friction_coefficient"] * slots["normal_load"])
         total = np.sum(rubbing.reshape(count, pairs, slices), axis=2)
         result["friction_coefficient"] = np.where(load > 0.0, total / load, np.nan)
-    result["line_load"] = np.where(known, loaded, 0.0)
+    result["line_load"] = np.where(evaluated, loaded, 0.0)
     return result
 
 
@@ -69,9 +69,9 @@ def _weighted_mean(
     face: Float[Array, "sample pair slice"], load: Float[Array, "sample pair slice"]
 ) -> Float[Array, "sample pair"]:
     """Mean over the slices that are not NaN; those without load count where none of the pair has any."""
-    known = ~np.isnan(face)
-    weight = np.where(known, np.nan_to_num(load), 0.0)
-    weight = np.where(np.sum(weight, axis=2, keepdims=True) > 0.0, weight, known)
+    defined = ~np.isnan(face)
+    weight = np.where(defined, np.nan_to_num(load), 0.0)
+    weight = np.where(np.sum(weight, axis=2, keepdims=True) > 0.0, weight, defined)
     total = np.sum(weight, axis=2)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(total > 0.0, np.sum(weight * np.nan_to_num(face), axis=2) / total, np.nan)

@@ -69,9 +69,9 @@ def evaluated(
     `interval` is that of each sample: on a boundary it says on which side; by default the one that begins
     there.
     """
-    whole, phase, found = interval_of(cycles, model.schedule)
+    whole, phase, interval_index = interval_of(cycles, model.schedule)
     if interval is None:
-        interval = found
+        interval = interval_index
     else:  # a phase before its interval ends a reference cycle
         before = phase < np.asarray(model.schedule.start)[interval] - 1e-9
         whole, phase = whole - before, phase + before
@@ -109,8 +109,8 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         return np.where(mask, values, np.nan)
 
     with np.errstate(over="ignore", under="ignore"):
-        found = [highest_loaded(i, place, mesh, model, work) for i in pairs]
-        fields = ([np.broadcast_to(v, count) for v in values] for values in zip(*found, strict=True))
+        points = [highest_loaded(i, place, mesh, model, work) for i in pairs]
+        fields = ([np.broadcast_to(v, count) for v in values] for values in zip(*points, strict=True))
         contacts = LocalContact(*(np.stack(values, axis=-1) for values in fields))
         surface, limits = surface_and_limits(contacts, model.closure(m))
     friction = per_pair(contact.FRICTION_FORCE)

@@ -69,8 +69,8 @@ class RunCourse:
 
     def _order(self, values: np.ndarray) -> float:
         """Order of the first mesh with the largest amplitude."""
-        found = amplitude_spectrum(values, self._samples)
-        return float(found.orders[1:][np.argmax(found.amplitudes[1:])])
+        spectrum = amplitude_spectrum(values, self._samples)
+        return float(spectrum.orders[1:][np.argmax(spectrum.amplitudes[1:])])
 
     def summary(self, m: int) -> dict[str, Any]:
         """What is said of a mesh: ends, and where it is largest; nothing of a run at one speed."""
@@ -78,18 +78,18 @@ class RunCourse:
         speeds = [row.speed for row in rows]
         if len(rows) < 2 or max(speeds) - min(speeds) < CHANGING * max(map(abs, speeds)):
             return {}
-        found: dict[str, Any] = {"first_speed": speeds[0], "last_speed": speeds[-1]}
+        course: dict[str, Any] = {"first_speed": speeds[0], "last_speed": speeds[-1]}
         swings = "transmission_error_peak_to_peak"
         for name, field, order in (("dynamic_factor", "factor", "order"), (swings, "swing", "swing_order")):
-            known = [row for row in rows if math.isfinite(getattr(row, field))]
-            if known:
-                row = max(known, key=attrgetter(field))
-                found[name] = {"value": getattr(row, field), **_place(row), "order": getattr(row, order)}
+            finite_rows = [row for row in rows if math.isfinite(getattr(row, field))]
+            if finite_rows:
+                row = max(finite_rows, key=attrgetter(field))
+                course[name] = {"value": getattr(row, field), **_place(row), "order": getattr(row, order)}
         apart = [row for row in rows if row.apart > 0.0]
         if apart:
             row = max(apart, key=lambda row: row.apart)
-            found["contact_loss_fraction"] = {"value": row.apart, **_place(row)}
-        return {"course": found}
+            course["contact_loss_fraction"] = {"value": row.apart, **_place(row)}
+        return {"course": course}
 
 
 def _place(row: CourseRow) -> dict[str, float]:

@@ -56,8 +56,8 @@ class RunningExtremes:
             if slots.size:
                 flanks, newest = WORKING[side], block["transmission_error_normal"][:, slots[-1]]
                 for name, sign in (("max", 1), ("min", -1)):
-                    found = f"{flanks}transmission_error_normal_{name}"
-                    self._add(found, sign, newest, cycles, time)
+                    quantity = f"{flanks}transmission_error_normal_{name}"
+                    self._add(quantity, sign, newest, cycles, time)
                 self._add(f"{flanks}mesh_force_max", 1, mesh_force(block, slots), cycles, time)
 
     def _add(self, name: str, sign: int, values: np.ndarray, cycles: np.ndarray, time: np.ndarray) -> None:
@@ -103,19 +103,19 @@ DIFFERENT = 0.005
 
 def on_extremes(summary: Mapping[str, Any]) -> list[str]:
     """Say which extremes of the whole run, or of its last mesh cycles, are not those of the table."""
-    described = summary.get("extremes")
-    if not described:  # a record of 0.1.0, or of a run that stopped at once
+    extremes = summary.get("extremes")
+    if not extremes:  # a record of 0.1.0, or of a run that stopped at once
         return []
-    said = []
+    sentences = []
     for part, words in (("run", "Over the whole run"), ("last_cycles", "Over the last mesh cycles")):
         others = []
         for quantity in (QUANTITIES["normal_load_max"], *TRIBOLOGY):
-            known, value = described.get(part, {}).get(quantity.name), summary.get(quantity.name)
-            if known is None or value is None or not abs(known["value"] - value) > DIFFERENT * abs(value):
+            extreme, value = extremes.get(part, {}).get(quantity.name), summary.get(quantity.name)
+            if extreme is None or value is None or not abs(extreme["value"] - value) > DIFFERENT * abs(value):
                 continue
             name = quantity.title[0].lower() + quantity.title[1:]
-            at = f" at t = {known['time']:.4g} s" if part == "run" and "time" in known else ""
-            others.append(f"{name} {quantity.with_unit(known['value'])}" + at)
+            at = f" at t = {extreme['time']:.4g} s" if part == "run" and "time" in extreme else ""
+            others.append(f"{name} {quantity.with_unit(extreme['value'])}" + at)
         if others:
-            said.append(f"{words}: {', '.join(others)}.")
-    return said
+            sentences.append(f"{words}: {', '.join(others)}.")
+    return sentences

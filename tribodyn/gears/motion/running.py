@@ -84,8 +84,8 @@ class RunStatistics:
         if not self.ends:
             return {}
         shown = self.in_window[m] if complete else self.extremes[m]
-        described = {"run": self.extremes[m].described(), "last_cycles": self.in_window[m].described()}
-        return shown.values() | {"extremes": described} | self.course.summary(m)
+        extremes = {"run": self.extremes[m].described(), "last_cycles": self.in_window[m].described()}
+        return shown.values() | {"extremes": extremes} | self.course.summary(m)
 
     def balance(self) -> dict[str, float]:
         """Residual of the energy balance so far."""
@@ -107,8 +107,8 @@ class RunStatistics:
 def add_extremes(extremes: Sequence[RunningExtremes], meshes: Sequence[MeshOfRun], *blocks: Sampled) -> None:
     """Take blocks into the extremes of every mesh."""
     for block in blocks:
-        for found, mesh, values in zip(extremes, meshes, block.meshes, strict=True):
-            found.add(mesh.cycles(block.cycles), block.whole["time"], values)
+        for of_mesh, mesh, values in zip(extremes, meshes, block.meshes, strict=True):
+            of_mesh.add(mesh.cycles(block.cycles), block.whole["time"], values)
 
 
 def judge_run(

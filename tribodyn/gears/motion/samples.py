@@ -51,5 +51,5 @@ def evaluated_with_extremes(
 ) -> tuple[Evaluated, Sampled, Sampled]:
     """States at samples and where the motion between them is extreme, evaluated; datasets of either."""
     samples, count = at_extremes(cycles, states, extremes, model), len(cycles)
-    found = sampled(samples, shares)
-    return samples, found.part(slice(count)), found.part(slice(count, None))
+    evaluated = sampled(samples, shares)
+    return samples, evaluated.part(slice(count)), evaluated.part(slice(count, None))

@@ -74,8 +74,8 @@ class Operating(OiledOperatingTable):
     @property
     def motor_torque(self) -> float | None:
         """Torque of the motor, given beside the load; None: it balances the load without losses."""
-        beside = self.output_torque is not None or self.power is not None
-        return self.input_torque if beside else None
+        load_given = self.output_torque is not None or self.power is not None
+        return self.input_torque if load_given else None
 
     @property
     def load(self) -> DutyTable:
@@ -146,7 +146,7 @@ class Output(Table):
     window: Literal["all"] | tuple[NotNegative, Positive] | None = None
 
 
-def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
+def moving_mesh_of(scenario: Any, **fields: Any) -> MeshData:
     """Return what a scenario's `drive` and its table `mesh`, a `Mesh`, say of the mesh; see `mesh_data`."""
     mesh, error = scenario.mesh, scenario.mesh.transmission_error
     return mesh_data(
@@ -156,7 +156,7 @@ def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
         error_harmonics=tuple((cosine.order, cosine.amplitude, cosine.phase) for cosine in error.harmonics),
         backlash=backlash_of(scenario.drive, mesh.backlash),
         tilting=True,
-        **own,
+        **fields,
     )
 
 
@@ -165,8 +165,8 @@ def solver_data(solver: Solver, teeth: int) -> SolverData:
     cycles = solver.cycles
     if solver.revolutions is not None:
         cycles = max(1, ceil(solver.revolutions * teeth - 1e-9))
-    given = solver.model_dump(include={"method", "rtol", "max_steps", "initial"})
-    return SolverData(cycles=cycles, **given)
+    settings = solver.model_dump(include={"method", "rtol", "max_steps", "initial"})
+    return SolverData(cycles=cycles, **settings)
 
 
 def output_data(output: Output, solver: Solver, teeth: int, *, differ: bool) -> OutputData:
@@ -209,8 +209,8 @@ def broken_source_rules(operating: Operating) -> Iterator[InputError]:
     """Go through what contradicts in how a gearbox is driven."""
     if operating.source == "speed":
         of_motor = ("drive_inertia", "shaft_stiffness", "shaft_damping", "speed_regulation")
-        given = {name: getattr(operating, name) for name in of_motor}
-        for name, value in {"input_torque": operating.motor_torque, **given}.items():
+        motor_values = {name: getattr(operating, name) for name in of_motor}
+        for name, value in {"input_torque": operating.motor_torque, **motor_values}.items():
             if value:
                 yield InputError(
                     f"operating.{name}",

@@ -76,8 +76,8 @@ def mesh_quantities(
     friction = np.abs(window["friction_force"])
     slid, loaded = np.sum(np.abs(window["sliding_loss"])), np.sum(window["sliding_load"])
     touching = load > 0.0
-    found = amplitude_spectrum(error, samples)
-    spectrum = Spectrum(found.orders / rate, found.amplitudes)
+    over_run = amplitude_spectrum(error, samples)
+    spectrum = Spectrum(over_run.orders / rate, over_run.amplitudes)
     stiffness = np.sum(window["tangent_stiffness"], axis=1)
     # a load that is reversed on the mean has driving flanks to work on where there is no backlash
     sign = -1.0 if force < 0.0 and np.any(cycle.pair_side < 0) else 1.0
@@ -112,12 +112,12 @@ def mesh_quantities(
     }
 
 
-def at_rest(case: LubricatedCase, made: Tabulated | PreparedGears[Any]) -> dict[str, Any]:
+def at_rest(case: LubricatedCase, tabulated: Tabulated | PreparedGears[Any]) -> dict[str, Any]:
     """Quantities of a mesh that do not depend on its motion, and the laws in use."""
-    cycle, assembly = made.cycle, made.assembly
+    cycle, assembly = tabulated.cycle, tabulated.assembly
     return {
         "contact_ratio": float(cycle.contact_ratio),
-        **of_the_face(cycle, assembly, made.slice_remark),
+        **of_the_face(cycle, assembly, tabulated.slice_remark),
         **({} if case.mesh.backlash is None else {"normal_backlash": case.mesh.backlash}),
         "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
         "compliance_remark": compliance_remark(assembly, case.materials, case.mesh) or None,
@@ -172,8 +172,8 @@ def friction_work_on_vibration(work: np.ndarray, layout: TrainLayout) -> float |
     less what it gives to the vibration. None without friction. `work` is the change of the state over whole
     mesh cycles.
     """
-    nominal, taken = (float(np.sum(work[works_of_meshes(layout, which)])) for which in (SLIDING, FRICTION))
-    return (nominal - taken) / abs(nominal) if nominal != 0.0 else None
+    nominal, actual = (float(np.sum(work[works_of_meshes(layout, which)])) for which in (SLIDING, FRICTION))
+    return (nominal - actual) / abs(nominal) if nominal != 0.0 else None
 
 
 def warning_of(share: float | None, sliding: str) -> str | None:

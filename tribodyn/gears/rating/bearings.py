@@ -117,13 +117,13 @@ def _modified(
     if oil is None or not table.pitch_diameter or table.type is None:
         return {}
     ratio = float(oil.inlet_viscosity / oil.density) / reference_viscosity(table.pitch_diameter, speed)
-    limit, found = table.fatigue_load_limit, {"viscosity_ratio": ratio}
+    limit, quantities = table.fatigue_load_limit, {"viscosity_ratio": ratio}
     if limit is None and table.static_rating is not None:
         limit = fatigue_load_limit(table.type, table.static_rating, table.pitch_diameter)
     if table.contamination_factor is None or limit is None:
-        return found
+        return quantities
     factor = life_factor(table.type, ratio, table.contamination_factor * limit / load)
-    return found | {"life_factor": factor, "modified_life": factor * life}
+    return quantities | {"life_factor": factor, "modified_life": factor * life}
 
 
 def _reference_life(bearing: BearingUnderLoad) -> float:
@@ -137,16 +137,16 @@ def _reference_life(bearing: BearingUnderLoad) -> float:
 
 def bearing_part(shafts: Sequence[TurningShaft], oil: LubricantData | None = None) -> dict[str, Any]:
     """What a summary has of drawn shafts: ``bearings``, by their names; nothing where none is drawn."""
-    found = {bearing.name: bearing.numbers for bearing in rated_bearings(shafts, oil)}
-    return {"bearings": found} if found else {}
+    bearings = {bearing.name: bearing.numbers for bearing in rated_bearings(shafts, oil)}
+    return {"bearings": bearings} if bearings else {}
 
 
-def bearing_rows(found: Mapping[str, Mapping[str, float]]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+def bearing_rows(rated: Mapping[str, Mapping[str, float]]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Heading and rows of a table of bearings, as `bearing_part` has them; "–": not determined."""
-    shown = [one for one in BEARINGS if any(one.name in numbers for numbers in found.values())]
+    shown = [one for one in BEARINGS if any(one.name in numbers for numbers in rated.values())]
     rows = [
         (name, *(one.written(numbers[one.name]) if one.name in numbers else "–" for one in shown))
-        for name, numbers in found.items()
+        for name, numbers in rated.items()
     ]
     return ("", *(f"{one.symbol or one.label} ({one.unit})" for one in shown)), rows
 

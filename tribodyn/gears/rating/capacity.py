@@ -76,10 +76,10 @@ class Capacity(NamedTuple):
 
     def by_name(self) -> dict[str, Any]:
         """Everything by the standard's names; what either gear has of its own by ``pinion``, ``gear``."""
-        found: dict[str, Any] = dict(self.common)
+        factors: dict[str, Any] = dict(self.common)
         for name in self.gears[0].factors:
-            found[name] = {side: gear.factors[name] for side, gear in zip(SIDES, self.gears, strict=True)}
-        return found
+            factors[name] = {side: gear.factors[name] for side, gear in zip(SIDES, self.gears, strict=True)}
+        return factors
 
 
 def capacity_of(
@@ -127,12 +127,12 @@ def capacity_of(
         by_speed = [pitting.permissible(metal, of_duty.of(number)) for of_duty in of_duties]
         own_curves = by_speed, [None] * len(bins)
         needed = settings.safety_pitting, settings.safety_bending
-        found = [
+        failed = [
             _failure(
                 stress(at_duty),
                 [
-                    Bin(stress(load.factors, share), n, own)
-                    for load, share, n, own in zip(bins, shares, cycles, of_bins, strict=True)
+                    Bin(stress(load.factors, share), n, cycles_of)
+                    for load, share, n, cycles_of in zip(bins, shares, cycles, of_bins, strict=True)
                 ],
                 curve,
                 required,
@@ -148,7 +148,7 @@ def capacity_of(
             factors |= other_root_names(
                 other, bending.nominal_stress(other, tangential), settings.root_by_formula
             )
-        gears.append(GearCapacity(found[0], found[1], factors | _failures_by_name(metal, found, needed)))
+        gears.append(GearCapacity(failed[0], failed[1], factors | _failures_by_name(metal, failed, needed)))
     common = common_names(mesh, shape, influence) | {"K_Fbeta": face, "K_Falpha": at_duty.transverse}
     return Capacity((gears[0], gears[1]), common, tuple(remarks))
 
@@ -186,12 +186,12 @@ def _failures_by_name(
     metal: Metal, failures: Sequence[Failure], required: tuple[float, float]
 ) -> dict[str, float]:
     """Cycles, stresses, safeties and lives of pitting and bending by their names."""
-    found = {"N_L": failures[0].cycles}
+    results = {"N_L": failures[0].cycles}
     lives = pitting.contact_factors(metal.treatment), bending.bending_factors(metal.treatment)
     names = ("Z_NT", "H", "pitting"), ("Y_NT", "F", "bending")
     for failure, life, safe, (of_life, letter, name) in zip(failures, lives, required, names, strict=True):
         allowed = failure.curve.at(failure.cycles)
-        found |= {
+        results |= {
             of_life: life.at(failure.cycles),
             f"sigma_{letter}": failure.stress,
             f"sigma_{letter}G": allowed,
@@ -200,7 +200,7 @@ def _failures_by_name(
             f"damage_{name}": failure.damage,
             f"life_{name}": failure.life,
         }
-    return found
+    return results
 
 
 def life_bins(
@@ -242,9 +242,9 @@ def as_life(life: float, unlimited: bool) -> dict[str, Any]:
     return {"life": life} | ({"life_unlimited": True} if unlimited else {})
 
 
-def shorter_life(*found: Mapping[str, Any]) -> dict[str, Any]:
+def shorter_life(*failures: Mapping[str, Any]) -> dict[str, Any]:
     """The shorter of the lives that summaries have, see `as_life`."""
-    lives = [(each["life"], bool(each.get("life_unlimited"))) for each in found if "life" in each]
+    lives = [(each["life"], bool(each.get("life_unlimited"))) for each in failures if "life" in each]
     return as_life(*min(lives)) if lives else {}
 
 
@@ -293,7 +293,7 @@ def _root(
 
 def _failure(stress: float, bins: Sequence[Bin], curve: StressCurve, required: float, life: float) -> Failure:
     cycles = sum(one.cycles for one in bins)
-    found, unlimited = life_of(bins, curve, required, life, cycles)
+    endured, unlimited = life_of(bins, curve, required, life, cycles)
     used = min(damage(bins, curve, required), MOST_DAMAGE)
     return Failure(
         stress,
@@ -302,7 +302,7 @@ def _failure(stress: float, bins: Sequence[Bin], curve: StressCurve, required: f
         cycles,
         safety(bins, curve),
         used,
-        found,
+        endured,
         unlimited,
         1.0 if unlimited else used / max(damage(bins, curve, 1.01 * required), used),
     )

@@ -59,8 +59,8 @@ SAFETIES = {
 
 def worst(*safeties: float | None) -> float:
     """The smallest of those that are known; NaN where none is."""
-    known = [value for value in safeties if value is not None and math.isfinite(value)]
-    return min(known, default=math.nan)
+    finite = [value for value in safeties if value is not None and math.isfinite(value)]
+    return min(finite, default=math.nan)
 
 
 def least(value: Any) -> float | None:
@@ -73,14 +73,14 @@ def judged(limits: Mapping[str, float | None], values: Mapping[str, float]) -> d
 
     What has no value, as a safety for which the oil lacks the load stage, is left out.
     """
-    found: dict[str, dict[str, Any]] = {}
+    judgements: dict[str, dict[str, Any]] = {}
     for name, limit in limits.items():
         value = float(values.get(name, math.nan))
         if limit is None or not math.isfinite(value):
             continue
         kept = value >= limit if LIMITS[name].least else value <= limit
-        found[name] = {"value": value, "limit": float(limit), "kept": bool(kept)}
-    return found
+        judgements[name] = {"value": value, "limit": float(limit), "kept": bool(kept)}
+    return judgements
 
 
 def with_unlimited(limits: dict[str, dict[str, Any]], life: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -90,11 +90,11 @@ def with_unlimited(limits: dict[str, dict[str, Any]], life: Mapping[str, Any]) -
     return limits
 
 
-def written_limit(name: str, found: Mapping[str, Any]) -> str:
+def written_limit(name: str, limit: Mapping[str, Any]) -> str:
     """The value of a judged limit as it is written."""
     quantity = LIMITS[name].quantity
     return quantity.written_of(
-        {quantity.name: float(found["value"]), f"{quantity.name}_unlimited": found.get("unlimited")}
+        {quantity.name: float(limit["value"]), f"{quantity.name}_unlimited": limit.get("unlimited")}
     )
 
 
@@ -116,30 +116,30 @@ def over_samples(limits: Mapping[str, Mapping[str, Any]], samples: Mapping[str, 
 
     `samples` has values (n,) by the names of limits, NaN where a sample has none.
     """
-    found: dict[str, Any] = {}
+    scattered: dict[str, Any] = {}
     for name, limit in limits.items():
         values = np.asarray(samples.get(name, ()), dtype=float)
-        found[name] = dict(limit)
+        scattered[name] = dict(limit)
         if np.any(np.isfinite(values)):
-            known = values[np.isfinite(values)]
-            exceeding = known < limit["limit"] if LIMITS[name].least else known > limit["limit"]
+            finite = values[np.isfinite(values)]
+            exceeding = finite < limit["limit"] if LIMITS[name].least else finite > limit["limit"]
             ends = {end: float(value) for end, value in scatter(values).items() if end != "median"}
-            found[name] |= ends | {"samples": len(known), "exceed": int(np.sum(exceeding))}
-    return found
+            scattered[name] |= ends | {"samples": len(finite), "exceed": int(np.sum(exceeding))}
+    return scattered
 
 
 def on_limits(summary: Mapping[str, Any]) -> list[tuple[bool, str]]:
     """Whether the limits hold: good or bad, and the sentence; a second one over samples, where there are."""
     limits, samples = summary.get("limits", {}), summary.get("sample_counts", {})
-    exceeded = [LIMITS[name].label for name, found in limits.items() if not found["kept"]]
+    exceeded = [LIMITS[name].label for name, sentences in limits.items() if not sentences["kept"]]
     accurate = " with accurate teeth" if samples else ""
     every = f"All {len(limits)} limits hold" if len(limits) != 1 else "The one limit holds"
-    found = []
+    sentences = []
     if exceeded:
-        found.append((False, f"Limits not kept{accurate}: {'; '.join(exceeded)}."))
+        sentences.append((False, f"Limits not kept{accurate}: {'; '.join(exceeded)}."))
     elif limits:
-        found.append((True, f"{every}{accurate}."))
-    return [*found, *_on_samples(limits, samples)]
+        sentences.append((True, f"{every}{accurate}."))
+    return [*sentences, *_on_samples(limits, samples)]
 
 
 def _on_samples(limits: Mapping[str, Any], samples: Mapping[str, Any]) -> list[tuple[bool, str]]:
@@ -152,13 +152,13 @@ def _on_samples(limits: Mapping[str, Any], samples: Mapping[str, Any]) -> list[t
         lose = "loses" if lost == 1 else "lose"
         parts.append(f"{lost} of {count} samples {lose} contact, from {begins} rpm")
     exceeded = [
-        f"{LIMITS[name].label} ({found['exceed']} of {found['samples']})"
-        for name, found in limits.items()
-        if found.get("exceed")
+        f"{LIMITS[name].label} ({limit['exceed']} of {limit['samples']})"
+        for name, limit in limits.items()
+        if limit.get("exceed")
     ]
     parts += [f"limits not kept: {', '.join(exceeded)}"] if exceeded else []
     if parts:
         return [(False, f"With what is not known varied: {'; '.join(parts)}.")]
-    judged_too = any("exceed" in found for found in limits.values())
+    judged_too = any("exceed" in limit for limit in limits.values())
     both = "keep the limits and contact" if judged_too else "keep contact"
     return [(True, f"With what is not known varied: all {count} samples {both}.")]

@@ -102,11 +102,11 @@ def margins_of(
     temperature, flash = case.lubricant.temperature, float(quantities.get("flash_temperature_max", 0.0))
     if case.lubricant.sheet is None or temperature is None or not flash > 0.0:
         return {}
-    oil, found = float(temperature), dict[str, float]()
+    oil, margins = float(temperature), dict[str, float]()
     strength = strength_of(case.lubricant, oil, materials=case.materials)
     bulk = bulk_of(assembly, quantities, oil)
     if strength.scuffing is not None:
-        found["S_B"] = scuffing.flash_safety(strength.scuffing, bulk + flash, oil)
+        margins["S_B"] = scuffing.flash_safety(strength.scuffing, bulk + flash, oil)
     if strength.specific_film is not None:
         sliding, mean = np.abs(window["sliding_speed"]) / 2.0, np.abs(window["entrainment_speed"])
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -119,5 +119,5 @@ def margins_of(
                 flanks_of(case),
                 oil_of(case.lubricant),
             )
-        found["S_lambda"] = float(np.nanmin(films.specific_film)) / strength.specific_film
-    return found
+        margins["S_lambda"] = float(np.nanmin(films.specific_film)) / strength.specific_film
+    return margins

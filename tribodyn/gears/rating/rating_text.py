@@ -26,7 +26,7 @@ def unit_of(quantity: Quantity) -> str:
 
 def factors_said(settings: RatingTable) -> str:
     """Which load factors are given, and where the others are from."""
-    given = {
+    factors = {
         "K_γ": settings.mesh_load_factor,
         "K_v": settings.dynamic_factor,
         "K_Hβ": settings.face_load_factor,
@@ -34,7 +34,7 @@ def factors_said(settings: RatingTable) -> str:
         "C_R": settings.gear_blank_factor,
     }
     written = [f"K_A = {settings.application_factor:g}"]
-    written += [f"{name} = {value:g} (given)" for name, value in given.items() if value is not None]
+    written += [f"{name} = {value:g} (given)" for name, value in factors.items() if value is not None]
     open_face = "" if settings.face_load_factor else "; K_Hβ by the contact analysis"
     return f"{', '.join(written)}{open_face}."
 
@@ -59,14 +59,14 @@ def ring_said(iso: Mapping[str, Any]) -> list[str]:
     other = next((way for way in ways if f"rho_F_{way}" in iso), None)
     if other is None:
         return []
-    (taken,) = (text for way, text in ways.items() if way != other)
-    found = []
+    (text_of_way,) = (text for way, text in ways.items() if way != other)
+    remarks = []
     for side, rho in iso["rho_F"].items():
         against = iso[f"rho_F_{other}"][side]
         if abs(against / rho - 1.0) > 1e-6:  # of a gear cut by a rack both are the same
             stress, less = (1e-6 * iso[name][side] for name in ("sigma_F0", f"sigma_F0_{other}"))
-            found.append(
+            remarks.append(
                 f"Root of the {side}, internal teeth: ρ_F {1e3 * rho:.2f} mm, σ_F0 {stress:.1f} N/mm² "
-                f"{taken}; {1e3 * against:.2f} mm, {less:.1f} N/mm² {ways[other]} (key ring_root)."
+                f"{text_of_way}; {1e3 * against:.2f} mm, {less:.1f} N/mm² {ways[other]} (key ring_root)."
             )
-    return found
+    return remarks

@@ -17,7 +17,7 @@ def rating_rows(iso: Mapping[str, Any]) -> list[tuple[str, str, str, str]]:
 
     A life without damage has no end: its number is a lower bound.
     """
-    found = []
+    rows = []
     for name in (*_FACTORS, *(quantity.name for quantity in CAPACITY)):
         value, quantity = iso.get(name), QUANTITIES[name]
         if value is None:
@@ -28,5 +28,5 @@ def rating_rows(iso: Mapping[str, Any]) -> list[tuple[str, str, str, str]]:
             "≥ " * (endless.get(side) == 0.0) + quantity.written(float(both[side])) if side in both else ""
             for side in ("pinion", "gear")
         ]
-        found.append((quantity.title, *written, unit_of(quantity)))
-    return found
+        rows.append((quantity.title, *written, unit_of(quantity)))
+    return rows

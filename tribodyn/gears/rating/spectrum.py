@@ -22,41 +22,41 @@ def spectrum_part(capacity: Capacity | None, required: Mapping[str, float]) -> d
     count = len(capacity.gears[0].pitting.bins) if capacity else 0
     if capacity is None or count < 2:
         return {}
-    found: dict[str, Any] = {"duty_number": list(range(1, count + 1)), "duty_n": {}}
+    spectrum: dict[str, Any] = {"duty_number": list(range(1, count + 1)), "duty_n": {}}
     for side, gear in zip(SIDES, capacity.gears, strict=True):
-        found["duty_n"][side] = [one.cycles for one in gear.pitting.bins]
+        spectrum["duty_n"][side] = [one.cycles for one in gear.pitting.bins]
         for name, (stress, share) in _FAILURES.items():
             failure = getattr(gear, name)
-            found.setdefault(stress, {})[side] = [one.stress for one in failure.bins]
-            found.setdefault(share, {})[side] = [
+            spectrum.setdefault(stress, {})[side] = [one.stress for one in failure.bins]
+            spectrum.setdefault(share, {})[side] = [
                 min(damage([one], failure.curve, required[name]), MOST_DAMAGE) for one in failure.bins
             ]
-    return {"spectrum": found}
+    return {"spectrum": spectrum}
 
 
-def spectrum_tables(found: Mapping[str, Any]) -> list[TextTable]:
+def spectrum_tables(spectrum: Mapping[str, Any]) -> list[TextTable]:
     """A table of each gear from `spectrum_part`: duty by duty, and Miner's sum."""
-    if not found:
+    if not spectrum:
         return []
     cycles = QUANTITIES["duty_n"]
     tables = []
     for side in SIDES:
-        heads, columns = ["duty", cycles.symbol], [list(map(str, found["duty_number"]))]
-        columns.append([cycles.written(value) for value in found["duty_n"][side]])
-        sums = ["sum", cycles.written(sum(found["duty_n"][side]))]
+        heads, columns = ["duty", cycles.symbol], [list(map(str, spectrum["duty_number"]))]
+        columns.append([cycles.written(value) for value in spectrum["duty_n"][side]])
+        sums = ["sum", cycles.written(sum(spectrum["duty_n"][side]))]
         for stress, share in _FAILURES.values():
             of_stress, of_share = QUANTITIES[stress], QUANTITIES[share]
             letter = stress[-1]
             heads += [f"{of_stress.symbol} ({unit_of(of_stress)})", f"N_{letter}", of_share.symbol]
-            columns.append([of_stress.written(value) for value in found[stress][side]])
+            columns.append([of_stress.written(value) for value in spectrum[stress][side]])
             columns.append(
                 [
                     cycles.written(n / used) if used > 0.0 else "∞"
-                    for n, used in zip(found["duty_n"][side], found[share][side], strict=True)
+                    for n, used in zip(spectrum["duty_n"][side], spectrum[share][side], strict=True)
                 ]
             )
-            columns.append([of_share.written(value) for value in found[share][side]])
-            sums += ["", "", of_share.written(sum(found[share][side]))]
+            columns.append([of_share.written(value) for value in spectrum[share][side]])
+            sums += ["", "", of_share.written(sum(spectrum[share][side]))]
         rows = [*zip(*columns, strict=True), tuple(sums)]
         tables.append(TextTable(f"Miner's sum of the {side}", tuple(heads), rows))
     return tables

@@ -243,21 +243,21 @@ def path_of(assembly: Assembly) -> ContactPath:
     )
 
 
-def iso_part(case: OiledCase, found: Standard) -> dict[str, Any]:
+def iso_part(case: OiledCase, by_iso: Standard) -> dict[str, Any]:
     """What a program reads of it; temperatures in °C, everything else in SI units."""
-    films, count = found.films, len(POINTS)
-    torque = found.path.pinion_torque(case.operating.gear_torque)
-    power = torque * case.operating.pinion_speed * found.path.sense
+    films, count = by_iso.films, len(POINTS)
+    torque = by_iso.path.pinion_torque(case.operating.gear_torque)
+    power = torque * case.operating.pinion_speed * by_iso.path.sense
     return {
         "theta_M": by_point(np.full(count, films.bulk_temperature - ZERO_CELSIUS), max),
         "mu_m": by_point(np.full(count, films.friction_coefficient), max),
         "h_Y": by_point(films.film_thickness, min),
         "lambda_GF": by_point(films.specific_film, min),
-        "c_prime": found.factors.stiffness.single_pair,
-        "c_gamma_alpha": found.factors.stiffness.mesh,
-        **factors_by_name(found.factors),
-        "H_v": found.losses,
-        "loss": power * films.friction_coefficient * found.losses,
+        "c_prime": by_iso.factors.stiffness.single_pair,
+        "c_gamma_alpha": by_iso.factors.stiffness.mesh,
+        **factors_by_name(by_iso.factors),
+        "H_v": by_iso.losses,
+        "loss": power * films.friction_coefficient * by_iso.losses,
     }
 
 
@@ -280,21 +280,21 @@ def by_point(values: Any, worst: Any) -> dict[str, float]:
     return {"worst": float(worst(named.values())), **named}
 
 
-def margins_by_standard(found: Standard, strength: Strength, oil_temperature: float) -> dict[str, float]:
+def margins_by_standard(by_iso: Standard, strength: Strength, oil_temperature: float) -> dict[str, float]:
     """Temperatures in °C and safeties by the standards, of what the oil has load stages for."""
     margins = {
-        "theta_M_flash": found.flash_bulk - ZERO_CELSIUS,
-        "theta_B": found.flash_contact - ZERO_CELSIUS,
+        "theta_M_flash": by_iso.flash_bulk - ZERO_CELSIUS,
+        "theta_B": by_iso.flash_contact - ZERO_CELSIUS,
     }
-    if found.integral is not None:
-        margins["theta_int"] = found.integral.integral - ZERO_CELSIUS
+    if by_iso.integral is not None:
+        margins["theta_int"] = by_iso.integral.integral - ZERO_CELSIUS
     if strength.scuffing is not None and strength.scuffing_integral is not None:
         margins["theta_S"] = strength.scuffing - ZERO_CELSIUS
         margins["theta_intS"] = strength.scuffing_integral - ZERO_CELSIUS
-        margins["S_B"] = scuffing.flash_safety(strength.scuffing, found.flash_contact, oil_temperature)
-        if found.integral is not None:
-            margins["S_intS"] = scuffing.integral_safety(strength.scuffing_integral, found.integral.integral)
+        margins["S_B"] = scuffing.flash_safety(strength.scuffing, by_iso.flash_contact, oil_temperature)
+        if by_iso.integral is not None:
+            margins["S_intS"] = scuffing.integral_safety(strength.scuffing_integral, by_iso.integral.integral)
     if strength.specific_film is not None:
-        worst = float(np.min(found.films.specific_film))
+        worst = float(np.min(by_iso.films.specific_film))
         margins |= {"lambda_GFP": strength.specific_film, "S_lambda": worst / strength.specific_film}
     return margins

@@ -15,20 +15,20 @@ def metals_of(case: GearCase) -> tuple[Metal, Metal] | None:
 
 def metal_remarks(case: GearCase) -> list[str]:
     """What is taken for the strength of the materials, and where hardness is outside the standard's range."""
-    found = []
+    remarks = []
     for material in dict.fromkeys(case.materials):
         if material.treatment is None:
-            found.append(f"{material.name} has no heat treatment: no safety against pitting and bending.")
+            remarks.append(f"{material.name} has no heat treatment: no safety against pitting and bending.")
             continue
         metal = cast(Metal, metal_of(material))
         origin = "given" if material.contact_stress_limit and material.bending_stress_limit else "ISO 6336-5"
         text = f"Strength of {material.name}, {material.grade}: σ_Hlim {metal.contact_limit * 1e-6:.0f}"
-        found.append(f"{text} and σ_Flim {metal.bending_limit * 1e-6:.0f} N/mm² ({origin}).")
+        remarks.append(f"{text} and σ_Flim {metal.bending_limit * 1e-6:.0f} N/mm² ({origin}).")
         low, high = hardness_range(metal.treatment, cast(Grade, material.grade))
         hardness = material.hardness / VICKERS
         if origin != "given" and not 0.98 * low <= hardness <= 1.02 * high:
-            found.append(
+            remarks.append(
                 f"{material.name}: {hardness:.0f} HV are outside the {low:g} to {high:g} of ISO 6336-5; its "
                 "stress numbers are those of the end of the range."
             )
-    return found
+    return remarks

@@ -66,27 +66,27 @@ class Listener:
 
     def add(self, samples: Evaluated, block: Sampled) -> None:
         """Take in a block of the run and the states that it was made of, of which it has the first."""
-        made: dict[_Channel, np.ndarray] = {}
+        signals: dict[_Channel, np.ndarray] = {}
         for key, channels in self._channels.items():
             for channel in channels:
-                if channel not in made:
+                if channel not in signals:
                     values = np.broadcast_to(self._values(channel, samples, block), samples.size)
-                    made[channel] = values[: len(block.cycles)]
-            whole = np.stack([made[channel] for channel in channels], axis=1)
+                    signals[channel] = values[: len(block.cycles)]
+            whole = np.stack([signals[channel] for channel in channels], axis=1)
             self._samplers[key].add(block.whole["time"], block.whole["reference_angle"], whole)
 
     def _values(self, channel: _Channel, samples: Evaluated, block: Sampled) -> Float[Array, " sample"]:
         kind, at, direction, angle, window = channel
-        known = self._sensible
+        parts = self._sensible
         match kind:
             case "acceleration":
-                return velocity(known.bodies[at], direction, samples)
+                return velocity(parts.bodies[at], direction, samples)
             case "force":
-                return force_on_bearing(known.bearings[at], direction, samples)
+                return force_on_bearing(parts.bearings[at], direction, samples)
             case "encoder":
-                return _encoder(known.bodies[at], samples)
+                return _encoder(parts.bodies[at], samples)
             case "transmission-error":
-                return _padded(block.meshes[known.meshes[at]]["transmission_error_rotational"], samples.size)
+                return _padded(block.meshes[parts.meshes[at]]["transmission_error_rotational"], samples.size)
             case "ring":
                 return _padded(self._ring(at, angle, window, block), samples.size)
             case _ if at == DRIVE:
@@ -94,7 +94,7 @@ class Listener:
             case _ if at == OUTPUT:
                 return output_torque(samples)
             case _:
-                return torque_of_link(known.shafts[at], samples)
+                return torque_of_link(parts.shafts[at], samples)
 
     def _ring(self, stage: str, angle: float, window: str, block: Sampled) -> Float[Array, " sample"]:
         """Forces of a ring's meshes, each weighted by its planet's angle from the sensor."""
@@ -108,8 +108,8 @@ class Listener:
         """The signals so far."""
         if not self._sensors:
             return Sensed()
-        found = tuple(self._signal(one) for one in self._sensors)
-        return Sensed(found, self._sensible.lines, self._sensible.reference)
+        signals = tuple(self._signal(one) for one in self._sensors)
+        return Sensed(signals, self._sensible.lines, self._sensible.reference)
 
     def _signal(self, one: Placed) -> SensorSignal:
         sensor, kind = one.sensor, KINDS[one.sensor.kind]
@@ -123,16 +123,16 @@ class Listener:
             clean = housing_acceleration(self._housing, one.at, inputs, values[:, columns], sensor.rate)
         else:
             clean = np.zeros(len(values))
-        made = {"at": one.at, "filter": sensor.filter, "seed": sensor.seed}
+        settings = {"at": one.at, "filter": sensor.filter, "seed": sensor.seed}
         if kind.directed:
-            made["direction"] = sensor.direction
+            settings["direction"] = sensor.direction
         if sensor.kind == "ring":
-            made |= {"angle": sensor.angle, "window": sensor.window}
+            settings |= {"angle": sensor.angle, "window": sensor.window}
         if sensor.noise:
-            made["noise"] = sensor.noise
+            settings["noise"] = sensor.noise
         for name in ("snr", "bits", "full_scale"):
             if getattr(sensor, name) is not None:
-                made[name] = getattr(sensor, name)
+                settings[name] = getattr(sensor, name)
         about = kind.about.format(at=one.at, direction=sensor.direction)
         return SensorSignal(
             sensor.name,
@@ -143,7 +143,7 @@ class Listener:
             time,
             angle,
             as_measured(clean, sensor),
-            made,
+            settings,
         )
 
 

@@ -59,15 +59,15 @@ def placed(
     `samples` are those of a reference cycle, `cycles` of the run. Raises InputError for a place that is not
     there, a direction that its body does not move in, a rate that the mesh frequency or the run is not for.
     """
-    found = []
+    placed_sensors = []
     for number, sensor in enumerate(sensors):
         key = f"sensor.{number}"
-        found.append(Placed(sensor, _place(key, sensor, housing, sensible)))
-        _check_direction(key, found[-1], sensible, model)
+        placed_sensors.append(Placed(sensor, _place(key, sensor, housing, sensible)))
+        _check_direction(key, placed_sensors[-1], sensible, model)
         _check_rate(key, sensor, sensible, model, samples, cycles)
     if any(sensor.kind == "housing" for sensor in sensors):
         _check_housing(housing, sensible, model)
-    return tuple(found)
+    return tuple(placed_sensors)
 
 
 def _places_of(sensor: SensorData, housing: HousingData, sensible: Sensible) -> Collection[str]:
@@ -87,31 +87,31 @@ def _places_of(sensor: SensorData, housing: HousingData, sensible: Sensible) -> 
 
 
 def _place(key: str, sensor: SensorData, housing: HousingData, sensible: Sensible) -> str:
-    known, what = list(_places_of(sensor, housing, sensible)), KINDS[sensor.kind].place
-    if sensor.at in known:
+    places, what = list(_places_of(sensor, housing, sensible)), KINDS[sensor.kind].place
+    if sensor.at in places:
         return str(sensor.at)
-    if not known:
+    if not places:
         rule = f"needs {what}, and there is none"
         raise InputError(f"{key}.kind", quoted(sensor.kind), rule, "choose another kind of sensor")
     if sensor.at is not None:
-        raise unknown_name(f"{key}.at", sensor.at, known, what.removeprefix("a ").removeprefix("an "))
-    if len(known) > 1:
+        raise unknown_name(f"{key}.at", sensor.at, places, what.removeprefix("a ").removeprefix("an "))
+    if len(places) > 1:
         rule = f"missing: the name of {what}"
-        raise InputError(f"{key}.at", None, rule, f"name one of {', '.join(known)}")
-    return known[0]
+        raise InputError(f"{key}.at", None, rule, f"name one of {', '.join(places)}")
+    return places[0]
 
 
-def _check_direction(key: str, found: Placed, sensible: Sensible, model: Model) -> None:
-    sensor, layout = found.sensor, model.layout
+def _check_direction(key: str, placed: Placed, sensible: Sensible, model: Model) -> None:
+    sensor, layout = placed.sensor, model.layout
     if sensor.kind not in ("acceleration", "force"):
         return
-    body = sensible.bodies[found.at]
+    body = sensible.bodies[placed.at]
     moves = 3 if body < layout.spatial else 2 if body < layout.planar else 0
     if moves == 0:
         remedy = "give it a bearing, or use an encoder"
-        raise InputError(f"{key}.at", quoted(found.at), "only turns: no bearing holds it", remedy)
+        raise InputError(f"{key}.at", quoted(placed.at), "only turns: no bearing holds it", remedy)
     if DIRECTIONS[sensor.direction] >= moves:
-        rule = f"{found.at} moves in x and y alone"
+        rule = f"{placed.at} moves in x and y alone"
         raise InputError(f"{key}.direction", quoted(sensor.direction), rule, 'use "x" or "y"')
 
 

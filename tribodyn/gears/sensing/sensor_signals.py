@@ -43,7 +43,7 @@ def listen(cases: Sequence[Heard], workers: int | None = None) -> list[Sensed | 
 
     What a case gives does not depend on those beside it.
     """
-    found: list[Sensed | str] = [""] * len(cases)
+    results: list[Sensed | str] = [""] * len(cases)
     groups: dict[tuple[Any, ...], list[int]] = {}
     for i, case in enumerate(cases):
         solver = case.solver
@@ -52,8 +52,8 @@ def listen(cases: Sequence[Heard], workers: int | None = None) -> list[Sensed | 
     for (*_, rtol, method, max_steps), places in groups.items():
         how = {"rtol": rtol, "method": method, "max_steps": max_steps, "workers": workers}
         for place, result in zip(places, _listen([cases[i] for i in places], how), strict=True):
-            found[place] = result
-    return found
+            results[place] = result
+    return results
 
 
 def _listen(cases: Sequence[Heard], how: dict[str, Any]) -> list[Sensed | str]:

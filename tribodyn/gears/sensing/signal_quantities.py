@@ -33,25 +33,25 @@ def signal_quantities(sensed: Sensed) -> dict[str, Any]:
 
 
 def _of_shafts(signal: SensorSignal, lines: tuple[SignalLine, ...]) -> dict[str, Any]:
-    found = {}
+    shafts = {}
     for shaft, teeth in toothed_shafts(lines):
         if turns_of(signal, shaft) >= FEWEST_TURNS:
             average = synchronous_average(signal.values, signal.turns * shaft.order)
-            known = of_average(average.values, teeth) | {"turns": average.turns}
-            found[shaft.name] = {name: value for name, value in known.items() if isfinite(value)}
-    return {SHAFTS: found} if found else {}
+            indicators = of_average(average.values, teeth) | {"turns": average.turns}
+            shafts[shaft.name] = {name: value for name, value in indicators.items() if isfinite(value)}
+    return {SHAFTS: shafts} if shafts else {}
 
 
 def toothed_shafts(lines: tuple[SignalLine, ...]) -> list[tuple[SignalLine, list[int]]]:
     """Shafts with the orders of the meshes of their gears, where these are whole."""
     meshes = [line for line in lines if line.sort == MESH]
-    found = []
+    toothed = []
     for shaft in lines:
         if shaft.sort == SHAFT:
             teeth = sorted({shaft.teeth_of(mesh) for mesh in meshes} - {0})
             if teeth:
-                found.append((shaft, teeth))
-    return found
+                toothed.append((shaft, teeth))
+    return toothed
 
 
 def turns_of(signal: SensorSignal, shaft: SignalLine) -> float:
@@ -61,10 +61,10 @@ def turns_of(signal: SensorSignal, shaft: SignalLine) -> float:
 
 def sensor_tables(record: Record) -> list[TextTable]:
     """Tables of the sensors of a record; none where it has none."""
-    known = record.summary.get(SENSORS)
-    if not isinstance(known, Mapping):
+    sensors = record.summary.get(SENSORS)
+    if not isinstance(sensors, Mapping):
         return []
-    signals = {name: own for name, own in known.items() if isinstance(own, Mapping)}
+    signals = {name: numbers for name, numbers in sensors.items() if isinstance(numbers, Mapping)}
     kinds = {str(table.get("name")): str(table.get("kind")) for table in record.scenario.get(SENSOR, ())}
     ordered = [name for name in kinds if name in signals] or list(signals)
     rows = [
@@ -74,9 +74,9 @@ def sensor_tables(record: Record) -> list[TextTable]:
     head = ("sensor", "kind", *(quantity.label for quantity in OF_SIGNAL))
     tables = [TextTable("Sensors, in SI units", head, rows)]
     shafts = [
-        [name, shaft, *(_written(own, quantity) for quantity in OF_SHAFT)]
+        [name, shaft, *(_written(numbers, quantity) for quantity in OF_SHAFT)]
         for name in ordered
-        for shaft, own in _shafts(signals[name])
+        for shaft, numbers in _shafts(signals[name])
     ]
     if shafts:
         head = ("sensor", "shaft", *(quantity.label for quantity in OF_SHAFT))
@@ -89,11 +89,11 @@ SENSOR = "sensor"
 
 
 def _shafts(signal: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    found = signal.get(SHAFTS)
-    if isinstance(found, Mapping):
-        yield from ((str(name), own) for name, own in found.items() if isinstance(own, Mapping))
+    shafts = signal.get(SHAFTS)
+    if isinstance(shafts, Mapping):
+        yield from ((str(name), numbers) for name, numbers in shafts.items() if isinstance(numbers, Mapping))
 
 
-def _written(own: Mapping[str, Any], quantity: Any) -> str:
-    value = own.get(quantity.name)
+def _written(numbers: Mapping[str, Any], quantity: Any) -> str:
+    value = numbers.get(quantity.name)
     return "–" if value is None else quantity.written(value)

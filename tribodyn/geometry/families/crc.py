@@ -161,18 +161,18 @@ def _reach_in_ring(drive: Drive, ring: Side) -> Any:
     way, mate = (1.0, drive.pinion) if ring == "gear" else (-1.0, drive.gear)
     r_ring, cutter = reference_radius(drive, ring), body_of(drive, ring)
     r_mate = drive.module * mate.teeth / 2
-    own = drive.module * cutter.cutter_teeth / 2
+    cutter_radius = drive.module * cutter.cutter_teeth / 2
     height = cutter.dedendum if cutter.cutter_addendum is None else cutter.cutter_addendum
-    found = []
+    reaches = []
     for circle, tip in (
         (r_mate, tip_radius(drive, "pinion" if ring == "gear" else "gear")),
-        (own, own + drive.module * height),
+        (cutter_radius, cutter_radius + drive.module * height),
     ):
         arm, power = circle * sin(drive.pressure_angle), tip**2 - circle**2
         bend = 1 - 2 * (1 - r_mate / r_ring) / 3 * circle / r_mate
         # where the series ends before the tip the path may still reach it
-        found.append(power / (arm + sqrt(maximum(arm**2 + bend * power, (0.1 * arm) ** 2))))
-    return way * maximum(*found)
+        reaches.append(power / (arm + sqrt(maximum(arm**2 + bend * power, (0.1 * arm) ** 2))))
+    return way * maximum(*reaches)
 
 
 def check(drive: Drive) -> None:

@@ -195,10 +195,10 @@ def check(drive: Drive) -> None:
         refuse(int(back[0]) + 1, "the path turns back towards the pitch point", "correct the points")
     for half in (slice(0, at), slice(at + 1, None)):
         near = np.argsort(np.abs(r[half]))[:3]
-        own = np.polyval(np.polyfit(r[half][near], angle[half][near], 2), 0.0)
-        if abs(own - drive.pressure_angle) > _ANGLE_TOLERANCE:
+        fitted = np.polyval(np.polyfit(r[half][near], angle[half][near], 2), 0.0)
+        if abs(fitted - drive.pressure_angle) > _ANGLE_TOLERANCE:
             shown, rule = f"{np.degrees(drive.pressure_angle):.4g}°", "does not go on from the path's points"
-            raise InputError("drive.pressure_angle", shown, rule, f'use about "{np.degrees(own):.4g} deg"')
+            raise InputError("drive.pressure_angle", shown, rule, f'use about "{np.degrees(fitted):.4g} deg"')
     require_reach(drive, working_path(drive), float(r[0]), float(r[-1]), _advice)
 
 

@@ -43,9 +43,9 @@ class PowerRackPath(NamedTuple):
     def _cotangent(self, y: PerContact) -> tuple[PerContact, PerContact]:
         """Cotangent of α at the height y ≥ 0, and its derivative by y."""
         inside = 1.0 * (y < self.module)
-        left = self._left(y)
-        cotangent = self.exponent * self.form * left**self._power
-        return cotangent, -inside * self._power * cotangent / (left * self.form * self.module)
+        height_left = self._left(y)
+        cotangent = self.exponent * self.form * height_left**self._power
+        return cotangent, -inside * self._power * cotangent / (height_left * self.form * self.module)
 
     @property
     def _power(self) -> Any:
@@ -95,12 +95,12 @@ def _step_to_height(y: PerContact, path: PowerRackPath, distance: PerContact) ->
     """Euler's step, to the parabola's root: Newton's would only halve the way close to the maximum of r."""
     xp = namespace(y, path, distance)
     y = where(y < path.module, y, path.module * (1 - 1e-15))  # the mean of `minimum` may lie beyond
-    left = path.form * path.module - y
+    height_left = path.form * path.module - y
     cotangent, rate = path._cotangent(y)
     stretch = (1 + cotangent**2) ** 0.5
     product = cotangent * rate  # ½ d(cot² α)/dy
     first = product / stretch
-    second = product * (1 - 2 * path._power) / (left * stretch) - first**2 / stretch
+    second = product * (1 - 2 * path._power) / (height_left * stretch) - first**2 / stretch
     residual = y * stretch - distance
     slope, bend = stretch + y * first, 2 * first + y * second
     return y - 2 * residual / (slope + xp.sqrt(maximum(slope**2 - 2 * residual * bend, 0.0)))

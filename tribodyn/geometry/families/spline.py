@@ -107,8 +107,8 @@ def check(drive: Drive) -> None:
             f"between or beyond the knots the spline's pressure angle is {np.degrees(angle[worst]):.3g}° "
             f"at {1e3 * between[worst]:.3g} mm"
         )
-        given = f"{np.degrees(shape.angles[place]):.4g} deg"
-        raise InputError(f"drive.shape.angles.{place}", given, rule, "let the values change less")
+        shown = f"{np.degrees(shape.angles[place]):.4g} deg"
+        raise InputError(f"drive.shape.angles.{place}", shown, rule, "let the values change less")
     require_reach(drive, path, -_REACH * drive.module, _REACH * drive.module, _advice)
 
 

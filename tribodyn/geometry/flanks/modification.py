@@ -290,5 +290,5 @@ def summed(first: Table, second: Table) -> Table:
 
 
 def _with_pitch(flank: FlankModification, pitch: Float[Array, " tooth"]) -> FlankModification:
-    given = np.asarray(flank.pitch_error) if len(flank.pitch_error) else 0.0
-    return flank._replace(pitch_error=tuple(float(error) for error in pitch + given))
+    pitch_error = np.asarray(flank.pitch_error) if len(flank.pitch_error) else 0.0
+    return flank._replace(pitch_error=tuple(float(error) for error in pitch + pitch_error))

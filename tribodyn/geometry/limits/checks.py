@@ -76,23 +76,23 @@ def check_path(family: Family, drive: Drive) -> None:
 def _check_centre_distance(family: Family, drive: Drive) -> None:
     if drive.centre_distance is None:
         return
-    given = drive.centre_distance
+    length = drive.centre_distance
     outwards = drive.pinion.teeth + drive.gear.teeth > 0  # that of an internal pair is negative
-    require("centre_distance", given, given > 0 if outwards else given < 0, "must be greater than zero")
+    require("centre_distance", length, length > 0 if outwards else length < 0, "must be greater than zero")
     if not family.involute:
         rule = f"teeth of the family {family.name} are conjugate at one centre distance only"
         remedy = "leave centre_distance out, or use involutes, which mesh at any"
-        raise InputError("drive.centre_distance", millimetres(given), rule, remedy)
+        raise InputError("drive.centre_distance", millimetres(length), rule, remedy)
 
 
 def _check_backlash(assembly: Assembly) -> None:
     overlap = -normal_backlash(assembly)
     if not overlap <= _ROUNDING * assembly.drive.module:
         thicker = max(SIDES, key=lambda side: body_of(assembly.drive, side).thickness_allowance)
-        given = _written(assembly, thicker).thickness_allowance
+        allowance = _written(assembly, thicker).thickness_allowance
         raise InputError(
             f"drive.{thicker}.thickness_allowance",
-            f"{1e6 * given:.4g} um",
+            f"{1e6 * allowance:.4g} um",
             f"the teeth overlap by {1e6 * overlap:.4g} um along the normal",
             "use a negative allowance" + (" or a larger centre distance" if assembly.family.involute else ""),
         )
@@ -220,9 +220,9 @@ def _check_rounding(assembly: Assembly, side: Side) -> None:
     outer = tip_circle_radius(drive, side)
     half = outer * thickness_half_angle(assembly.tooth(side), outer)
     if body.tip_break / cosine > half:
-        rule, given = "the rounded edges of the tip meet", body.tip_break / (1.0 - sine)
+        rule, height = "the rounded edges of the tip meet", body.tip_break / (1.0 - sine)
         remedy = f"use at most {millimetres(half * cosine / (1.0 - sine))}"
-        raise InputError(f"drive.{side}.tip_rounding", millimetres(given), rule, remedy)
+        raise InputError(f"drive.{side}.tip_rounding", millimetres(height), rule, remedy)
 
 
 def _tip_key(assembly: Assembly, side: Side) -> tuple[str, Any]:
@@ -234,14 +234,14 @@ def _tip_key(assembly: Assembly, side: Side) -> tuple[str, Any]:
 
 
 def _refuse_tip(
-    assembly: Assembly, side: Side, rule: str, holds: Callable[[Assembly], bool], otherwise: str = ""
+    assembly: Assembly, side: Side, rule: str, is_valid: Callable[[Assembly], bool], otherwise: str = ""
 ) -> None:
     """Refuse a tip circle that is too large, naming the largest usable one above the form circle."""
     body = _written(assembly, side)
 
     def usable_at(size: float) -> bool:
         changes = {"addendum": size} if body.tip_radius is None else {"tip_radius": size / 1e3}
-        return holds(_changed(assembly, side, **changes))
+        return is_valid(_changed(assembly, side, **changes))
 
     if body.tip_radius is None:
         usable, unit = boundary(usable_at, body.addendum, 0.0), ""
@@ -297,7 +297,7 @@ def _check_contact_ratio(assembly: Assembly) -> None:
         raise InputError(*_tip_key(assembly, "pinion"), rule, remedy)
 
 
-def _usable_centre_distance(assembly: Assembly, given: float) -> float | None:
+def _usable_centre_distance(assembly: Assembly, wanted: float) -> float | None:
     """Largest centre distance, mm, at which a pair touches before the last one parts; None: not by that."""
     drive = assembly.drive
 
@@ -307,7 +307,7 @@ def _usable_centre_distance(assembly: Assembly, given: float) -> float | None:
         return bool(moved.contact_ratio + overlap_ratio(moved) >= 1)
 
     reference = 0.5e3 * float(drive.module * (drive.pinion.teeth + drive.gear.teeth))
-    return boundary(carries, 1e3 * given, reference)
+    return boundary(carries, 1e3 * wanted, reference)
 
 
 def _interference(assembly: Assembly, side: Side) -> str:

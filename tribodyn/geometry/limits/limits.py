@@ -36,21 +36,21 @@ def distances(assembly: Assembly) -> dict[str, Any]:
     at most 0.005 modules below the sharp one.
     """
     with np.errstate(all="ignore"):
-        found = {}
+        margins = {}
         for side in SIDES:
             of_body = _of_body(assembly, side)
-            found |= {f"{name}_{side}": of_body[name] for name in _OF_BODY}
-        found["contact_ratio_above_1"] = assembly.contact_ratio + overlap_ratio(assembly) - 1.0
-        found |= internal_distances(assembly)
-    return {name: found[name] for name in LIMITS}
+            margins |= {f"{name}_{side}": of_body[name] for name in _OF_BODY}
+        margins["contact_ratio_above_1"] = assembly.contact_ratio + overlap_ratio(assembly) - 1.0
+        margins |= internal_distances(assembly)
+    return {name: margins[name] for name in LIMITS}
 
 
 def plain_distances(assembly: Assembly) -> dict[str, float]:
     """Distances of a pair of plain numbers; `beyond` where one does not exist."""
-    found = {name: float(value) for name, value in distances(assembly).items()}
+    margins = {name: float(value) for name, value in distances(assembly).items()}
     return {
         name: value if np.isfinite(value) else beyond(LIMITS[name], assembly.drive)
-        for name, value in found.items()
+        for name, value in margins.items()
     }
 
 

@@ -52,10 +52,10 @@ def require_reach(drive: Drive, path: Path, lower: float, upper: float, advice: 
         rounding = drive.module * body.fillet_radius
         depth = body.dedendum if body.cutter_addendum is None else body.cutter_addendum
         below = drive.module * depth - rounding
-        left = (distance - rounding) * sine - below
+        margin = (distance - rounding) * sine - below
         if body.cutter_teeth is not None:  # the same of a cutter, see `tooth.tangent_distance`
-            left += ((distance - rounding) ** 2 - below**2) / (drive.module * body.cutter_teeth)
-        if not (left >= 0).any():
+            margin += ((distance - rounding) ** 2 - below**2) / (drive.module * body.cutter_teeth)
+        if not (margin >= 0).any():
             height = millimetres(np.nanmax(distance * sine))
             tool = "rack" if body.cutter_teeth is None else "cutter"
             rule = f"the path ends {height} from the pitch line, before the flank of the {side}'s {tool}"
@@ -119,11 +119,11 @@ def broken_internal_sizes(side: Side, teeth: float, mate: float, cutter: float) 
         )
 
 
-def require(key: str, value: Any, holds: bool, rule: str) -> None:
+def require(key: str, value: Any, valid: bool, rule: str) -> None:
     """Refuse a number of the drive that is not finite or breaks a rule."""
     if not math.isfinite(value):
         raise InputError(f"drive.{key}", value, "must be a finite number")
-    if not holds:
+    if not valid:
         name = key.rpartition(".")[2]
         shown = f"{math.degrees(value):.4g}°" if name == "pressure_angle" else value
         raise InputError(f"drive.{key}", millimetres(value) if name in _LENGTHS else shown, rule)
@@ -134,17 +134,17 @@ def replaced(drive: Drive, side: Side, **changes: Any) -> Drive:
     return drive._replace(**{side: body_of(drive, side)._replace(**changes)})
 
 
-def boundary(holds: Callable[[float], bool], bad: float, good: float) -> float | None:
+def boundary(is_valid: Callable[[float], bool], bad: float, good: float) -> float | None:
     """Find the value nearest to `bad` that obeys a rule, rounded to 0.001 on the safe side.
 
     None if `good` breaks the rule too.
     """
-    if not holds(good):
+    if not is_valid(good):
         return None
     sign = 1 if good > bad else -1
     for _ in range(30):
         middle = (bad + good) / 2
-        bad, good = (bad, middle) if holds(middle) else (middle, good)
+        bad, good = (bad, middle) if is_valid(middle) else (middle, good)
     return sign * math.ceil(sign * good * 1000) / 1000
 
 

@@ -159,9 +159,9 @@ def in_force(scenario: Any) -> Any:
     if not duties:
         return scenario
     number = scenario.operating.duty
-    found = _with(scenario, number or 1)
-    kept = found.operating.model_copy(update={"duty": number})
-    return found.model_copy(update={"operating": kept})
+    of_duty = _with(scenario, number or 1)
+    kept = of_duty.operating.model_copy(update={"duty": number})
+    return of_duty.model_copy(update={"operating": kept})
 
 
 def broken_spectrum_rules(scenario: Any) -> Iterator[InputError]:
@@ -187,16 +187,16 @@ def unnamed_duty(scenario: Any) -> Iterator[InputError]:
 def of_duty(error: InputError, number: int, scenario: Any) -> InputError:
     """Name a duty as where a mistake stands that the scenario with it has in [operating]."""
     table, _, name = error.key.partition(".")
-    known = fields_of(type(scenario.duty[number - 1]))
-    key = f"duty.{number - 1}.{name}" if table == "operating" and name in known else error.key
+    fields = fields_of(type(scenario.duty[number - 1]))
+    key = f"duty.{number - 1}.{name}" if table == "operating" and name in fields else error.key
     return InputError(key, error.value, error.rule, error.remedy, error.file)
 
 
 def _with(scenario: Any, number: int) -> Any:
     """The scenario with the keys of one of its duties in [operating]; its duties say all of theirs."""
     duties = tuple(_completed(duty, scenario.operating) for duty in scenario.duty)
-    taken = *SPEEDS, *LOADS, "oil_temperature"
-    keys = {name for name in taken if hasattr(scenario.operating, name)}
+    names = *SPEEDS, *LOADS, "oil_temperature"
+    keys = {name for name in names if hasattr(scenario.operating, name)}
     update = {name: getattr(duties[number - 1], name) for name in keys} | {"duty": number}
     operating = scenario.operating.model_copy(update=update)
     return scenario.model_copy(update={"operating": operating, "duty": duties})

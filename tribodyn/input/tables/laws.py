@@ -39,9 +39,9 @@ class LawTable(Table, extra="allow"):
         choice["enum"] = [AUTO, *cls.laws] if cls.automatic else [*cls.laws]
         for name, law in cls.laws.items():
             for key in law.keys:
-                own = key_schema(key)
-                own["description"] = f'of law = "{name}": {own["description"]}'
-                part["properties"].setdefault(key.name, own)
+                schema_of_key = key_schema(key)
+                schema_of_key["description"] = f'of law = "{name}": {schema_of_key["description"]}'
+                part["properties"].setdefault(key.name, schema_of_key)
         part["additionalProperties"] = False
         return part
 
@@ -99,12 +99,12 @@ def law_errors(table: LawTable) -> list[InputError]:
     if table.law is None:
         rule = "is a key of a film law, and none is named"
         remedy = f"name it, such as law = {quoted(next(iter(table.laws)))}"
-        given = table.own.items()
-        return [InputError(f"{table.place}.{key}", quoted(value), rule, remedy) for key, value in given]
+        values = table.own.items()
+        return [InputError(f"{table.place}.{key}", quoted(value), rule, remedy) for key, value in values]
     if table.law == AUTO and table.automatic:
         rule, remedy = f'contradicts law = "{AUTO}", which takes none', "name the law whose key it is"
-        given = table.own.items()
-        return [InputError(f"{table.place}.{key}", quoted(value), rule, remedy) for key, value in given]
+        values = table.own.items()
+        return [InputError(f"{table.place}.{key}", quoted(value), rule, remedy) for key, value in values]
     try:
         law = table.laws[table.law]
     except InputError as error:
@@ -120,12 +120,14 @@ def _owner(table: LawTable, law: Any) -> Owner:
 def _explained(error: InputError, table: LawTable, law: Any) -> InputError:
     """Say of a missing key that the law needs it, and of another law's key that this one has none."""
     key = error.key.removeprefix(f"{table.place}.")
-    known = {parameter.name: parameter for parameter in law.keys}
+    keys = {parameter.name: parameter for parameter in law.keys}
     if key not in table.own:
-        rule = f'missing: law = "{law.name}" needs it, {known[key].about}'
+        rule = f'missing: law = "{law.name}" needs it, {keys[key].about}'
         return InputError(error.key, None, rule, error.remedy)
-    others = [name for name, other in table.laws.items() if any(key == own.name for own in other.keys)]
-    if key not in known and others:
+    others = [
+        name for name, other in table.laws.items() if any(key == own_key.name for own_key in other.keys)
+    ]
+    if key not in keys and others:
         rule = f'contradicts law = "{law.name}"; it is a key of law = {", ".join(map(quoted, others))}'
         return InputError(error.key, error.value, rule, f"leave {key} out")
     return error

@@ -141,18 +141,18 @@ def temperature_of(table: TemperatureTable | None) -> TemperatureData | None:
     if table is None or table.model == "oil":
         return None
     values = table.model_dump(exclude={"model"})
-    given = {name: value for name, value in values.items() if value is not None}
-    return TemperatureData(table.model, **given)
+    settings = {name: value for name, value in values.items() if value is not None}
+    return TemperatureData(table.model, **settings)
 
 
 def broken_temperature_rules(table: TemperatureTable | None, lubricant: Lubricant) -> Iterator[InputError]:
     """Go through the rules that the table breaks by itself or with the lubricant."""
     if table is None:
         return
-    given = [name for name in _NETWORK[:-1] if getattr(table, name) is not None]
-    given += [name for name, default in _ESTIMATE.items() if getattr(table, name) != default]
+    present = [name for name in _NETWORK[:-1] if getattr(table, name) is not None]
+    present += [name for name, default in _ESTIMATE.items() if getattr(table, name) != default]
     allowed = {"oil": (), "iso": tuple(_ESTIMATE), "network": _NETWORK}[table.model]
-    for name in given:
+    for name in present:
         if name not in allowed:
             choice = "iso" if name in _ESTIMATE else "network"
             rule = f'has no effect with model = "{table.model}"'

@@ -38,10 +38,10 @@ def independent_of(typingctx, numbers, store):
     def emit(context, builder, sig, values):
         duals = []
         items = zip(tuple(numbers), cgutils.unpack_tuple(builder, values[0]), strict=True)
-        for place, (given, number) in enumerate(items):
+        for place, (source, number) in enumerate(items):
             unit = [float(place == direction) for direction in range(kind.directions)]
             blocks = [ir.Constant(SLOPES, unit[i : i + BLOCK]) for i in range(0, len(unit), BLOCK)]
-            value, _ = taken_apart(context, builder, given, number)
+            value, _ = taken_apart(context, builder, source, number)
             duals.append(made(context, builder, kind, value, blocks))
         return context.make_tuple(builder, several, duals)
 
@@ -56,8 +56,8 @@ def taken_through(typingctx, results, numbers):
 
     def emit(context, builder, sig, values):
         inner = [
-            taken_apart(context, builder, wide, context.cast(builder, number, given, wide))[1]
-            for given, number in zip(tuple(numbers), cgutils.unpack_tuple(builder, values[1]), strict=True)
+            taken_apart(context, builder, wide, context.cast(builder, number, source, wide))[1]
+            for source, number in zip(tuple(numbers), cgutils.unpack_tuple(builder, values[1]), strict=True)
         ]
         duals = []
         for kind, result in zip(kinds, cgutils.unpack_tuple(builder, values[0]), strict=True):

@@ -93,8 +93,8 @@ def each(operation, a, b):
 
 @lower_cast(types.Float, DualType)
 @lower_cast(types.Integer, DualType)
-def _number_to_dual(context, builder, given, wanted, value):
-    number = context.cast(builder, value, given, types.float64)
+def _number_to_dual(context, builder, source_type, wanted, value):
+    number = context.cast(builder, value, source_type, types.float64)
     return made(context, builder, wanted, number, [ZEROS] * (wanted.directions // BLOCK))
 
 

@@ -81,22 +81,22 @@ def broadcast(builder, value, width=WIDTH):
 
 @lower_cast(types.Float, LANES)
 @lower_cast(types.Integer, LANES)
-def _number_to_lanes(context, builder, given, wanted, value):
-    return broadcast(builder, context.cast(builder, value, given, types.float64))
+def _number_to_lanes(context, builder, source_type, wanted, value):
+    return broadcast(builder, context.cast(builder, value, source_type, types.float64))
 
 
 @lower_cast(types.Integer, INDICES)
-def _integer_to_indices(context, builder, given, wanted, value):
-    return broadcast(builder, context.cast(builder, value, given, types.int64))
+def _integer_to_indices(context, builder, source_type, wanted, value):
+    return broadcast(builder, context.cast(builder, value, source_type, types.int64))
 
 
 @lower_cast(INDICES, LANES)
-def _indices_to_lanes(context, builder, given, wanted, value):
+def _indices_to_lanes(context, builder, source_type, wanted, value):
     return builder.sitofp(value, FLOATS)
 
 
 @lower_cast(types.Boolean, MASK)
-def _truth_to_mask(context, builder, given, wanted, value):
+def _truth_to_mask(context, builder, source_type, wanted, value):
     return broadcast(builder, builder.trunc(value, BIT))
 
 
@@ -245,9 +245,9 @@ def to_indices(typingctx, x):
 
     def emit(context, builder, signature, values):
         (x,) = values
-        known = builder.fcmp_ordered("ord", x, x)
+        ordered = builder.fcmp_ordered("ord", x, x)
         zero = ir.Constant(FLOATS, [0.0] * WIDTH)
-        return builder.fptosi(builder.select(known, x, zero), INTEGERS)
+        return builder.fptosi(builder.select(ordered, x, zero), INTEGERS)
 
     return INDICES(LANES), emit
 

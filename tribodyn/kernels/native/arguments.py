@@ -87,9 +87,9 @@ def _parts(function: Callable[..., Any]) -> Iterator[bytes]:
             waiting += [value.__defaults__, *(value.__kwdefaults__ or {}).items()]
             waiting += [_inside(cell) for cell in value.__closure__ or ()]
             names = sorted(_names(value.__code__))
-            known = [(name, value.__globals__[name]) for name in names if name in value.__globals__]
-            modules = [other for _, other in known if isinstance(other, ModuleType)]
-            waiting += known
+            referenced = [(name, value.__globals__[name]) for name in names if name in value.__globals__]
+            modules = [other for _, other in referenced if isinstance(other, ModuleType)]
+            waiting += referenced
             waiting += [(name, getattr(of, name)) for of in modules for name in names if hasattr(of, name)]
         elif isinstance(value, ModuleType):
             if getattr(value, "__file__", None):  # `math` and others of the interpreter have none
@@ -309,11 +309,11 @@ def _packed_array(array: np.ndarray) -> PackedValue:
     if array.ndim == 0:
         return packed(array.item())
     contiguous = array.flags.c_contiguous
-    described = (array.ctypes.data, *array.shape)
+    numbers = (array.ctypes.data, *array.shape)
     if not contiguous:
-        described += array.strides
+        numbers += array.strides
     layout = _array(array.dtype.str, array.ndim, "C" if contiguous else "A")
-    return PackedValue(layout, struct.pack(f"={len(described)}q", *described), array)
+    return PackedValue(layout, struct.pack(f"={len(numbers)}q", *numbers), array)
 
 
 def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> PackedValue:

@@ -189,16 +189,16 @@ def explained(error: NumbaError, layout: RecordLayout) -> Exception:
     )
 
 
-def _c_function(target, described, symbol):
+def _c_function(target, descriptor, symbol):
     """The entry as a C function of two pointers: what numba compiles has a convention of its own."""
     module = target.create_module("entry")
-    kind = target.call_conv.get_function_type(described.restype, described.argtypes)
-    inner = ir.Function(module, kind, described.llvm_func_name)
-    places = [target.get_value_type(argument) for argument in described.argtypes]
+    kind = target.call_conv.get_function_type(descriptor.restype, descriptor.argtypes)
+    inner = ir.Function(module, kind, descriptor.llvm_func_name)
+    places = [target.get_value_type(argument) for argument in descriptor.argtypes]
     function = ir.Function(module, ir.FunctionType(ir.IntType(32), places), symbol)
     builder = ir.IRBuilder(function.append_basic_block())
     status, _ = target.call_conv.call_function(
-        builder, inner, described.restype, described.argtypes, function.args
+        builder, inner, descriptor.restype, descriptor.argtypes, function.args
     )
     builder.ret(builder.zext(status.is_error, ir.IntType(32)))
     return module

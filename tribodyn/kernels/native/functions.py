@@ -32,16 +32,16 @@ def _numeric(function: Any, arguments: Any, result: Any = types.float64) -> Any:
     )
 
 
-def _same_as(function, known, *arguments, result: Any = types.float64):
+def _same_as(function, equivalent, *arguments, result: Any = types.float64):
     """Compile a function to what numba makes of one that it knows."""
 
     @_numeric(function, arguments, result)
     def _(context, builder, sig, args):
         of_floats = signature(result, *sig.args)
         context.typing_context.resolve_function_type(
-            context.typing_context.resolve_value_type(known), sig.args, {}
+            context.typing_context.resolve_value_type(equivalent), sig.args, {}
         )
-        return context.get_function(known, of_floats)(builder, args)
+        return context.get_function(equivalent, of_floats)(builder, args)
 
 
 for _name in ("sqrt", "exp", "log", "sin", "cos", "tan"):

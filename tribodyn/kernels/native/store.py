@@ -78,7 +78,7 @@ def _target() -> Target:
     features = os.environ.get("NUMBA_CPU_FEATURES")
     if features is None:
         features = "" if processor == "generic" else llvm.get_host_cpu_features().flatten()
-    options = " ".join(os.environ.get(f"NUMBA_{name}", usual) for name, usual in OPTIONS.items())
+    options = " ".join(os.environ.get(f"NUMBA_{name}", default) for name, default in OPTIONS.items())
     return Target(processor, features, options)
 
 
@@ -119,8 +119,8 @@ def _place_of(function: Callable[..., Any], layout: Any) -> tuple[str, str] | No
 def compiled_in(content: bytes) -> Compiled:
     """What a file of the cache holds."""
     head, _, body = content.partition(b"\n")
-    found = json.loads(head)
-    return Compiled(**found | {"target": Target(*found["target"])}, body=body)
+    header = json.loads(head)
+    return Compiled(**header | {"target": Target(*header["target"])}, body=body)
 
 
 def content_of(code: Compiled) -> bytes:

@@ -86,7 +86,7 @@ def couple_slices(
     r = cycle.signed_distance[front]
     loaded = [loaded_tooth(assembly, side, mesh.held) for side in SIDES]
     teeth, even, even_between = _parts(assembly, materials, mesh, loaded, r, slices)
-    own = cycle.compliance[front] - slices * (teeth + even)  # of the contact alone
+    contact_compliance = cycle.compliance[front] - slices * (teeth + even)  # of the contact alone
     uneven = loaded if mesh.held else [under_uneven_load(tooth) for tooth in loaded]
     _, bodies, between = _parts(assembly, materials, mesh, uneven, r, slices)
     arms = normal_arms(cycle)[front]
@@ -121,15 +121,15 @@ def couple_slices(
         teeth,
         bodies,
         even,
-        own,
+        contact_compliance,
         arms,
         share,
         middle,
     )
-    found = by_rows(at_nodes, fields, _ROWS)
+    parts = by_rows(at_nodes, fields, _ROWS)
     whole = {
         name: xp.concatenate([part, getattr(cycle, name)[0, :, fronts:]], axis=1)[None]
-        for name, part in zip(("compliance", "gap"), found, strict=True)
+        for name, part in zip(("compliance", "gap"), parts, strict=True)
     }
     return cycle._replace(**whole)
 
@@ -245,7 +245,7 @@ def _by_slots(between: Float[Array, "node slice pair pair"], slot: Any) -> tuple
 
 def _lumped(
     matrix: Float[Array, "node slot slot"],
-    own: Float[Array, "node slot"],
+    local: Float[Array, "node slot"],
     arms: Float[Array, "node slot"],
     gap: Float[Array, "node slot"],
     share: Float[Array, "node slot"],
@@ -258,22 +258,22 @@ def _lumped(
     """
     weighed = matrix * share[:, None, :]
     mean = force / (share * arms).sum(axis=-1, keepdims=True)
-    start = mean + 0.0 * share, np.ones(own.shape)
-    load, active = newton(_touching, start, _STEPS, weighed, own, arms, gap, share, force, hertz, mean)
+    start = mean + 0.0 * share, np.ones(local.shape)
+    load, active = newton(_touching, start, _STEPS, weighed, local, arms, gap, share, force, hertz, mean)
     at = maximum(load, _SMALL * mean)
-    contact = own + 0.9 * hertz * at**-0.1
+    contact = local + 0.9 * hertz * at**-0.1
     turned = _solve(weighed, contact, active, arms[..., None])[..., 0]
     left_over = arms - (weighed @ turned[..., None])[..., 0]
     left_over = within(left_over, _LEAST * arms, (1.0 - _LEAST) * arms)
     compliance = contact * arms / left_over - 0.9 * hertz * at**-0.1
-    reached = (weighed @ load[..., None])[..., 0] + own * load
+    reached = (weighed @ load[..., None])[..., 0] + local * load
     return compliance, gap + reached - compliance * load
 
 
 def _touching(
     state: tuple[Float[Array, "node slot"], Float[Array, "node slot"]],
     weighed: Float[Array, "node slot slot"],
-    own: Float[Array, "node slot"],
+    compliance: Float[Array, "node slot"],
     arms: Float[Array, "node slot"],
     gap: Float[Array, "node slot"],
     share: Float[Array, "node slot"],
@@ -283,10 +283,10 @@ def _touching(
 ) -> tuple[Float[Array, "node slot"], Float[Array, "node slot"]]:
     """Newton's step of the loads that the force makes of all slots, and which slots touch (1 or 0)."""
     load, active = state
-    xp = namespace(load, weighed, own, force)
+    xp = namespace(load, weighed, compliance, force)
     bent = load > _SMALL * mean
     each = hertz * maximum(load, _SMALL * mean) ** -0.1
-    slope, ahead = own + xp.where(bent, 0.9, 1.0) * each, xp.where(bent, 0.1, 0.0) * each * load
+    slope, ahead = compliance + xp.where(bent, 0.9, 1.0) * each, xp.where(bent, 0.1, 0.0) * each * load
     solved = _solve(weighed, slope, active, xp.stack([arms, gap + ahead], axis=-1))
     moved, held = solved[..., 0], solved[..., 1]
     pushing = share * arms

@@ -87,8 +87,8 @@ def tabulate_fine(
     # of the slices themselves only where they stand counts
     apart = replace(mesh, modifications=UNMODIFIED, slice_coupling=False)
     whole = layout._replace(slices=layout.slices // parts)
-    own = tabulate_helical(assembly, materials, apart, whole, gear_torque, phase)
-    return summed_up(own, fine, gear_torque)
+    fine_table = tabulate_helical(assembly, materials, apart, whole, gear_torque, phase)
+    return summed_up(fine_table, fine, gear_torque)
 
 
 def summed_up(cycle: MeshCycle, fine: MeshCycle, gear_torque: Any) -> MeshCycle:
@@ -116,8 +116,8 @@ def summed_up(cycle: MeshCycle, fine: MeshCycle, gear_torque: Any) -> MeshCycle:
     # what does not carry lies as far away and is as soft as its parts together, or as those that are next
     near = xp.ones_like(share, dtype=bool)
     if xp is np:
-        beside = near_contact(share[0].reshape(shape[1], -1)).reshape(shape)
-        near = beside | ~np.any(beside, axis=-1, keepdims=True)
+        near_path = near_contact(share[0].reshape(shape[1], -1)).reshape(shape)
+        near = near_path | ~np.any(near_path, axis=-1, keepdims=True)
     weight = xp.where(part[..., None] > 0.0, share, near) / compliance
     stiffness = weight.sum(axis=-1)
     soft = xp.where(part > 0.0, part, near.mean(axis=-1)) / stiffness

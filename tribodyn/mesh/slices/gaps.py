@@ -67,14 +67,14 @@ def modified_gap(
     fronts, slices = slots
     total = np.zeros(np.shape(extent.roll))
     width = float(assembly.common_width) / slices
-    for side, own, flanks in (
+    for side, part, flanks in (
         (1, np.s_[..., :fronts], mesh.modifications),
         (-1, np.s_[..., fronts:], behind),
     ):
-        roll, place, share = (field[own] for field in extent)
+        roll, place, share = (field[part] for field in extent)
         for at, weight in zip(_AT, _WEIGHT, strict=True):
-            beside = at * share * width
-            r = distance(roll - side * roll_shift(assembly, beside))
+            offset = at * share * width
+            r = distance(roll - side * roll_shift(assembly, offset))
             seen = PairGeometry(kinematics(assembly.path, r), np.zeros_like(r), r, r, r, r)
-            total[own] += weight * oblique_gap(assembly, flanks, seen, place + beside, slope, side)
+            total[part] += weight * oblique_gap(assembly, flanks, seen, place + offset, slope, side)
     return total

@@ -276,9 +276,9 @@ def _slots(
     limits = begin, end + whole / 2.0
     present = np.ones((1, side.size))
     touched = (low + high) / 2.0
-    beside = within(touched - roll, -width / 2.0, width / 2.0) / width  # slices, from the slice's middle
+    offset = within(touched - roll, -width / 2.0, width / 2.0) / width  # slices, from the slice's middle
     z = face_positions(1.0, count)
-    place = assembly.common_width * (np.tile(z, side.size // count) - side * beside / count)
+    place = assembly.common_width * (np.tile(z, side.size // count) - side * offset / count)
     return table.Slots(np.array([0.0, 1.0]), phase, present, side, touched, limits), share, place
 
 

@@ -157,8 +157,8 @@ def _places(
         (0.5 * (low + high))[None],
         (start, limits[1] + half_face),
     )
-    beside = np.clip(((low + high) / 2.0 - middle) / half_slice, -1.0, 1.0)  # half slices
-    touched = np.tile(face, len(side) // slices) - side * beside * float(assembly.common_width) / (
+    offset = np.clip(((low + high) / 2.0 - middle) / half_slice, -1.0, 1.0)  # half slices
+    touched = np.tile(face, len(side) // slices) - side * offset * float(assembly.common_width) / (
         2.0 * slices
     )
     return LoadedSlots(at, tuple(rolls), face, start, share, touched)

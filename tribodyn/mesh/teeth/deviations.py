@@ -195,5 +195,5 @@ def formula_value(
     formula: str, tooth: int, teeth: int, height: Float[Array, " node"], face: Float[Array, "slice 1"]
 ) -> Float[Array, "slice node"]:
     """Value of a formula; raises `formula.FormulaError`."""
-    given = (float(tooth + 1), float(teeth), height, face)
-    return evaluated(formula, dict(zip(FORMULA_VARIABLES, given, strict=True))) + 0.0 * height
+    values = (float(tooth + 1), float(teeth), height, face)
+    return evaluated(formula, dict(zip(FORMULA_VARIABLES, values, strict=True))) + 0.0 * height

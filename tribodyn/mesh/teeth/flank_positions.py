@@ -51,17 +51,17 @@ def flank_places(
     angle = np.asarray(assembly.path.pressure_angle(distance)) * np.ones(len(roll))
     late = np.asarray(roll_shift(assembly, face)) * np.ones(len(face))
     # of the tooth that its driving flank would touch now in mid-face
-    drawn = (roll if side > 0 else pitch / 2.0 - roll) + late[:, None]
+    rolled = (roll if side > 0 else pitch / 2.0 - roll) + late[:, None]
     psi = half_angles(assembly)
     radii = float(assembly.path.pinion_pitch_radius), float(assembly.path.gear_pitch_radius)
     ratio = radii[0] / radii[1]
     lean = 1.0 / np.sqrt(1.0 + normal_slope(float(pitch_slope(assembly)), angle) ** 2)
     reach = np.asarray(radius(assembly.path, distance))
     # an internal gear turns against the sense of its signed radius
-    of_driver = np.sign(radii[0]) * (drawn - psi[0])
+    of_driver = np.sign(radii[0]) * (rolled - psi[0])
     driver = FlankPlaces(roll, distance, reach, angle, lean, face, of_driver)
     # on the back side the driven tooth is one pitch behind that of the driver's number
-    of_driven = np.sign(radii[1]) * (psi[1] + ratio * (drawn if side > 0 else drawn - pitch))
+    of_driven = np.sign(radii[1]) * (psi[1] + ratio * (rolled if side > 0 else rolled - pitch))
     driven = driver._replace(radius=np.asarray(radius(assembly.path_of("gear"), -distance)), turned=of_driven)
     return driver, driven
 

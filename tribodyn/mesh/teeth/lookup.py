@@ -83,15 +83,15 @@ def own_place(i, place, mesh):
 
 
 @law
-def own_and_slope(own, channel, mesh):
+def own_and_slope(tooth, channel, mesh):
     """What both teeth add to a channel, and its derivative by the driver's rotation."""
-    value, slope = _value_and_slope(own.driver, own, channel, mesh.teeth.driver)
-    second, steep = _value_and_slope(own.driven, own, channel, mesh.teeth.driven)
-    return value + second, (slope + steep) * own.cells_per_radian
+    value, slope = _value_and_slope(tooth.driver, tooth, channel, mesh.teeth.driver)
+    second, steep = _value_and_slope(tooth.driven, tooth, channel, mesh.teeth.driven)
+    return value + second, (slope + steep) * tooth.cells_per_radian
 
 
 @law
-def _value_and_slope(row, own, channel, teeth):
-    c0, c1, c2, c3 = last_axis_of_four(teeth.channel, row, own.cell, own.slice, channel)
-    u = own.u
+def _value_and_slope(row, tooth, channel, teeth):
+    c0, c1, c2, c3 = last_axis_of_four(teeth.channel, row, tooth.cell, tooth.slice, channel)
+    u = tooth.u
     return c0 + u * (c1 + u * (c2 + u * c3)), c1 + u * (2.0 * c2 + 3.0 * u * c3)

@@ -25,17 +25,17 @@ def teeth_of(
     assembly: Assembly,
     mesh: MeshData,
     cycle: MeshCycle,
-    own: tuple[OwnTeeth, OwnTeeth],
+    teeth: tuple[OwnTeeth, OwnTeeth],
     counts: tuple[int, int],
 ) -> Teeth:
     """Tabulate what teeth of driver and driven gear have of their own, of gears with so many teeth."""
     sides = places_of(assembly, mesh, cycle)
-    channels = 1 if all(each.of_gap_alone for gear in own for each in gear) else CHANNELS
+    channels = 1 if all(each.of_gap_alone for gear in teeth for each in gear) else CHANNELS
     tables, numbers = [], []
     for end, flanks in enumerate(((LEADING, TRAILING), (TRAILING, LEADING))):
         places = [(side.driver, side.driven)[end] for side in sides]
         number = [(side.driver_number, side.driven_number)[end] for side in sides]
-        rows, channel = _rows(own[end], places, flanks, counts[end], channels, cycle.slices)
+        rows, channel = _rows(teeth[end], places, flanks, counts[end], channels, cycle.slices)
         # a ring of numbers, from the smallest that a slot may have
         lowest = min(int(each.min()) for each in number)
         length = counts[end] - lowest + max(int(each.max()) for each in number)
@@ -52,7 +52,7 @@ def teeth_of(
 
 
 def _rows(
-    own: OwnTeeth,
+    teeth: OwnTeeth,
     places: list[FlankPlaces],
     flanks: tuple[int, int],
     count: int,
@@ -60,27 +60,27 @@ def _rows(
     slices: int,
 ) -> tuple[list[np.ndarray], Float[Array, "row cell slice channel 4"]]:
     """Row of every tooth on each side, and the rows: teeth that are alike share one."""
-    known: dict[bytes, int] = {}
+    row_of: dict[bytes, int] = {}
     kept, rows = [], []
     for at, flank in zip(places, flanks, strict=False):
         row = np.zeros(count, dtype=int)
         for tooth in range(count):
-            found = sound(at)
-            for each in own:
+            fields = sound(at)
+            for each in teeth:
                 if (more := each.fields(tooth, flank, at)) is not None:
-                    found = found.beside(more)
-            values = _channels(found, slices)[..., :channels]
+                    fields = fields.beside(more)
+            values = _channels(fields, slices)[..., :channels]
             key = values.tobytes()
-            if key not in known:
-                known[key] = len(kept)
+            if key not in row_of:
+                row_of[key] = len(kept)
                 kept.append(values)
-            row[tooth] = known[key]
+            row[tooth] = row_of[key]
         rows.append(row)
     return rows, np.ascontiguousarray(cubic(np.stack(kept), _MONOTONE))
 
 
-def _channels(found: ToothFields, slices: int) -> Float[Array, "node slice channel"]:
+def _channels(fields: ToothFields, slices: int) -> Float[Array, "node slice channel"]:
     """Fields as the table's channels; of a slot, which is one of so many slices of the face."""
-    columns = [found.gap, found.compliance * slices, found.friction - 1.0]
-    assert columns[GAP] is found.gap
+    columns = [fields.gap, fields.compliance * slices, fields.friction - 1.0]
+    assert columns[GAP] is fields.gap
     return np.stack([column.T for column in columns], axis=-1)

@@ -49,8 +49,8 @@ _UNNAMED = 65534
 
 def cache_folder() -> Path:
     """`TRIBODYN_CACHE`, or the user's cache folder: compiled kernels, XLA's code, solved gears."""
-    if given := os.environ.get("TRIBODYN_CACHE"):
-        return Path(given).absolute()
+    if setting := os.environ.get("TRIBODYN_CACHE"):
+        return Path(setting).absolute()
     from platformdirs import user_cache_path
 
     return user_cache_path("tribodyn")
@@ -91,19 +91,19 @@ def _why_not(whole: Path, folder: Path) -> str:
     if not hasattr(os, "geteuid"):  # Windows, where the user's own folders are closed to others
         return ""
     for part in (whole, folder):
-        found = part.stat()
-        if not stat.S_ISDIR(found.st_mode):
+        status = part.stat()
+        if not stat.S_ISDIR(status.st_mode):
             return f"the cache {part} is no folder"
-        if found.st_uid != os.geteuid():
+        if status.st_uid != os.geteuid():
             return f"the cache {part} belongs to another user"
-        if found.st_mode & _OTHERS_WRITE:
+        if status.st_mode & _OTHERS_WRITE:
             return (
                 f"others can write to the cache {part} (remove it, or chmod -R go-w if its content is yours)"
             )
     for above in {*whole.parents, *whole.resolve().parents}:
-        found = above.stat()
-        foreign = found.st_uid not in (0, os.geteuid(), _UNNAMED)
-        shared = found.st_mode & stat.S_IWOTH and not found.st_mode & stat.S_ISVTX
+        status = above.stat()
+        foreign = status.st_uid not in (0, os.geteuid(), _UNNAMED)
+        shared = status.st_mode & stat.S_IWOTH and not status.st_mode & stat.S_ISVTX
         if foreign or shared:
             return f"others can replace the cache {whole}: {above} is theirs to write"
     return ""
@@ -125,12 +125,12 @@ def kept_or_made(
             return None if content is None else read(content)
         return None
 
-    if (found := known()) is not None:
-        return found
+    if (cached := known()) is not None:
+        return cached
     with alone(folder, name):
-        if (found := known()) is not None:  # another process has kept it meanwhile
-            return found
-        made, content = make()
+        if (cached := known()) is not None:  # another process has kept it meanwhile
+            return cached
+        value, content = make()
         if content is not None:
             trusted = trusted_folder(folder)
             # what killed processes left of the file; whoever still writes it does without
@@ -138,7 +138,7 @@ def kept_or_made(
                 with suppress(OSError):
                     remains.unlink()
             keep(folder, name, content)
-    return made
+    return value
 
 
 def arrays_kept_or_made(
@@ -152,11 +152,11 @@ def arrays_kept_or_made(
 
     def read(content: bytes) -> Mapping[str, "np.ndarray"]:
         place = content.index(b"\n") + 1
-        found = {}
+        arrays = {}
         for name, shape in json.loads(content[:place]).items():
-            found[name] = np.frombuffer(content, "<f8", math.prod(shape), place).reshape(shape).copy()
-            place += found[name].nbytes
-        return found
+            arrays[name] = np.frombuffer(content, "<f8", math.prod(shape), place).reshape(shape).copy()
+            place += arrays[name].nbytes
+        return arrays
 
     def made() -> tuple[Mapping[str, "np.ndarray"], bytes]:
         arrays = {name: np.asarray(value, dtype="<f8") for name, value in make().items()}
@@ -201,13 +201,13 @@ def read_kept(folder: str, name: str) -> bytes | None:
     except OSError:
         return None
     try:
-        found = os.fstat(number)
-        if not stat.S_ISREG(found.st_mode) or found.st_size > MAXIMUM_SIZE:
+        status = os.fstat(number)
+        if not stat.S_ISREG(status.st_mode) or status.st_size > MAXIMUM_SIZE:
             return None
-        if hasattr(os, "geteuid") and (found.st_uid != os.geteuid() or found.st_mode & _OTHERS_WRITE):
+        if hasattr(os, "geteuid") and (status.st_uid != os.geteuid() or status.st_mode & _OTHERS_WRITE):
             return None
         with open(number, "rb", closefd=False) as stream:
-            head, content = stream.read(_HEAD), stream.read(found.st_size)
+            head, content = stream.read(_HEAD), stream.read(status.st_size)
     except (OSError, MemoryError):
         return None
     finally:

@@ -90,13 +90,13 @@ def check_output(path: str | Path, force: bool = False) -> None:
     """
     path = Path(path)
     try:
-        found = path.lstat()
+        status = path.lstat()
     except OSError:  # it is not there, or whoever writes it finds out why not
         return
-    if stat.S_ISLNK(found.st_mode):
+    if stat.S_ISLNK(status.st_mode):
         rule, remedy = "is a link", "choose another name, or --force to replace the link"
-    elif not stat.S_ISREG(found.st_mode):
-        what = "a folder" if stat.S_ISDIR(found.st_mode) else "no file"
+    elif not stat.S_ISREG(status.st_mode):
+        what = "a folder" if stat.S_ISDIR(status.st_mode) else "no file"
         raise InputError("output", str(path), f"is {what}", "choose another name")
     elif not _made_here(path):
         # a scenario may have been edited since

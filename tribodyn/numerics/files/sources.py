@@ -162,4 +162,4 @@ def _imports(name: str, file: Path) -> tuple[str, ...]:
         imported += [base, *(f"{base}.{part}" for part in _NAME.findall(names))]
     for match in _IMPORT.finditer(text):
         imported += [listed.split()[0] for listed in match[1].split(",") if listed.split()]
-    return tuple(dict.fromkeys(part for found in imported for part in _with_packages(found)))
+    return tuple(dict.fromkeys(part for module in imported for part in _with_packages(module)))

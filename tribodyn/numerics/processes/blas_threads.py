@@ -81,7 +81,7 @@ def _library(module: str, folder: str) -> _Library | None:
     # on Linux and macOS a module finds what it is linked with; on Windows the library must be named
     wheel = Path(file).parents[2] / folder
     _known[module] = next(
-        (found for place in (file, *wheel.glob("*.dll")) if (found := _opened(str(place)))), None
+        (library for place in (file, *wheel.glob("*.dll")) if (library := _opened(str(place)))), None
     )
     return _known[module]
 

@@ -273,8 +273,8 @@ def installed_program(names: Sequence[str]) -> str | None:
     import shutil
 
     path = os.pathsep.join(part for part in os.get_exec_path() if os.path.isabs(part))
-    found = (shutil.which(name, path=path) for name in names)
-    return next((path for path in found if path and os.path.isabs(path)), None)
+    paths = (shutil.which(name, path=path) for name in names)
+    return next((path for path in paths if path and os.path.isabs(path)), None)
 
 
 def run_program(

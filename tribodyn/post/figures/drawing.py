@@ -63,9 +63,9 @@ def single(draw: Callable[[Axes, Record], None]) -> Callable[[Sequence[Record], 
     """A figure of one panel, of the first record."""
 
     def figure(records: Sequence[Record], _view: View) -> Figure:
-        drawn = new_figure()
-        draw(drawn.subplots(), records[0])
-        return drawn
+        canvas = new_figure()
+        draw(canvas.subplots(), records[0])
+        return canvas
 
     return figure
 

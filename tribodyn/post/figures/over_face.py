@@ -51,24 +51,24 @@ def flank_map(record: Record, mesh: int | None = None) -> FlankMap:
     table = table_of(record, mesh)
     if mesh is None:
         window = last_cycles(record, 1)
-        phase, known = window.phase[:-1], record["line_load"][window.part][:-1]
+        phase, load = window.phase[:-1], record["line_load"][window.part][:-1]
     else:
         cycles = record["mesh_phase"][:, mesh]
         last = (cycles >= np.floor(cycles[-1]) - 1.0) & (cycles < np.floor(cycles[-1]))
-        phase, known = cycles[last] % 1.0, record["line_load"][last, mesh][..., : len(table["face_position"])]
+        phase, load = cycles[last] % 1.0, record["line_load"][last, mesh][..., : len(table["face_position"])]
     fronts = [
-        slot for slot, pair in enumerate(record.pairs) if pair <= 1 and np.any(np.isfinite(known[:, slot]))
+        slot for slot, pair in enumerate(record.pairs) if pair <= 1 and np.any(np.isfinite(load[:, slot]))
     ]
     pitch = 2.0 * np.pi / table["pinion_teeth"]
     turned = np.concatenate([phase + age for age in range(len(fronts))])
-    loads = np.concatenate([known[:, slot] for slot in fronts[::-1]])
+    loads = np.concatenate([load[:, slot] for slot in fronts[::-1]])
     face = np.asarray(table["face_position"])
     limits = limits_of(table)
     assert limits is not None, "of slices"
     roll = np.linspace(*limits, _PLACES)
     late = face * table["pitch_slope"] / table["pinion_pitch_radius"]
-    own = table["roll_start"] + pitch * turned
-    values = [np.interp(roll, own - shift, column) for shift, column in zip(late, loads.T, strict=True)]
+    at = table["roll_start"] + pitch * turned
+    values = [np.interp(roll, at - shift, column) for shift, column in zip(late, loads.T, strict=True)]
     return FlankMap(roll, face, np.stack(values))
 
 
@@ -85,11 +85,11 @@ def line_load_figure(records: Sequence[Record], _view: View) -> Figure:
         for mesh in (helical_meshes(record) if "mesh" in record else [None])
     ]
     maps = [flank_map(*one) for one in shown]
-    top = 1e-3 * max(float(np.max(found.values)) for found in maps)
+    top = 1e-3 * max(float(np.max(flank.values)) for flank in maps)
     figure = style.new_figure(style.WIDTH, (style.PANEL_HEIGHT + 0.4) * len(maps) + 0.4)
     rows = figure.subplots(len(maps), 1, squeeze=False)[:, 0]
-    for letter, axes, (record, mesh), found in zip("abcdefghij", rows, shown, maps, strict=False):
-        image = _draw_map(axes, table_of(record, mesh), found, top)
+    for letter, axes, (record, mesh), flank in zip("abcdefghij", rows, shown, maps, strict=False):
+        image = _draw_map(axes, table_of(record, mesh), flank, top)
         bar = figure.colorbar(image, ax=axes, label="Line load (N/mm)", pad=0.02)
         bar.outline.set_visible(False)
         parts = [record_label(record)] if len(records) > 1 else []
@@ -107,9 +107,9 @@ def line_load_figure(records: Sequence[Record], _view: View) -> Figure:
     return figure
 
 
-def _draw_map(axes: Axes, table: Mapping[str, Any], found: FlankMap, top: float) -> QuadMesh:
+def _draw_map(axes: Axes, table: Mapping[str, Any], flank: FlankMap, top: float) -> QuadMesh:
     edge = 1e3 * float(table["face_width"]) / 2.0
-    roll, face, values = np.degrees(found.roll), 1e3 * found.face, 1e-3 * found.values
+    roll, face, values = np.degrees(flank.roll), 1e3 * flank.face, 1e-3 * flank.values
     across = np.linspace(-edge, edge, _PLACES)
     image = axes.pcolormesh(
         roll,
@@ -164,8 +164,8 @@ def in_space_figure(records: Sequence[Record], view: View) -> Figure:
             ]
         for row, label, values, line, shade in curves:
             color = style.PALETTE[(2 * number + shade) % len(style.PALETTE)]
-            said = ": ".join(part for part in (name, label) if part)
-            rows[row].plot(x, values, color=color, linestyle=line, label=said)
+            legend_text = ": ".join(part for part in (name, label) if part)
+            rows[row].plot(x, values, color=color, linestyle=line, label=legend_text)
             shown[row].append(values)
     labels = (
         ("Axial force of the teeth on the pinion", "$F_a$ (N)"),

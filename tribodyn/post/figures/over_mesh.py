@@ -129,7 +129,7 @@ TRACES = (DEFLECTION, NORMAL_LOAD, FRICTION_FORCE, FILM_THICKNESS, EFFICIENCY)
 def overview_figure(records: Sequence[Record], view: View) -> Figure:
     """Draw what the first record holds in six panels; of a transient its speed and load in the first."""
     record = records[0]
-    drawn, rows = style.new_grid(*GRID)
+    figure, rows = style.new_grid(*GRID)
     if view.cycles is None and transient(record):
         draw_speed(rows[0, 0], record, view)
         style.mark_panel(rows[0, 0], "a", "Speed and load, means of a mesh cycle")
@@ -139,11 +139,11 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
     for letter, axes, trace in zip("bcdef", rows.flat[1:], TRACES, strict=True):
         names = draw(axes, [record], trace, view)
         style.mark_panel(axes, letter, trace.title, names)
-    legend(drawn, list(rows.flat[1:]), [record], view)
-    drawn.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
-    if isinstance(drawn, Figure) and len(drawn.axes) == rows.size:
-        drawn.set_layout_engine(style.Margins(**OVERVIEW))
-    return drawn
+    legend(figure, list(rows.flat[1:]), [record], view)
+    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
+    if isinstance(figure, Figure) and len(figure.axes) == rows.size:
+        figure.set_layout_engine(style.Margins(**OVERVIEW))
+    return figure
 
 
 def prepare_overview() -> None:

@@ -165,17 +165,17 @@ def _shade_extrapolated(
     trace: Trace,
     window: Window,
     x: np.ndarray,
-    own: str = "",
+    hue: str = "",
     mesh: int | None = None,
 ) -> None:
-    """Shade where a law is outside its range for any pair under load; in a record's `own` colour if given."""
+    """Shade where a law is outside its range for any pair under load; in a record's `hue` colour if given."""
     if trace.flag not in record:
         return
     outside = (record[trace.flag] == 0) & (record["normal_load"] > 0.0)
     outside = np.any(of_mesh(outside, mesh)[window.part], axis=1)
     color, label = EXTRAPOLATED[trace.flag]
-    if own:
-        color, label = f"{own}18", f"{label}: {record_label(record)}"
+    if hue:
+        color, label = f"{hue}18", f"{label}: {record_label(record)}"
     edges = np.flatnonzero(np.diff(np.concatenate([[0], outside.astype(int), [0]])))
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
         left, right = float(x[start]), float(x[min(stop, len(x) - 1)])
@@ -185,8 +185,8 @@ def _shade_extrapolated(
 def drawn_pairs(record: Record, window: Window, mesh: int | None = None) -> list[int]:
     """List the pairs to draw: driving flanks from the newest on, then back flanks that carry load."""
     load = of_mesh(record["normal_load"], mesh)[window.part]
-    known = np.any(np.isfinite(load), axis=0)  # a mesh of a train may have fewer than another
-    front = [pair for pair, own in zip(record.pairs, known, strict=True) if pair <= 1 and own]
+    carries = np.any(np.isfinite(load), axis=0)  # a mesh of a train may have fewer than another
+    front = [pair for pair, loaded in zip(record.pairs, carries, strict=True) if pair <= 1 and loaded]
     touching = [pair for slot, pair in enumerate(record.pairs) if pair > 1 and np.any(load[:, slot] > 0)]
     return front[::-1] + touching
 
@@ -219,14 +219,14 @@ def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bo
         cycles = round(window.phase[-1])
         if not 0 < cycles <= MOST_CYCLES_MARKED:
             continue
-        known = key_points(record)
+        marks = key_points(record)
         points = [
             (cycle + point.phase, point.names)
             for cycle in range(cycles + 1)
-            for point in known
+            for point in marks
             if cycle + point.phase <= cycles + 1e-9
         ]
-        pairs = [1] if several else sorted({pair for point in known for pair in point.names}, reverse=True)
+        pairs = [1] if several else sorted({pair for point in marks for pair in point.names}, reverse=True)
         heads = {1: record_label(record)} if several else {pair: f"pair {pair}" for pair in pairs}
         color = PALETTE[number % len(PALETTE)] if several else QUIET
         places = np.interp([phase for phase, _ in points], window.phase, x)

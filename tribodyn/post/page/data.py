@@ -92,7 +92,7 @@ def series_of(record: Record, records: int = 1) -> list[Series]:
     ]
     count = sum(int(np.prod(np.shape(record[name])[1:])) for name in names)
     most = min(MOST_SAMPLES, max(1000, MOST_POINTS // max(1, count * records)))
-    found = []
+    series = []
     for name in names:
         dims = record.dims_of(name)
         values, unit = in_engineers_units(np.asarray(record[name]), record.units(name))
@@ -107,8 +107,8 @@ def series_of(record: Record, records: int = 1) -> list[Series]:
             ]
             if dims[1] == "pair":
                 curves.reverse()  # the one that entered last comes first
-        found.append(Series(name, _title(record, name), unit, tuple(curves)))
-    return found
+        series.append(Series(name, _title(record, name), unit, tuple(curves)))
+    return series
 
 
 def _labels(record: Record, across: str, count: int) -> list[str]:
@@ -121,12 +121,12 @@ def _labels(record: Record, across: str, count: int) -> list[str]:
 def _of_pairs(record: Record, values: np.ndarray, most: int) -> list[Curve]:
     """Curves of the pairs of several meshes, mesh after mesh; those that a mesh has, the newest first."""
     meshes, pairs = (_labels(record, dim, size) for dim, size in zip(OF_PAIRS, values.shape[1:], strict=True))
-    known = np.any(np.isfinite(record["normal_load"]), axis=0) if "normal_load" in record else None
+    carries = np.any(np.isfinite(record["normal_load"]), axis=0) if "normal_load" in record else None
     return [
         Curve(f"{mesh}, {pairs[q]}", *thinned(values[:, m, q], most))
         for m, mesh in enumerate(meshes)
         for q in reversed(range(len(pairs)))
-        if known is None or known[m, q]
+        if carries is None or carries[m, q]
     ]
 
 
@@ -140,7 +140,7 @@ def extrapolated(record: Record) -> dict[str, list[list[int]]]:
 
     Where there are more than `MOST_INTERVALS`, the shortest gaps between them are closed.
     """
-    found = {}
+    intervals = {}
     for flag, names in FLAGS.items():
         if flag not in record or "normal_load" not in record:
             continue
@@ -155,8 +155,8 @@ def extrapolated(record: Record) -> dict[str, list[list[int]]]:
             starts = np.concatenate([starts[:1], starts[1:][kept]])
             ends = np.concatenate([ends[:-1][kept], ends[-1:]])
         if len(starts):
-            found |= dict.fromkeys(names, np.stack([starts, ends], axis=1).tolist())
-    return found
+            intervals |= dict.fromkeys(names, np.stack([starts, ends], axis=1).tolist())
+    return intervals
 
 
 def thinned(values: np.ndarray, most: int = MOST_SAMPLES) -> tuple[np.ndarray, np.ndarray]:
@@ -206,17 +206,17 @@ class PageMap(NamedTuple):
     title: str = ""  # default: the dataset's, of one pair
 
 
-def map_data(record: Record, found: PageMap) -> dict[str, Any]:
+def map_data(record: Record, page_map: PageMap) -> dict[str, Any]:
     """A map as the page reads it, in engineers' units."""
-    values, unit = in_engineers_units(found.values, record.units(found.name))
+    values, unit = in_engineers_units(page_map.values, record.units(page_map.name))
     return {
-        "name": found.name,
-        "title": found.title or f"{_title(record, found.name)}, of one pair from entry to exit",
+        "name": page_map.name,
+        "title": page_map.title or f"{_title(record, page_map.name)}, of one pair from entry to exit",
         "unit": unit,
-        "x": packed(np.degrees(found.roll)),
-        "y": packed(found.face * 1e3),
+        "x": packed(np.degrees(page_map.roll)),
+        "y": packed(page_map.face * 1e3),
         "z": packed(values.T),
-        "top": float(np.nanpercentile(values, found.top)) if np.any(np.isfinite(values)) else 0.0,
+        "top": float(np.nanpercentile(values, page_map.top)) if np.any(np.isfinite(values)) else 0.0,
     }
 
 
@@ -237,10 +237,10 @@ class Profiles(NamedTuple):
     rows: Sequence[Profile]
 
 
-def profiles_data(record: Record, found: Profiles) -> dict[str, Any]:
+def profiles_data(record: Record, shown: Profiles) -> dict[str, Any]:
     """Profiles as the page reads them, in engineers' units; samples × places, row after row."""
     rows = []
-    for profile in found.rows:
+    for profile in shown.rows:
         values, unit = in_engineers_units(np.asarray(record[profile.name]), record.units(profile.name))
         finite = values[np.isfinite(values)]
         top = float(finite.max()) if finite.size else 1.0
@@ -256,4 +256,4 @@ def profiles_data(record: Record, found: Profiles) -> dict[str, Any]:
                 "y": packed(values),
             }
         )
-    return {"title": found.title, "label": found.label, "x": packed(record[found.place]), "rows": rows}
+    return {"title": shown.title, "label": shown.label, "x": packed(record[shown.place]), "rows": rows}

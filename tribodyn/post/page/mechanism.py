@@ -45,12 +45,12 @@ class Mechanism(NamedTuple):
     sights: Sequence[Sight] = ()  # to choose from; none: all of it
 
 
-def mechanism_data(found: Mechanism) -> dict[str, Any]:
+def mechanism_data(mechanism: Mechanism) -> dict[str, Any]:
     """A mechanism as the page reads it."""
-    samples = len(found.contacts)
-    most = max(MOST_FRAMES, MOST_PLACES // (len(found.bodies) + found.contacts.shape[1]))
+    samples = len(mechanism.contacts)
+    most = max(MOST_FRAMES, MOST_PLACES // (len(mechanism.bodies) + mechanism.contacts.shape[1]))
     frames = np.unique(np.linspace(0, samples - 1, min(samples, most)).round().astype(int))
-    x, y, alpha = np.moveaxis(found.contacts[frames], -1, 0)
+    x, y, alpha = np.moveaxis(mechanism.contacts[frames], -1, 0)
     bodies = [
         {
             "outline": packed(body.outline),
@@ -59,17 +59,17 @@ def mechanism_data(found: Mechanism) -> dict[str, Any]:
             "width": body.width,
             "opacity": body.opacity,
         }
-        for body in found.bodies
+        for body in mechanism.bodies
     ]
     return {
         "frames": None if len(frames) == samples else packed(frames, "<u4"),
-        "title": found.title,
+        "title": mechanism.title,
         "bodies": bodies,
         "pairs": x.shape[1],
         "x": packed(x),
         "y": packed(y),
         "alpha": packed(alpha),
-        "reach": found.reach,
-        "longest": found.longest,
-        "sights": [sight._asdict() for sight in found.sights],
+        "reach": mechanism.reach,
+        "longest": mechanism.longest,
+        "sights": [sight._asdict() for sight in mechanism.sights],
     }

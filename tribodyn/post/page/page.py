@@ -74,7 +74,7 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
         if content.mechanism:
             entry["teeth"] = mechanism_data(content.mechanism)
         if figures:
-            entry["maps"] = [map_data(record, found) for found in content.maps]
+            entry["maps"] = [map_data(record, page_map) for page_map in content.maps]
             over_places: set[str] = set()
             if content.profiles:
                 entry["profiles"] = profiles_data(record, content.profiles)
@@ -106,7 +106,7 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
         "SHEET": _sheets(records, contents) if figures else "",
         "RESULT": "".join(_result(content) for content in contents if content.found),
         "PICTURES": "".join(
-            picture(*drawn) for content in contents if not content.found for drawn in content.pictures
+            picture(*drawing) for content in contents if not content.found for drawing in content.pictures
         ),
         "SENSED": "".join(_sensed(record, content, several) for record, content in both),
         "ORIGIN": "".join(map(origin, records)) if figures else "",
@@ -127,13 +127,13 @@ def _record(record: Record, count: int) -> dict[str, Any]:
     if not record.samples:
         rule = "holds no samples to draw"
         raise InputError("record", str(record.path), rule, "run the scenario again")
-    given = np.asarray(record[record.axis], dtype=float)
-    axis, unit = in_engineers_units(given, record.units(record.axis))
+    abscissa = np.asarray(record[record.axis], dtype=float)
+    axis, unit = in_engineers_units(abscissa, record.units(record.axis))
     cycle = float(axis[-1] - axis[0]) / 20.0
     window = [float(axis[0]), float(axis[-1])]
     if record.summary.get("cycles_done") and record.axis == "time" and record.samples > 1:
         start, lasts = first_shown(record, shown_cycles(record))
-        scale = (axis[-1] - axis[0]) / (given[-1] - given[0])
+        scale = (axis[-1] - axis[0]) / (abscissa[-1] - abscissa[0])
         cycle, window[0] = float(lasts * scale), float(start * scale)
     elif record.axis == "phase":
         cycle = 1.0
@@ -154,25 +154,25 @@ def _record(record: Record, count: int) -> dict[str, Any]:
 def _result(content: PageContent) -> str:
     """Tables and pictures of what was found."""
     tables = "".join(table(*part) for part in content.found)
-    drawn = "".join(picture(*part) for part in content.pictures)
-    return f'<section><h2>Result</h2><div class="tables">{tables}</div></section>{drawn}'
+    pictures = "".join(picture(*part) for part in content.pictures)
+    return f'<section><h2>Result</h2><div class="tables">{tables}</div></section>{pictures}'
 
 
 def _sensed(record: Record, content: PageContent, named: bool) -> str:
     """What the sensors of a record gave, to be heard, and the lines of their spectra."""
-    found = content.sensed
-    if not found.sounds:
+    sensed = content.sensed
+    if not sensed.sounds:
         return ""
-    lines = f'<div class="tables">{table(*found.lines)}</div>' if found.lines else ""
+    lines = f'<div class="tables">{table(*sensed.lines)}</div>' if sensed.lines else ""
     heading = f"Sensors of {record.label}" if named else "Sensors"
-    return f"<section><h2>{escape(heading)}</h2>{found.sounds}{lines}</section>"
+    return f"<section><h2>{escape(heading)}</h2>{sensed.sounds}{lines}</section>"
 
 
 def warnings_of(record: Record, named: bool) -> str:
     """Write what forbids to trust a record, a paragraph each; `named`: with its label."""
     head = f"{record.label}: " if named else ""
-    found = [*warnings(record.summary), *([record.message] if record.message else [])]
-    return "".join(f'<p class="warning">{escape(head + warning)}</p>' for warning in found)
+    texts = [*warnings(record.summary), *([record.message] if record.message else [])]
+    return "".join(f'<p class="warning">{escape(head + warning)}</p>' for warning in texts)
 
 
 def summary_tables(records: Sequence[Record], reported: Sequence[Reported]) -> str:
@@ -240,17 +240,17 @@ def _on_trust(record: Record, sentences: Sequence[str], named: bool) -> str:
 
 def _sheets(records: Sequence[Record], contents: Sequence[PageContent]) -> str:
     """Tables of the gears of every record, equal ones once."""
-    found: dict[str, list[str]] = {}
+    sheets: dict[str, list[str]] = {}
     for record, content in zip(records, contents, strict=True):
         if content.tables:
-            found.setdefault("".join(table(*part) for part in content.tables), []).append(record.label)
+            sheets.setdefault("".join(table(*part) for part in content.tables), []).append(record.label)
     texts = (
-        f"<details{' open' if len(found) == 1 else ''}><summary>{escape(', '.join(names))}</summary>"
+        f"<details{' open' if len(sheets) == 1 else ''}><summary>{escape(', '.join(names))}</summary>"
         f'<div class="tables">{text}</div></details>'
-        for text, names in found.items()
+        for text, names in sheets.items()
     )
     heading = escape(contents[0].heading)
-    return f"<section><h2>{heading}</h2>{''.join(texts)}</section>" if found else ""
+    return f"<section><h2>{heading}</h2>{''.join(texts)}</section>" if sheets else ""
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -271,10 +271,10 @@ def picture(name: str, about: str, figure: Figure) -> str:
 
 def origin(record: Record | SweepRecord) -> str:
     """The scenario and what made the record."""
-    known = ("created", "tribodyn_version", "scenario_sha256", "status")
+    attributes = ("created", "tribodyn_version", "scenario_sha256", "status")
     rows = "".join(
         f"<tr><td>{escape(name.replace('_', ' '))}</td><td>{escape(str(record.attrs[name]))}</td></tr>"
-        for name in known
+        for name in attributes
         if name in record.attrs
     )
     scenario = escape(str(record.attrs.get("scenario", "")))

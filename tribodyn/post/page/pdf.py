@@ -42,24 +42,24 @@ def browser() -> str | None:
 
 def require_browser() -> str:
     """Path of the `browser`; InputError where none is installed: to be said before any work."""
-    found = browser()
-    if found is None:
+    program = browser()
+    if program is None:
         rule = "no browser is installed that could print the page"
         raise InputError(
             "--pdf", None, rule, "install Chromium or Chrome, or print the page from your browser"
         )
-    return found
+    return program
 
 
 def run_browser(*options: str) -> "subprocess.CompletedProcess[str]":
     """Run the browser without a window, in a profile of its own; InputError where none is installed."""
     import os
 
-    found = require_browser()
+    program = require_browser()
     # as root, in containers, a browser runs without its sandbox only; the page is our own
     sandbox = ("--no-sandbox",) if hasattr(os, "geteuid") and os.geteuid() == 0 else ()
     with tempfile.TemporaryDirectory(prefix="tribodyn-", ignore_cleanup_errors=True) as profile:
-        command = [found, *QUIET, *sandbox, f"--user-data-dir={profile}", *options]
+        command = [program, *QUIET, *sandbox, f"--user-data-dir={profile}", *options]
         # killed, it leaves what it has in the folder for temporary files, a socket with a long name among it
         variables = ("TMPDIR", "TMP", "TEMP") if len(profile) < LONGEST_PROFILE else ()
         return run_program(command, TIME_LIMIT, dict.fromkeys(variables, profile))

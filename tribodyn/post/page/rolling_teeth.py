@@ -59,15 +59,15 @@ def turning_teeth(shape: Mapping[str, Any], pinion_teeth: float) -> dict[str, An
     pitch = 2.0 * np.pi / pinion_teeth
     phase = np.linspace(0.0, 1.0, FRAMES_OF_A_CYCLE, endpoint=False)[:, None]
     turned = roll[0] + pitch * (phase + np.arange(int(np.ceil((roll[-1] - roll[0]) / pitch))))
-    found = np.where(turned <= roll[-1], np.interp(turned, roll, distance), np.nan)
+    place = np.where(turned <= roll[-1], np.interp(turned, roll, distance), np.nan)
     slope = np.interp(turned, roll, angle)
     return {
         "frames": None,
         "turning": True,
         "roll": packed(turned[:, 0], "<f8"),
         "pairs": turned.shape[1],
-        "x": packed(found * np.cos(slope)),
-        "y": packed(found * np.sin(slope)),
+        "x": packed(place * np.cos(slope)),
+        "y": packed(place * np.sin(slope)),
         "alpha": packed(slope),
         "pinion": packed(shape["pinion_outline"]),
         "gear": packed(shape["gear_outline"]),
@@ -118,11 +118,11 @@ def _of_the_roll_angles(record: Record, shape: dict[str, Any], cycle: dict[str, 
         np.asarray(shape["path_of_contact"]), float(cycle["pinion_pitch_radius"])
     )
     rolled = np.asarray(record["roll_angle"])
-    found = np.where(np.asarray(record[LOAD]) > 0.0, np.interp(rolled, roll, distance), np.nan)
+    place = np.where(np.asarray(record[LOAD]) > 0.0, np.interp(rolled, roll, distance), np.nan)
     slope = np.interp(rolled, roll, angle)
     radii = float(cycle["pinion_pitch_radius"]), float(cycle["gear_pitch_radius"])
     before, behind = np.minimum(rolled - roll[0], 0.0), np.maximum(rolled - roll[-1], 0.0)
-    x, y = found * np.cos(slope), found * np.sin(slope)
+    x, y = place * np.cos(slope), place * np.sin(slope)
     x, y = _turned(x, y, -radii[0], -behind)
     x, y = _turned(x, y, radii[1], before * radii[0] / radii[1])
     return _Places(rolled[0, 0] + np.asarray(record["pinion_angle"]), x, y, slope)

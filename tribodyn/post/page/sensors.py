@@ -51,38 +51,38 @@ def sensed_section(record: Record) -> SensedSection:
 
 def _sound(signal: SensorSignal) -> str:
     try:
-        heard = hearable(signal.values, signal.rate, _SOUND_RATE)
+        sound = hearable(signal.values, signal.rate, _SOUND_RATE)
     except InputError:  # too slow or too fast to be heard
         return ""
-    data = base64.b64encode(wav(heard.samples, heard.rate)).decode("ascii")
-    said = f"{signal.about}; {heard.said(signal.units)}"
+    data = base64.b64encode(wav(sound.samples, sound.rate)).decode("ascii")
+    caption = f"{signal.about}; {sound.said(signal.units)}"
     return (
-        f'<p class="sound"><b>{escape(signal.name)}</b> {escape(said)}<br>'
+        f'<p class="sound"><b>{escape(signal.name)}</b> {escape(caption)}<br>'
         f'<audio controls preload="metadata" src="data:audio/wav;base64,{data}"></audio></p>'
     )
 
 
 def _lines(signal: SensorSignal, sensed: Sensed) -> list[list[str]]:
     """The largest lines of a signal's order spectrum that stand out, with what they are called."""
-    found = order_spectrum(signal.values, signal.turns)
+    spectrum = order_spectrum(signal.values, signal.turns)
     turning = float(np.ptp(signal.turns) / np.ptp(signal.time))
     limit = PASSED * signal.rate / turning
-    a = found.amplitudes
-    inner = np.arange(1, min(len(a) - 1, int(limit / found.step)))
+    a = spectrum.amplitudes
+    inner = np.arange(1, min(len(a) - 1, int(limit / spectrum.step)))
     peaks = inner[(a[inner] >= a[inner - 1]) & (a[inner] > a[inner + 1])]
-    known = list(islice(named_orders(sensed.lines, limit), _NAMED))
+    named = list(islice(named_orders(sensed.lines, limit), _NAMED))
     rows = []
     for place in peaks[np.argsort(-a[peaks])][: 4 * _LINES]:
         if a[place] < _ABOVE * float(np.median(a[max(1, place - _BESIDE) : place + _BESIDE + 1])):
             continue
-        order = float(found.frequencies[place])
-        names = names_at(order, known, 1.01 * found.step)
+        order = float(spectrum.frequencies[place])
+        names = names_at(order, named, 1.01 * spectrum.step)
         rows.append(
             [
                 signal.name,
                 f"{order:.5g}",
                 f"{order * turning:.5g}",
-                f"{found.at(order):.4g}",
+                f"{spectrum.at(order):.4g}",
                 signal.units,
                 names[0].label if names else "",
             ]

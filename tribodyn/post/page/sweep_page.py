@@ -31,12 +31,12 @@ def sweep_page(
     (what is known of the scenario that is varied) title, columns and rows; `teeth` are those of that
     scenario, as `rolling_teeth.turning_teeth` has them.
     """
-    known = [quantity for quantity in quantities if quantity.name in record]
-    known = known or [described(record, name) for name in record.quantities]
-    drawn = branches([record])
-    if not drawn or not len(drawn[0].x):
+    recorded = [quantity for quantity in quantities if quantity.name in record]
+    recorded = recorded or [described(record, name) for name in record.quantities]
+    curves = branches([record])
+    if not curves or not len(curves[0].x):
         raise InputError("record", str(record.path), "holds no cases to draw", "run the sweep again")
-    order = np.argsort(drawn[0].x)
+    order = np.argsort(curves[0].x)
     series = [
         {
             "name": quantity.name,
@@ -49,12 +49,12 @@ def sweep_page(
                     "y": packed(quantity.in_unit(branch.values(quantity.name)[order])),
                     "i": None,
                 }
-                for branch in drawn
+                for branch in curves
             ],
         }
-        for quantity in known
+        for quantity in recorded
     ]
-    axis = drawn[0].x[order]
+    axis = curves[0].x[order]
     span = [float(axis[0]), float(axis[-1]) if len(axis) > 1 else float(axis[0]) + 1.0]
     data: dict[str, Any] = {
         "label": record.label,
@@ -65,11 +65,11 @@ def sweep_page(
         "series": series,
         "teeth": teeth,
         "rates": packed(_rates(record, axis)),
-        "outside": _lost(drawn, order, [quantity.name for quantity in known]),
+        "outside": _lost(curves, order, [quantity.name for quantity in recorded]),
     }
     payload = {
         "records": [data],
-        "panels": [panel.quantity.name for panel in panels_of([record], known)],
+        "panels": [panel.quantity.name for panel in panels_of([record], recorded)],
         "shaded": "contact is lost at times",
         "load": "",
         "axis": axis_label(record.parameters[0]),
@@ -84,7 +84,7 @@ def sweep_page(
         {
             "WARNINGS": "".join(f'<p class="warning">{escape(warning)}</p>' for warning in warnings)
             + verdict_list(sweep_verdict(record)),
-            "SUMMARY": table("Quantities of the cases", columns, sweep_rows(record, known)),
+            "SUMMARY": table("Quantities of the cases", columns, sweep_rows(record, recorded)),
             "TRUST": f"<ul>{remarks}</ul>",
             "OVER": "Over the first varied key",
             "SHEET": f"<section><h2>The scenario that is varied</h2>{sheet}</section>" if sheet else "",
@@ -101,11 +101,11 @@ def _rates(record: SweepRecord, axis: np.ndarray) -> np.ndarray:
     return np.abs(axis) / (np.max(np.abs(axis)) or 1.0)
 
 
-def _lost(drawn: Sequence[Branch], order: np.ndarray, names: Sequence[str]) -> dict[str, list[list[int]]]:
+def _lost(curves: Sequence[Branch], order: np.ndarray, names: Sequence[str]) -> dict[str, list[list[int]]]:
     """First and last case of intervals in which contact is lost on any branch, for every quantity."""
-    if "contact_loss_fraction" not in drawn[0].record:
+    if "contact_loss_fraction" not in curves[0].record:
         return {}
-    lost = np.any([branch.values("contact_loss_fraction")[order] > 0.0 for branch in drawn], axis=0)
+    lost = np.any([branch.values("contact_loss_fraction")[order] > 0.0 for branch in curves], axis=0)
     edges = np.flatnonzero(np.diff(np.concatenate([[0], lost.astype(int), [0]])))
     intervals = np.stack([edges[::2], edges[1::2] - 1], axis=1).tolist()
     return {name: intervals for name in names} if intervals else {}

@@ -57,8 +57,8 @@ class Layered(io.RawIOBase):
         buffer[:] = bytes(len(buffer))
         if self._below:
             self._below.seek(start)
-            found = self._below.read(len(buffer))
-            buffer[: len(found)] = found
+            underlying = self._below.read(len(buffer))
+            buffer[: len(underlying)] = underlying
         for offset, content in self.written:
             first, last = max(start, offset), min(stop, offset + len(content))
             if first < last:

@@ -103,12 +103,12 @@ _starting = threading.Lock()
 def _kept(look: Look) -> _Kept:
     """The process that is kept for a function; another one if it ended or belongs to who forked this one."""
     with _starting:
-        known = _processes.get(look)
-        if known is None or known.owner != os.getpid() or not known.alive():
-            if known is not None:
-                known.end()
-            known = _processes[look] = _Kept(look)
-        return known
+        process = _processes.get(look)
+        if process is None or process.owner != os.getpid() or not process.alive():
+            if process is not None:
+                process.end()
+            process = _processes[look] = _Kept(look)
+        return process
 
 
 def serve(module: str, name: str) -> None:

@@ -24,8 +24,8 @@ class Origin(NamedTuple):
 
     def made(self, path: Path) -> bool:
         """Whether a file, which is no link, is a record of that kind from that scenario file."""
-        found = _attributes(path) if self.file and not path.is_symlink() else {}
-        return found.get("kind") == self.kind and found.get(SCENARIO_FILE) == self.file
+        attributes = _attributes(path) if self.file and not path.is_symlink() else {}
+        return attributes.get("kind") == self.kind and attributes.get(SCENARIO_FILE) == self.file
 
     def left(self, path: Path) -> bool:
         """Whether an earlier run from that file left `path` unfinished, and no later call goes on with it."""
@@ -45,8 +45,8 @@ def refuse_existing(path: Path, force: bool, origin: Origin = Origin()) -> None:
         return
     if os.path.exists(path):
         _refuse_record(path, origin)
-    if os.path.exists(left := partial_path(path)) and not origin.left(left):
-        rule = f"{left.name} holds what an unfinished run left"
+    if os.path.exists(remains := partial_path(path)) and not origin.left(remains):
+        rule = f"{remains.name} holds what an unfinished run left"
         raise InputError("output", str(path), rule, "move it away, or --force to replace it")
 
 

@@ -157,8 +157,8 @@ class _Look:
 
     def _dataset(self, name: str, dataset: h5py.Dataset) -> None:
         text = dataset.dtype.kind == "S"
-        known = text or dataset.dtype.kind in "fiu"
-        if dataset.shape is None or len(dataset.shape) > MAXIMUM_AXES or not known:
+        readable = text or dataset.dtype.kind in "fiu"
+        if dataset.shape is None or len(dataset.shape) > MAXIMUM_AXES or not readable:
             raise _Unsound(f"{name!r} is of no type that records have")
         if dataset.external or dataset.is_virtual:
             raise _Unsound(f"the data of {name!r} lie in another file")
@@ -196,9 +196,9 @@ class _Look:
         for name in item.attrs:
             if name in _REFERENCES:
                 continue
-            found = item.attrs.get_id(name)
-            size = found.dtype.itemsize
-            for length in found.shape or ():
+            attribute = item.attrs.get_id(name)
+            size = attribute.dtype.itemsize
+            for length in attribute.shape or ():
                 size *= length
             if size > MAXIMUM_ATTRIBUTE:
                 raise _Unsound(f"the attribute {name!r} is too large")
@@ -237,5 +237,5 @@ def _address(item: Any) -> int:
 
 
 def _identity(path: Path) -> tuple[int, ...]:
-    found = path.stat()
-    return found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns
+    status = path.stat()
+    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns

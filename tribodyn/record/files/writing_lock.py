@@ -110,8 +110,8 @@ def remove_orphans(path: Path) -> None:
     pattern = re.compile(re.escape(path.stem) + r"\.(\d+)\.tmp")
     with contextlib.suppress(OSError):
         for name in os.listdir(path.parent):
-            found = pattern.fullmatch(name)
-            if found and not _alive(int(found[1])):
+            match = pattern.fullmatch(name)
+            if match and not _alive(int(match[1])):
                 path.with_name(name).unlink()
 
 

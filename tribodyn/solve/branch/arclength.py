@@ -139,9 +139,9 @@ class Arclength:
         farthest = [LARGEST / np.max(np.abs(here.tangent[:-1])), LARGEST_PARAMETER / abs(here.tangent[-1])]
         step = min(step, *farthest)
         while step >= SMALLEST:
-            found = self.met(here.point + step * here.tangent, here.tangent, here.tangent)
-            if found is not None and (step <= SHORT or found.tangent @ here.tangent >= STRAIGHT):
-                return found, step
+            place = self.met(here.point + step * here.tangent, here.tangent, here.tangent)
+            if place is not None and (step <= SHORT or place.tangent @ here.tangent >= STRAIGHT):
+                return place, step
             step /= 2.0
         return None
 
@@ -196,8 +196,8 @@ class Arclength:
     ) -> tuple[Float[Array, " state"], Float[Array, "state unknown"]] | None:
         """Change over a period (N,) and its derivatives (N, N + 1), in units; None where there is none."""
         *state, value = point * self.units
-        beside = value + SHIFT * self.units[-1]
-        period_map, refusals = self.family.at([self.line] * 2, [float(value), float(beside)])
+        shifted = value + SHIFT * self.units[-1]
+        period_map, refusals = self.family.at([self.line] * 2, [float(value), float(shifted)])
         if any(refusals):
             return None
         states, units, period = np.array([state, state]), self.units[:-1], self.seed.period
@@ -238,10 +238,10 @@ def follow_arc(
     branch = Arclength(family, line, seed, size, tolerance)
     here, step = branch.begin(), FIRST
     for _ in range(MOST_PLACES):
-        found = None if here is None else branch.next(here, step)
-        if here is None or found is None:
+        reached = None if here is None else branch.next(here, step)
+        if here is None or reached is None:
             break
-        beyond, step = found
+        beyond, step = reached
         if seed.way * beyond.tangent[-1] < 0.0:
             point, value, within = branch.turning(here, beyond)
             return Turn(True, value, within, point.point[:-1] * branch.units[:-1])

@@ -197,8 +197,8 @@ def _along(here: _Motion, leg: Leg) -> Generator[Request, RequestResult, "_Motio
         orbit, scale, _ = yield Correct(trial, _guess(other, here, trial), here.period)
         if _neutral(orbit):
             if here.orbit is None:
-                known, *_ = yield Correct(here.value, here.state, here.period)
-                here = _Motion.of(here.value, known) if known.period else here
+                corrected, *_ = yield Correct(here.value, here.state, here.period)
+                here = _Motion.of(here.value, corrected) if corrected.period else here
             if here.orbit is not None and _neutral(here.orbit):
                 return here  # one of a family of motions at every value, none of which leads to another
         if orbit.period and not _comparable(here, orbit, scale, abs(trial - here.value) / size):

@@ -110,7 +110,7 @@ def _continued(
     family: GearLines, line: int, arrival: Arrival, unstable: UnstableRange, samples: int
 ) -> list[ContinuedBranch]:
     """The branches beyond the ends of a leg."""
-    found = []
+    continuations = []
     branches = unstable_branches(family, line, arrival.seeds, unstable.span)
     for end, whole in enumerate(branches):
         if whole is None:
@@ -118,5 +118,5 @@ def _continued(
         branch = whole.thinned(unstable.motions)
         period_map, _ = family.at([line] * len(branch.values), branch.values.tolist())
         assert isinstance(period_map, GearMap)
-        found.append(ContinuedBranch(end, branch, sampled(period_map, branch.orbits, samples)))
-    return found
+        continuations.append(ContinuedBranch(end, branch, sampled(period_map, branch.orbits, samples)))
+    return continuations

@@ -55,11 +55,11 @@ def unstable_branches(
     None where there are none that can be followed.
     """
     reach = max(map(abs, span))
-    found = []
+    followed = []
     for seed in seeds:
         size = max(abs(seed.value), arclength.NEAR_ZERO * reach)
-        found.append(_followed(arclength.Arclength(family, line, seed, size, tolerance), span))
-    return found
+        followed.append(_followed(arclength.Arclength(family, line, seed, size, tolerance), span))
+    return followed
 
 
 def _followed(way: arclength.Arclength, span: tuple[float, float]) -> UnstableBranch | None:
@@ -69,10 +69,10 @@ def _followed(way: arclength.Arclength, span: tuple[float, float]) -> UnstableBr
     step, places, count = arclength.FIRST, list[arclength.BranchPoint](), 0
     finish = None
     while here is not None and count < MOST and not (count > arclength.MOST_PLACES and not places):
-        found = way.next(here, step)
-        if found is None:
+        reached = way.next(here, step)
+        if reached is None:
             break
-        beyond, step = found
+        beyond, step = reached
         count += 1
         merged = _merged(here, beyond)
         if merged or (beyond.stable and places):

@@ -113,7 +113,7 @@ def _cycles(part: BatchPart, models: Sequence[Model], march: March, result: Ense
         if kept == 0:
             control = control._replace(at=jnp.asarray(dense))
         passed = intervals(mine[0].schedule, march.first_cycle + done)
-        carried, found = _compiled(
+        carried, marched = _compiled(
             part,
             mine[0].options,
             numbers,
@@ -123,14 +123,14 @@ def _cycles(part: BatchPart, models: Sequence[Model], march: March, result: Ense
             control,
         )
         cases = slice(len(places))
-        status = np.asarray(found.status)[cases, : len(passed)]
+        status = np.asarray(marched.status)[cases, : len(passed)]
         whole = np.argmax(np.pad(status, ((0, 0), (0, 1)), constant_values=-1) != Status.DONE, axis=1)
         starts = np.array([[*np.asarray(m.schedule.start)[list(passed)], 1.0] for m in mine[: len(places)]])
         result.reached[places] += starts[np.arange(len(places)), whole]
-        result.steps[places] += np.sum(np.asarray(found.steps)[cases], axis=1)
-        result.evaluations[places] += np.sum(np.asarray(found.evaluations)[cases], axis=1)
+        result.steps[places] += np.sum(np.asarray(marched.steps)[cases], axis=1)
+        result.evaluations[places] += np.sum(np.asarray(marched.evaluations)[cases], axis=1)
         if kept >= 0 and march.samples:
-            sampled = np.asarray(found.samples)
+            sampled = np.asarray(marched.samples)
             for i, case in enumerate(places):
                 block = [sampled[i, k, : grids[i][1][passed[k]]] for k in range(whole[i])]
                 block = np.concatenate([*block, np.empty((0, sampled.shape[-1]))])
@@ -212,12 +212,12 @@ def _stacked_numbers(models: Sequence[Model], one_table: bool) -> Any:
     for m, mesh in enumerate(first.meshes):
         shared = common(mesh, ["table"]) if one_table else {}
         others = [name for name in GearMesh._fields if name not in shared]
-        own = {name: stacked([getattr(model.meshes[m], name) for model in models]) for name in others}
-        meshes.append(GearMesh(**shared, **own))
+        differing = {name: stacked([getattr(model.meshes[m], name) for model in models]) for name in others}
+        meshes.append(GearMesh(**shared, **differing))
     names = [name for name in Schedule._fields if name in SHARED]
     others = [name for name in Schedule._fields if name not in SHARED]
-    own = {name: stacked([getattr(model.schedule, name) for model in models]) for name in others}
-    schedule = Schedule(**common(first.schedule, names), **own)
+    differing = {name: stacked([getattr(model.schedule, name) for model in models]) for name in others}
+    schedule = Schedule(**common(first.schedule, names), **differing)
     bodies, links, operation = (
         stacked([getattr(model, name) for model in models]) for name in ("bodies", "links", "operation")
     )

@@ -202,9 +202,11 @@ def over_cycle(
             jnp.where(good, steps, carried.steps),
             status,
         )
-        taken = jnp.minimum(accepted, control.max_steps - carried.steps)  # the step too many is counted there
+        counted = jnp.minimum(
+            accepted, control.max_steps - carried.steps
+        )  # the step too many is counted there
         cost = jnp.where(dead, 0, solution.stats["num_steps"] * method.stages)
-        return went_on, IntervalResult(states[:-1], status, jnp.where(dead, 0, taken), cost)
+        return went_on, IntervalResult(states[:-1], status, jnp.where(dead, 0, counted), cost)
 
     return jax.lax.scan(over_interval, carried._replace(steps=jnp.zeros_like(carried.steps)), control.within)
 
@@ -273,16 +275,16 @@ class DiffraxIntegrator:
         samples, reached, steps, evaluations = [np.empty((0, state.shape[-1]))], 0.0, 0, 0
         for cycle in range(first_cycle, first_cycle + cycles):
             numbers = intervals(self.schedule, cycle)
-            carried, found = over_one_cycle(
+            carried, marched = over_one_cycle(
                 self.method, self.options, self.numbers, carried, cycle, self.started, self.control
             )
             self.started = True
-            status, sampled = np.asarray(found.status)[: len(numbers)], np.asarray(found.samples)
+            status, sampled = np.asarray(marched.status)[: len(numbers)], np.asarray(marched.samples)
             failed = status != Status.DONE
             whole = int(np.argmax(failed)) if failed.any() else len(numbers)
             samples += [sampled[k, : self.counts[numbers[k]]] for k in range(whole)]
-            steps += int(np.sum(found.steps))
-            evaluations += int(np.sum(found.evaluations))
+            steps += int(np.sum(marched.steps))
+            evaluations += int(np.sum(marched.evaluations))
             reached += (
                 1.0 if whole == len(numbers) else float(np.asarray(self.schedule.start)[numbers[whole]])
             )

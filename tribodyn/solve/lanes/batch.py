@@ -66,35 +66,35 @@ Known = dict[int, tuple[Any, ...]]
 """Records examined so far, by their identity, with what was found."""
 
 
-def shape_of(model: Model, known: Known | None = None) -> ModelShape:
+def shape_of(model: Model, examined: Known | None = None) -> ModelShape:
     """What a model must have in common with another to run beside it.
 
-    `known` keeps the shapes of records, for models that have some in common.
+    `examined` keeps the shapes of records, for models that have some in common.
     """
-    known = {} if known is None else known
-    parts = [_shape_of(getattr(model, name), known) for name in RECORDS]
+    examined = {} if examined is None else examined
+    parts = [_shape_of(getattr(model, name), examined) for name in RECORDS]
     return ModelShape(model.options, tuple(part[0] for part in parts), b"".join(part[1] for part in parts))
 
 
-def _shape_of(value: Any, known: Known) -> tuple[Any, bytes]:
+def _shape_of(value: Any, examined: Known) -> tuple[Any, bytes]:
     """Shapes of a record, or of several, and the content of what is `SHARED`."""
     if not isinstance(value, tuple):
         return getattr(value, "shape", ()), b""
-    if id(value) not in known:
-        parts = [_shape_of(item, known) for item in value]
+    if id(value) not in examined:
+        parts = [_shape_of(item, examined) for item in value]
         names = getattr(value, "_fields", ())
-        own = [np.asarray(getattr(value, name), dtype=float).tobytes() for name in names if name in SHARED]
-        contents = b"".join(part[1] for part in parts) + b"".join(own)
-        known[id(value)] = (tuple(part[0] for part in parts), contents, value)
-    return known[id(value)][:2]
+        shared = [np.asarray(getattr(value, name), dtype=float).tobytes() for name in names if name in SHARED]
+        contents = b"".join(part[1] for part in parts) + b"".join(shared)
+        examined[id(value)] = (tuple(part[0] for part in parts), contents, value)
+    return examined[id(value)][:2]
 
 
 def by_shape(models: Sequence[Model]) -> list[np.ndarray]:
     """Places of the models of each shape; a record that many have in common is examined once."""
-    known: Known = {}
+    examined: Known = {}
     groups: dict[ModelShape, list[int]] = {}
     for place, model in enumerate(models):
-        groups.setdefault(shape_of(model, known), []).append(place)
+        groups.setdefault(shape_of(model, examined), []).append(place)
     return [np.array(places) for places in groups.values()]
 
 
@@ -159,16 +159,16 @@ def _in_order(value: Any) -> list[tuple[str, Any, bool]]:
     return sorted(parts, key=itemgetter(2))
 
 
-def _row(value: Any, kept: dict[int, Kept], known: Known) -> tuple[list[float], list[int]]:
+def _row(value: Any, kept: dict[int, Kept], examined: Known) -> tuple[list[float], list[int]]:
     """Numbers and addresses of a record, or of several; a table that records share is kept once."""
-    if id(value) in known:
-        return known[id(value)][:2]
+    if id(value) in examined:
+        return examined[id(value)][:2]
     numbers: list[float] = []
     addresses: list[int] = []
     for _, item, inline in _in_order(value):
         if isinstance(item, tuple):
-            own, pointed = _row(item, kept, known)
-            numbers += own
+            item_numbers, pointed = _row(item, kept, examined)
+            numbers += item_numbers
             addresses += pointed
         elif not np.ndim(item):
             numbers.append(float(item))
@@ -179,7 +179,7 @@ def _row(value: Any, kept: dict[int, Kept], known: Known) -> tuple[list[float], 
                 array = np.ascontiguousarray(item, dtype=np.float64)
                 kept[id(item)] = Kept(item, array, array.ctypes.data)
             addresses.append(kept[id(item)].address)
-    known[id(value)] = (numbers, addresses, value)
+    examined[id(value)] = (numbers, addresses, value)
     return numbers, addresses
 
 
@@ -255,12 +255,12 @@ def _batch(
 def _work(batch: LaneBatch, march: March) -> None:
     """Work through a queue, until it is empty, in lanes of this thread's own."""
     model, numbers, addresses = lane_model(batch.packed)
-    given = batch.model
-    layout, pairs = given.layout, given.pairs
+    first_model = batch.model
+    layout, pairs = first_model.layout, first_model.pairs
     measures, state, extremes = Search.begun(layout, pairs)
     search = Search(_over_lanes(measures), _over_lanes(state), Extremes(*map(_over_lanes, extremes)))
     y, atol = np.zeros((layout.states, WIDTH)), np.zeros((layout.states, WIDTH))
-    work, rows = _over_lanes(work_array(given)), np.zeros((ROWS, WIDTH))
+    work, rows = _over_lanes(work_array(first_model)), np.zeros((ROWS, WIDTH))
     rows[CASE] = -1.0
     block = LaneBlock(numbers, addresses, rows, y, atol, _over_lanes(dopri5.buffer(layout)), work, search)
     march_lanes(model, block, batch.queue, march)

@@ -74,9 +74,9 @@ def march_lanes(model, block, queue, march):
 @part
 def search_of(block):
     """The search for extremes, over the lanes."""
-    search, found = block.search, block.search.extremes
+    search, lanes = block.search, block.search.extremes
     extremes = Extremes(
-        rows_of(found.measure), rows_of(found.cycles), rows_of(found.interval), rows_of(found.state)
+        rows_of(lanes.measure), rows_of(lanes.cycles), rows_of(lanes.interval), rows_of(lanes.state)
     )
     return Search(rows_of(search.measures), rows_of(search.state), extremes)
 

@@ -121,13 +121,13 @@ def let_go(lane, status, block, queue):
     queue.result.reached[case] = rows[CYCLE, lane] + rows[PHASE, lane]
     queue.result.steps[case] = int(rows[STEPS, lane])
     queue.result.evaluations[case] = int(rows[EVALUATIONS, lane])
-    found, extremes = block.search.extremes, queue.result.extremes
+    lane_extremes, extremes = block.search.extremes, queue.result.extremes
     if extremes.measure.shape[0] > 0:
-        copy(found.measure[:, lane], extremes.measure[case])
-        copy(found.cycles[:, lane], extremes.cycles[case])
-        copy(found.interval[:, lane], extremes.interval[case])
-        for i in range(found.measure.shape[0]):
-            copy(found.state[i, :, lane], extremes.state[case, i])
+        copy(lane_extremes.measure[:, lane], extremes.measure[case])
+        copy(lane_extremes.cycles[:, lane], extremes.cycles[case])
+        copy(lane_extremes.interval[:, lane], extremes.interval[case])
+        for i in range(lane_extremes.measure.shape[0]):
+            copy(lane_extremes.state[i, :, lane], extremes.state[case, i])
     rows[CASE, lane] = -1.0
     rows[PHASE, lane] = rows[END, lane]
 

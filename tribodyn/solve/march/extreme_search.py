@@ -99,9 +99,9 @@ def begin_rates(measures, extreme, of_mesh, layout):
             for row in alike(m * of_mesh + which, of_mesh):
                 rate = absolute(measures[RATE, row])
                 fastest = maximum(fastest, where(rate < UNKNOWN, rate, -1.0))
-            known = (best > LOWEST) & (fastest >= 0.0)
+            observed = (best > LOWEST) & (fastest >= 0.0)
             for row in alike(m * of_mesh + which, of_mesh):
-                measures[RATE, row] = where(known, 2.0 * fastest, UNKNOWN)
+                measures[RATE, row] = where(observed, 2.0 * fastest, UNKNOWN)
 
 
 @law

@@ -204,5 +204,5 @@ class NativeIntegrator:
             march, control, self._model, y, out, self._work, self._buffer, search
         )
         self.started = True
-        found = search.extremes if self.extremes else None
-        return IntegratedCycles(out[:written], y, Status(status), reached, steps, evaluations, "", found)
+        extremes = search.extremes if self.extremes else None
+        return IntegratedCycles(out[:written], y, Status(status), reached, steps, evaluations, "", extremes)

@@ -50,26 +50,26 @@ def stops(model: Model) -> Float[Array, "interval stop"]:
     schedule = model.schedule
     start, end, segment = (np.asarray(part) for part in (schedule.start, schedule.end, schedule.segment))
     width = float(model.operation.reversal_width)
-    known: dict[tuple[int, int], list[float]] = {}
+    crossings: dict[tuple[int, int], list[float]] = {}
     columns = []
     for m, mesh in enumerate(model.meshes):
         offset, rate = np.asarray(schedule.offset)[:, m], np.asarray(schedule.rate)[m]
         of_mesh: list[np.ndarray] = []
         for there in np.unique(segment[:, m]).tolist():
             key = id(mesh.table), int(there)
-            if key not in known:
-                known[key] = [
+            if key not in crossings:
+                crossings[key] = [
                     phase for share in shares for phase in passages(mesh.table, key[1], share * width)
                 ]
             rows = segment[:, m] == there
-            of_mesh += [np.full(len(start), np.inf) for _ in known[key][len(of_mesh) :]]
-            for column, phase in zip(of_mesh, known[key], strict=False):
+            of_mesh += [np.full(len(start), np.inf) for _ in crossings[key][len(of_mesh) :]]
+            for column, phase in zip(of_mesh, crossings[key], strict=False):
                 column[rows] = (phase - offset[rows]) / rate
         columns += of_mesh
-    found = np.sort(np.array(columns).reshape(-1, len(start)), axis=0)
+    phases = np.sort(np.array(columns).reshape(-1, len(start)), axis=0)
     near = 1e-9 * (end - start)
     last, kept = start, []
-    for column in found:  # those of slices in step are one
+    for column in phases:  # those of slices in step are one
         passed = (last + near < column) & (column < end - near)
         last = np.where(passed, column, last)
         kept.append(np.where(passed, column, np.inf))
@@ -94,10 +94,10 @@ def stops_of_many(models: Sequence[Model]) -> Float[Array, "case interval stop"]
             numbers[key] = len(different)
             different.append(stops(model))
         rows.append(numbers[key])
-    intervals, count = (max(given.shape[axis] for given in different) for axis in (0, 1))
-    unread = [((0, intervals - len(given)), (0, 0)) for given in different]
+    intervals, count = (max(stop.shape[axis] for stop in different) for axis in (0, 1))
+    unread = [((0, intervals - len(stop)), (0, 0)) for stop in different]
     return np.array(
-        [np.pad(filled_up(given, count), rest, "edge") for given, rest in zip(different, unread, strict=True)]
+        [np.pad(filled_up(stop, count), rest, "edge") for stop, rest in zip(different, unread, strict=True)]
     )[rows]
 
 

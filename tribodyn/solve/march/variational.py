@@ -182,12 +182,12 @@ def march_with_derivative(
 
 def _packed(models: Sequence[Model]) -> list[PackedValue]:
     """The models as kernels read them; what several have in common is packed once."""
-    known: dict[int, PackedValue] = {}
+    packed_records: dict[int, PackedValue] = {}
 
     def once(record: Any) -> Any:
-        if id(record) not in known:
-            known[id(record)] = packed(record)
-        return known[id(record)]
+        if id(record) not in packed_records:
+            packed_records[id(record)] = packed(record)
+        return packed_records[id(record)]
 
     return [packed(Model(*map(once, model.numbers), options=model.options)) for model in models]
 

@@ -181,25 +181,25 @@ class Recurrence(NamedTuple):
 
 def recurrences(track: Float[Array, "period state"]) -> list[Recurrence]:
     """How nearly a motion repeats after 1, 2, … periods, as many as its states (K, N) can tell, K ≥ 5."""
-    found = []
+    distances = []
     for n in range(1, min(MAX_PERIOD, (len(track) - 1) // 2) + 1):
         change = np.max(np.abs(track[n:] - track[:-n]), axis=1)
         width = max(n, min(WINDOW, len(change) - 1))
         half = min(HALF, len(change) - width)
         last, before = change[-width:], change[-width - half : len(change) - half]
-        found.append(Recurrence(n, float(np.max(last)), float(np.max(before)), half))
-    return found
+        distances.append(Recurrence(n, float(np.max(last)), float(np.max(before)), half))
+    return distances
 
 
-def recognised(found: list[Recurrence]) -> list[Recurrence]:
+def recognised(candidates: list[Recurrence]) -> list[Recurrence]:
     """The periods that the motion may come to repeat after, the smallest first.
 
     A motion of n periods changes over m < n of them by as much as its points are apart, however near it is;
     over n it changes by what is left of the transient. So m is excluded where its change exceeds twice the
     distance that is left by the change over n.
     """
-    limit = 2.0 * min(recurrence.distance for recurrence in found)
-    return [recurrence for recurrence in found if recurrence.change <= limit]
+    limit = 2.0 * min(recurrence.distance for recurrence in candidates)
+    return [recurrence for recurrence in candidates if recurrence.change <= limit]
 
 
 class Wandering(NamedTuple):
@@ -231,22 +231,22 @@ def wanderings(
     """
     scale = period_map.scale[cases]
     rows, size = states.shape
-    here, beside = states, states + APART * scale / np.sqrt(size)
+    here, neighbour = states, states + APART * scale / np.sqrt(size)
     growth = np.zeros((TURNING + MEASURED, rows))
     track = np.zeros((MEASURED * STRIDE, rows, size))
     twice = np.concatenate([cases, cases])
     why = [""] * rows
     for stride in range(TURNING + MEASURED):
-        marched, reasons = period_map.march(np.concatenate([here, beside]), twice, STRIDE, True)
+        marched, reasons = period_map.march(np.concatenate([here, neighbour]), twice, STRIDE, True)
         pairs = zip(why, reasons[:rows], reasons[rows:], strict=True)
-        why = [before or own or other for before, own, other in pairs]
+        why = [before or after or other for before, after, other in pairs]
         if all(why):
             break
         here = marched[:rows, -1]
         away = (marched[rows:, -1] - here) / scale
         distance = np.maximum(np.linalg.norm(away, axis=1), TINY)
         growth[stride] = np.log(distance / APART) / STRIDE
-        beside = here + APART * scale * away / distance[:, None]
+        neighbour = here + APART * scale * away / distance[:, None]
         if stride >= TURNING:
             first = (stride - TURNING) * STRIDE
             track[first : first + STRIDE] = np.swapaxes(marched[:rows], 0, 1) / scale

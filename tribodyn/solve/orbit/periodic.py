@@ -173,8 +173,8 @@ def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Stea
             if reasons[row]:
                 motions[case] = _failed(states[row], reasons[row])
                 continue
-            window, end, found = result.samples[row], result.state[row], extremes_of(result.extremes, row)
-            motions[case] = replace(motions[case], samples=window, end=end, extremes=found)
+            window, end, extremes = result.samples[row], result.state[row], extremes_of(result.extremes, row)
+            motions[case] = replace(motions[case], samples=window, end=end, extremes=extremes)
     return [motions[case] for case in range(len(orbits))]
 
 

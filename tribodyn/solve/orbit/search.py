@@ -91,10 +91,10 @@ class Progress:
         self.current[case] = states[-1]
         self.marched[case] += BLOCK
         self.track[case] = np.concatenate([self.track[case], states / self.scale[case]])[-LOOK:]
-        found = motions.recurrences(self.track[case])
-        self.seen[case] = motions.recognised(found)
-        self.smallest[case] = min(recurrence.change for recurrence in found)
-        earlier = min(recurrence.earlier for recurrence in found)
+        recurrences = motions.recurrences(self.track[case])
+        self.seen[case] = motions.recognised(recurrences)
+        self.smallest[case] = min(recurrence.change for recurrence in recurrences)
+        earlier = min(recurrence.earlier for recurrence in recurrences)
         self.history[case].append(max(self.smallest[case], earlier))
 
     def shown(self, case: int) -> int:
@@ -262,13 +262,13 @@ class OrbitSearch:
                     progress.fallback[case] = orbit
         if wandering:
             cases: Int[Array, " case"] = np.array(wandering)
-            found = motions.wanderings(self.period_map, progress.current[cases], cases)
-            for case, motion in zip(wandering, found, strict=True):
+            kinds = motions.wanderings(self.period_map, progress.current[cases], cases)
+            for case, motion in zip(wandering, kinds, strict=True):
                 remarks = [progress.describe(case), motion.describe()]
-                beside = progress.fallback.get(case)
-                if beside is not None:
+                fallback = progress.fallback.get(case)
+                if fallback is not None:
                     stable = "shooting found a stable state that it does not reach"
-                    remarks.append(stable if beside.stable else f"beside {beside.message}")
+                    remarks.append(stable if fallback.stable else f"beside {fallback.message}")
                 last, cycles = progress.current[case], int(progress.marched[case])
                 smallest = float(progress.smallest[case])
                 message = "; ".join(remarks)

@@ -184,10 +184,10 @@ def _newton_direction(
     matrix = jacobian * scale / scale[:, None]
     if not (np.all(np.isfinite(matrix)) and np.all(np.isfinite(off))):
         return None
-    left, values, right = np.linalg.svd(np.eye(len(matrix)) - matrix)
+    left_vectors, values, right = np.linalg.svd(np.eye(len(matrix)) - matrix)
     if values[-1] <= 1e-9 * max(1.0, values[0]):
         return None
-    return scale * (right.T @ ((left.T @ (off / scale)) / values))
+    return scale * (right.T @ ((left_vectors.T @ (off / scale)) / values))
 
 
 def eigenvalues(jacobian: Float[Array, "state state"]) -> Complex[Array, " state"]:

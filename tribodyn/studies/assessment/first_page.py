@@ -21,8 +21,8 @@ from tribodyn.tribology.oil import LubricantData
 def header(record: Record, what: str) -> str:
     """Title, kind and date of a record."""
     created = str(record.attrs["created"]).partition("T")[0]
-    made = f"{what}, {created}, tribodyn {record.attrs['tribodyn_version']}"
-    return f"<header><h1>{escape(_title(record))}</h1><p>{escape(made)}</p></header>"
+    origin_text = f"{what}, {created}, tribodyn {record.attrs['tribodyn_version']}"
+    return f"<header><h1>{escape(_title(record))}</h1><p>{escape(origin_text)}</p></header>"
 
 
 def written(record: Record, body: Sequence[str]) -> str:
@@ -129,25 +129,25 @@ def holds_table(heading: str, heads: Sequence[Sequence[Judged]], rows: Sequence[
 
 def bearings_table(summary: Mapping[str, Any]) -> str:
     """The bearings of drawn shafts; "" where there are none."""
-    found = summary.get("bearings")
-    return numbers_table("Bearings", *bearing_rows(found), " points") if found else ""
+    bearings = summary.get("bearings")
+    return numbers_table("Bearings", *bearing_rows(bearings), " points") if bearings else ""
 
 
 def limits_table(summary: Mapping[str, Any]) -> str:
     """Every limit that was judged, those that are not kept red."""
     limits = summary.get("limits", {})
     rows = []
-    for name, found in limits.items():
+    for name, cell in limits.items():
         limit = LIMITS[name]
-        value, bound = written_limit(name, found), limit.quantity.written(float(found["limit"]))
+        value, bound = written_limit(name, cell), limit.quantity.written(float(cell["limit"]))
         required = f"{'≥' if limit.least else '≤'} {bound}"
         missed = "below" if limit.least else "above"
-        verdict = "holds" if found["kept"] else missed
-        if found.get("exceed"):
-            verdict += f"; {found['exceed']} of {found['samples']} samples {missed}"
+        verdict = "holds" if cell["kept"] else missed
+        if cell.get("exceed"):
+            verdict += f"; {cell['exceed']} of {cell['samples']} samples {missed}"
         rows.append((limit.label, value, required, limit.quantity.unit, verdict))
     exceeded = [
-        number for number, found in enumerate(limits.values()) if not found["kept"] or found.get("exceed")
+        number for number, cell in enumerate(limits.values()) if not cell["kept"] or cell.get("exceed")
     ]
     return numbers_table("Limits", ("Limit", "value", "required", "", ""), rows, marked=exceeded)
 

@@ -79,14 +79,14 @@ def rated_flanks(
     wide = np.broadcast_to(shares[None, :, :, None], (1, *roll.shape))
     ways = _way(roll[None])[0], _way(pressure), _way(wide)[0]
     at_pitch = _largest(*ways, (nominal.pitch, nominal.pitch))
-    found = []
+    flanks = []
     for inner in nominal.inner:
         widest = _largest(*ways, (min(inner, nominal.pitch), max(inner, nominal.pitch)))
         part = (1.0 - nominal.overlap) * (widest.pressure - at_pitch.pressure)
-        found.append(
+        flanks.append(
             widest._replace(pressure=at_pitch.pressure + part) if nominal.overlap < 1.0 else at_pitch
         )
-    return found[0], found[1]
+    return flanks[0], flanks[1]
 
 
 def _way(values: Float[Array, "cycle position pair slice"]) -> Float[Array, "cycle place slice"]:
@@ -104,11 +104,11 @@ def _largest(
     """The largest pressure of a stretch of the path, its ends by interpolation."""
     columns = []
     for part in range(roll.shape[1]):
-        own = roll[:, part]
-        places = np.unique([*stretch, *own[(own > stretch[0]) & (own < stretch[1])]])
-        pressed = np.array([np.interp(places, own, cycle[:, part]) for cycle in pressure])
+        pair_roll = roll[:, part]
+        places = np.unique([*stretch, *pair_roll[(pair_roll > stretch[0]) & (pair_roll < stretch[1])]])
+        pressed = np.array([np.interp(places, pair_roll, cycle[:, part]) for cycle in pressure])
         top = int(np.argmax(np.max(pressed, axis=0)))
-        columns.append((pressed[:, top], float(np.interp(places[top], own, carried[:, part]))))
+        columns.append((pressed[:, top], float(np.interp(places[top], pair_roll, carried[:, part]))))
     highest = np.array([np.max(pressed) for pressed, _ in columns])
     pressed, share = columns[int(np.argmax(highest))]
     even = math.sqrt(float(np.mean(highest**2)))

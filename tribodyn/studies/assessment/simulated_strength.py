@@ -121,11 +121,11 @@ def _in_motion(
     """
     wanted, total = motion["roll_angle"], motion["normal_load"][..., None]
     if helical:
-        found = _at_roll(wanted, roll, slice_load, outside=0.0)
-        return found * np.sum(total, axis=2, keepdims=True) / np.sum(found, axis=(1, 2), keepdims=True)
+        shape = _at_roll(wanted, roll, slice_load, outside=0.0)
+        return shape * np.sum(total, axis=2, keepdims=True) / np.sum(shape, axis=(1, 2), keepdims=True)
     loaded = np.sum(slice_load, axis=1) > 0.0
-    found = _at_roll(wanted, roll[loaded], slice_load[loaded])
-    return total * found / np.sum(found, axis=-1, keepdims=True)
+    shape = _at_roll(wanted, roll[loaded], slice_load[loaded])
+    return total * shape / np.sum(shape, axis=-1, keepdims=True)
 
 
 def _at_roll(
@@ -153,10 +153,10 @@ class GivenFactors(NamedTuple):
 
 def given_factors(settings: AssessmentTable, quantities: Mapping[str, Any]) -> GivenFactors:
     """What stands beside the simulation's own factors, or replaces them; see also `margins.load_factor`."""
-    own, face = max(quantities["dynamic_factor"], 1.0), quantities["face_load_factor"]
+    simulated, face = max(quantities["dynamic_factor"], 1.0), quantities["face_load_factor"]
     return GivenFactors(
         settings.application_factor * (settings.mesh_load_factor or 1.0),
-        (settings.dynamic_factor or own) / own,
+        (settings.dynamic_factor or simulated) / simulated,
         (settings.face_load_factor or face) / face,
     )
 
@@ -180,29 +180,29 @@ class SimulatedStrength(NamedTuple):
 
     def by_name(self) -> dict[str, dict[str, float]]:
         """By the standard's names, of each gear."""
-        found: dict[str, dict[str, float]] = {}
+        by_key: dict[str, dict[str, float]] = {}
         for letter, name, both in (("H", "pitting", self.pitting), ("F", "bending", self.bending)):
             values = {f"sigma_{letter}": "stress", f"S_{letter}": "safety"}
             values |= {f"life_{name}": "life", f"damage_{name}": "damage"}
             for key, field in values.items():
                 of_gears = {side: getattr(one, field) for side, one in zip(SIDES, both, strict=True)}
-                found |= {key: of_gears} if None not in of_gears.values() else {}
-        return found
+                by_key |= {key: of_gears} if None not in of_gears.values() else {}
+        return by_key
 
     def times(self, flank: float, root: float) -> "SimulatedStrength":
         """The same under stresses so many times as large."""
-        found = [
+        scaled = [
             [one.times(factor) if one.times else one._replace(stress=factor * one.stress) for one in both]
             for factor, both in ((flank, self.pitting), (root, self.bending))
         ]
-        return SimulatedStrength((found[0][0], found[0][1]), (found[1][0], found[1][1]))
+        return SimulatedStrength((scaled[0][0], scaled[0][1]), (scaled[1][0], scaled[1][1]))
 
     def safeties(self) -> dict[str, Any]:
         """The smaller safeties of both gears and the shortest life, as `capacity.safeties`."""
         named = self.by_name()
-        found = {name: min(named[name].values()) for name in ("S_H", "S_F") if name in named}
+        smallest = {name: min(named[name].values()) for name in ("S_H", "S_F") if name in named}
         every = [one for both in self for one in both if one.life is not None]
-        return found | shorter_life(*(as_life(one.life or 0.0, one.damage == 0.0) for one in every))
+        return smallest | shorter_life(*(as_life(one.life or 0.0, one.damage == 0.0) for one in every))
 
 
 def strength_beside(
@@ -214,18 +214,18 @@ def strength_beside(
     in a meshing; at the root cycles are counted by rain-flow.
     """
     settings, metals = case.settings, metals_of(case)
-    given = given_factors(settings, quantities)
-    pressed = float(np.sqrt(given.load)) * teeth.nominal.credit
+    prescribed = given_factors(settings, quantities)
+    pressed = float(np.sqrt(prescribed.load)) * teeth.nominal.credit
     pitting, bending = [], []
     for gear, peak in enumerate(teeth.moving.root_peak):
         rated_at = teeth.flank_moving[gear]
         flank = [Bin(pressed * float(p), 1.0) for p in rated_at.pressure]
         of_flank = SimulatedFailure(pressed * rated_at.largest)
-        of_root = SimulatedFailure(given.load * peak.value)
+        of_root = SimulatedFailure(prescribed.load * peak.value)
         if capacity is not None and metals is not None:
             rated = capacity.gears[gear]
             influence = mean_stress_influence(metals[gear], rated.factors["Y_S"])
-            root = root_bins(given.load * teeth.moving.root[gear], influence)
+            root = root_bins(prescribed.load * teeth.moving.root[gear], influence)
             required = settings.safety_pitting, settings.safety_bending
             life = settings.life
             of_flank = _rated(of_flank, flank, len(flank), rated.pitting, required[0], life)
@@ -243,12 +243,12 @@ def root_bins(course: Float[Array, "tooth time"], influence: float) -> list[Bin]
     """
     at_rest = np.pad(np.maximum(course, 0.0), ((0, 0), (0, 1)))
     cycles = rainflow_repeated(at_rest.ravel())
-    found = [Bin(pulsating_stress(each.low, each.high, influence), each.share) for each in cycles]
-    return [one for one in found if one.stress > 0.0]
+    bins = [Bin(pulsating_stress(each.low, each.high, influence), each.share) for each in cycles]
+    return [one for one in bins if one.stress > 0.0]
 
 
 def _rated(
-    found: SimulatedFailure,
+    failure: SimulatedFailure,
     bins: Sequence[Bin],
     meshings: int,
     rated: Failure,
@@ -263,7 +263,7 @@ def _rated(
     ]
 
     def times(factor: float) -> SimulatedFailure:
-        stress = factor * found.stress
+        stress = factor * failure.stress
         grown = [one._replace(stress=factor * one.stress) for one in endured]
         reached, _ = life_of(grown, rated.curve, required, life, rated.cycles)
         used = min(damage(grown, rated.curve, required), MOST_DAMAGE)

@@ -25,8 +25,8 @@ WORDS = {UP: "increasing", DOWN: "decreasing"}
 
 def _response(records: Sequence[Record]) -> Figure:
     """RMS over frequency, heavier where contact is lost; below it the share of time without contact."""
-    drawn = new_figure(WIDTH, 2.3 * PANEL_HEIGHT)
-    upper, lower = drawn.subplots(2, 1, sharex=True, height_ratios=(2.2, 1.0))
+    figure = new_figure(WIDTH, 2.3 * PANEL_HEIGHT)
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.2, 1.0))
     for number, record in enumerate(records):
         for direction in (UP, DOWN):
             color = _color(records, number, direction)
@@ -47,8 +47,8 @@ def _response(records: Sequence[Record]) -> Figure:
     for axes in (upper, lower):
         axes.set_ylim(bottom=0)
     titles = "Amplitude of the vibration: root mean square about the mean", "Loss of contact"
-    _finish(drawn, (upper, lower), records, titles, losing=True)
-    return drawn
+    _finish(figure, (upper, lower), records, titles, losing=True)
+    return figure
 
 
 def _branch(axes: Axes, record: Record, direction: int, color: str) -> None:
@@ -91,16 +91,16 @@ def jumps(values: np.ndarray, periodic: np.ndarray) -> list[int]:
     spread = np.nanmax(values, initial=0.0) - np.nanmin(values, initial=np.inf)
     places = []
     for i in np.flatnonzero(both & (np.nan_to_num(step) > 0.1 * spread)):
-        beside = [step[j] for j in (i - 1, i + 1) if 0 <= j < len(step) and np.isfinite(step[j])]
-        if len(step) > 2 and beside and step[i] > 10.0 * min(beside):
+        neighbours = [step[j] for j in (i - 1, i + 1) if 0 <= j < len(step) and np.isfinite(step[j])]
+        if len(step) > 2 and neighbours and step[i] > 10.0 * min(neighbours):
             places.append(int(i))
     return places
 
 
 def _multipliers(records: Sequence[Record]) -> Figure:
     """Largest modulus, and its angle, of the Floquet multipliers."""
-    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT)
-    upper, lower = drawn.subplots(2, 1, sharex=True)
+    figure = new_figure(WIDTH, 2 * PANEL_HEIGHT)
+    upper, lower = figure.subplots(2, 1, sharex=True)
     for number, record in enumerate(records):
         for direction in (UP, DOWN):
             color = _color(records, number, direction)
@@ -115,8 +115,8 @@ def _multipliers(records: Sequence[Record]) -> Figure:
     upper.set_ylim(bottom=0)
     lower.set(ylabel="its angle (°)", yticks=range(0, 181, 45))
     titles = "Stability: the largest Floquet multiplier; stable below 1", "Its angle: 180° period doubling"
-    _finish(drawn, (upper, lower), records, titles, losing=False)
-    return drawn
+    _finish(figure, (upper, lower), records, titles, losing=False)
+    return figure
 
 
 def _color(records: Sequence[Record], number: int, direction: int) -> str:
@@ -124,12 +124,12 @@ def _color(records: Sequence[Record], number: int, direction: int) -> str:
 
 
 def _finish(
-    drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], titles: Sequence[str], losing: bool
+    figure: Figure, panels: Sequence[Axes], records: Sequence[Record], titles: Sequence[str], losing: bool
 ) -> None:
     for letter, axes, title in zip("ab", panels, titles, strict=True):
         mark_panel(axes, letter, title)
     panels[-1].set_xlabel(ABSCISSA)
-    drawn.align_ylabels()
+    figure.align_ylabels()
     several = len(records) > 1
     key: dict[str, dict[str, Any]] = {}
     for direction, words in WORDS.items():
@@ -150,8 +150,8 @@ def _finish(
         handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles
         labels = [*map(record_label, records), *labels]
     else:
-        drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    drawn.legend(handles, labels, loc="outside lower center", ncols=min(3, len(labels)), handlelength=2.6)
+        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    figure.legend(handles, labels, loc="outside lower center", ncols=min(3, len(labels)), handlelength=2.6)
 
 
 def _drawing(about: str, draw: Callable[[Sequence[Record]], Figure]) -> Drawing:

@@ -231,10 +231,10 @@ class Rows(NamedTuple):
 def march_rows(states, parameters, periods, into, with_tangent, with_measures, buffer):
     """March rows (R, 2) with parameters (R, 5) over some periods; fills `into`, a `Rows`."""
     for row in range(states.shape[0]):
-        state, given = states[row], parameters[row]
+        state, row_parameters = states[row], parameters[row]
         strobes, tangent, measures = into.strobes[row], into.tangents[row], into.measures[row]
         into.status[row] = _advance(
-            state, given, periods, strobes, tangent, measures, with_tangent, with_measures, buffer
+            state, row_parameters, periods, strobes, tangent, measures, with_tangent, with_measures, buffer
         )
 
 

@@ -22,30 +22,30 @@ SWEPT = quantities(*_OF_THE_WAYS, "points_not_periodic", "points_of_longer_perio
 
 def verdict(record: Record) -> list[str]:
     """Say where the response is largest, where contact is lost, where it jumps, and what does not repeat."""
-    summary, found = numbers(record.summary), []
+    summary, lines = numbers(record.summary), []
     if {"rms_max", "rms_max_frequency"} <= set(summary):
         largest, place = summary["rms_max"], summary["rms_max_frequency"]
-        found.append(
+        lines.append(
             f"The response is largest at Ω = {place:.4g}: {largest:.3g} half backlashes RMS about the mean."
         )
     if {"contact_loss_from", "contact_loss_to", "contact_loss_fraction_max"} <= set(summary):
         ends = " to ".join(f"{summary[f'contact_loss_{end}']:.4g}" for end in ("from", "to"))
         longest = share(summary["contact_loss_fraction_max"])
-        found.append(f"The teeth separate from Ω = {ends}, for {longest} of the time at most.")
+        lines.append(f"The teeth separate from Ω = {ends}, for {longest} of the time at most.")
     elif "rms_max" in summary:
-        found.append("The teeth stay in contact at all frequencies.")
+        lines.append("The teeth stay in contact at all frequencies.")
     if {"bistable_from", "bistable_to"} <= set(summary):
         ends = " to ".join(f"{summary[f'bistable_{end}']:.4g}" for end in ("from", "to"))
-        found.append(f"Two motions exist from Ω = {ends}: which one is met depends on the way there.")
+        lines.append(f"Two motions exist from Ω = {ends}: which one is met depends on the way there.")
     points = summary.get("points", 0.0)
     if wandering := summary.get("points_not_periodic"):
         chaotic = summary.get("points_chaotic", 0)
-        found.append(f"{wandering:.0f} of {points:.0f} points do not repeat, {chaotic:.0f} of them chaotic.")
+        lines.append(f"{wandering:.0f} of {points:.0f} points do not repeat, {chaotic:.0f} of them chaotic.")
     if failed := summary.get("points_failed"):
-        found.append(
+        lines.append(
             f"{failed:.0f} of {points:.0f} points grow without bound: there is no steady motion there."
         )
-    return found
+    return lines
 
 
 def sentences(record: Record) -> list[str]:

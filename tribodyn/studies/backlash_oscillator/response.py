@@ -100,15 +100,15 @@ def frequency_response(
         arrivals = follow(family, legs, max_periods=case.max_periods)
         oscillator = oscillator_at(case, frequency[places])
         for direction, arrival in enumerate(arrivals):
-            found = arrival.orbit
-            _put(response, places[direction], direction, found, oscillator)
+            steady = arrival.orbit
+            _put(response, places[direction], direction, steady, oscillator)
             branches = unstable_branches(family, direction, arrival.seeds, span) if case.unstable else []
             for end, branch in enumerate(branches, len(response.ends)):
                 if branch is not None:
                     response.beyond.append(measured_branch(case, end, branch))
             response.ends.extend((direction, end) for end in arrival.ends)
-            failed = found.kind == orbit.FAILED
-            at[direction] = None if failed else (legs[direction].target, arrival.next_state, found.period)
+            failed = steady.kind == orbit.FAILED
+            at[direction] = None if failed else (legs[direction].target, arrival.next_state, steady.period)
         if progress:
             progress((step + 1) / count)
     return response
@@ -165,18 +165,18 @@ def measured_branch(case: BacklashOscillatorCase, end: int, branch: UnstableBran
     return MeasuredBranch(end, branch, measured(oscillator, branch.states, cases, branch.period))
 
 
-def _put(response: Response, place: int, direction: int, found: Orbit, oscillator: OscillatorMap) -> None:
+def _put(response: Response, place: int, direction: int, steady: Orbit, oscillator: OscillatorMap) -> None:
     """Put one orbit, and what is measured on it, into its place."""
     at = place, direction
-    if found.message:
-        response.messages.append((float(response.frequency[place]), direction, found.message))
-    if found.kind == orbit.FAILED:
+    if steady.message:
+        response.messages.append((float(response.frequency[place]), direction, steady.message))
+    if steady.kind == orbit.FAILED:
         return
-    measures = measured(oscillator, found.state[None], np.array([direction]), found.period or WINDOW)
+    measures = measured(oscillator, steady.state[None], np.array([direction]), steady.period or WINDOW)
     for name, values in measures.items():
         getattr(response, name)[at] = values[0]
-    response.motion[at] = WITHOUT_PERIOD.get(found.kind, STABLE)
-    response.period[at] = found.period
-    response.residual[at] = found.residual
-    response.multiplier[at] = found.multipliers
-    response.section_displacement[at], response.section_velocity[at] = found.state
+    response.motion[at] = WITHOUT_PERIOD.get(steady.kind, STABLE)
+    response.period[at] = steady.period
+    response.residual[at] = steady.residual
+    response.multiplier[at] = steady.multipliers
+    response.section_displacement[at], response.section_velocity[at] = steady.state

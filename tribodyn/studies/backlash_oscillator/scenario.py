@@ -87,14 +87,14 @@ Scenario = BacklashOscillatorScenario
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> BacklashOscillatorCase:
     """Return the case of a scenario that has passed the schema."""
-    given = scenario.frequency
+    frequency = scenario.frequency
     return BacklashOscillatorCase(
         **head_of(scenario, toml, sha256),
         damping=scenario.damping,
         mean_force=scenario.mean_force,
         error_amplitude=scenario.error_amplitude,
         stiffness_variation=scenario.stiffness_variation,
-        frequencies=given.values() if isinstance(given, FrequencyRange) else tuple(given),
+        frequencies=frequency.values() if isinstance(frequency, FrequencyRange) else tuple(frequency),
         max_periods=scenario.solver.max_periods,
         unstable=scenario.solver.unstable,
     )

@@ -26,8 +26,8 @@ def estimate(case: DesignCase) -> Estimate:
             loaded = loaded_source(case.scenarios, name, cases[0])
             several.append(loaded.study.estimate(loaded.case))
             # what cases share, such as finite elements, is made anew for gears of another shape
-            own = several[-1].shared if shapes_gears(case) else 0.0
-            seconds += candidates * len(cases) * (several[-1].seconds + own)
+            preparation = several[-1].shared if shapes_gears(case) else 0.0
+            seconds += candidates * len(cases) * (several[-1].seconds + preparation)
     largest = max(several, key=lambda estimate: estimate.memory)
     sizes = {name: len(scale) for name, scale in scales_of(case, names_of(case, [])).items()}
     sizes["evaluation"] = len(FACTORS) * case.search.evaluations

@@ -65,8 +65,8 @@ def _found(record: Record) -> bool:
 
 def _overview(records: Sequence[Record], _view: View) -> Figure:
     record = records[0]
-    drawn = new_figure(WIDTH, 2.0 * PANEL_HEIGHT)
-    (upper_left, upper_right), (lower_left, lower_right) = drawn.subplots(2, 2)
+    figure = new_figure(WIDTH, 2.0 * PANEL_HEIGHT)
+    (upper_left, upper_right), (lower_left, lower_right) = figure.subplots(2, 2)
     _draw_history(upper_left, [record])
     if "objective_2" in record:
         _draw_front(upper_right, [record])
@@ -74,8 +74,8 @@ def _overview(records: Sequence[Record], _view: View) -> Figure:
         _draw_duties(upper_right, record)
     _draw_values(lower_left, record)
     _draw_sensitivities(lower_right, record)
-    drawn.suptitle(record_title(record), fontsize=8.5, fontweight="bold")
-    return drawn
+    figure.suptitle(record_title(record), fontsize=8.5, fontweight="bold")
+    return figure
 
 
 def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
@@ -236,9 +236,9 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
         views, feasible = [_Shown(record, place) for place in (0, 1)], _feasible(record)
         x, y = (view.values[feasible] for view in views)
         axes.plot(x, y, ".", color=color, markersize=3, alpha=0.35)
-        found = record.summary.get("front", {})
+        front = record.summary.get("front", {})
         x, y = (
-            view.factor * np.atleast_1d(found[name]) for view, name in zip(views, OBJECTIVES, strict=True)
+            view.factor * np.atleast_1d(front[name]) for view, name in zip(views, OBJECTIVES, strict=True)
         )
         label = record_label(record) if len(records) > 1 else "front"
         axes.plot(x, y, "o-", color=color, markersize=3.5, label=label)
@@ -268,9 +268,9 @@ def _panel(
     """A figure of one panel, with the first record or all of them in it."""
 
     def figure(records: Sequence[Record], _view: View) -> Figure:
-        drawn = new_figure(WIDTH, height * PANEL_HEIGHT)
-        draw(drawn.subplots(), records if together else records[0])
-        return drawn
+        canvas = new_figure(WIDTH, height * PANEL_HEIGHT)
+        draw(canvas.subplots(), records if together else records[0])
+        return canvas
 
     return drawing(about, figure, fits, missing)
 

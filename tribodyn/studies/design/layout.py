@@ -133,10 +133,10 @@ def row_of(case: DesignCase, names: Sequence[str], candidate: Candidate, number:
     return {name: np.array([values]) for name, values in row.items()}
 
 
-def numbers_of_cases(names: Sequence[str], found: Results) -> np.ndarray:
+def numbers_of_cases(names: Sequence[str], results: Results) -> np.ndarray:
     """Quantities of cases as numbers, (case, quantity); NaN where there is none."""
     return np.array(
-        [[np.nan if isinstance(of, str) else of.get(name, np.nan) for name in names] for of in found]
+        [[np.nan if isinstance(of, str) else of.get(name, np.nan) for name in names] for of in results]
     )
 
 
@@ -149,14 +149,14 @@ def unfinished_in(case: DesignCase, record: Record) -> Unfinished:
         return {name: number for name, number in pairs if not np.isnan(number)}
 
     columns = [record[f"free_{free.name}"] for free in case.free]
-    known: dict[int, list[tuple[Overrides, Results]]] = {}
+    evaluated: dict[int, list[tuple[Overrides, Results]]] = {}
     for row, (cases, message) in enumerate(zip(record["case_quantities"], record["message"], strict=True)):
-        found: Results = [quantities(numbers) or str(message) for numbers in cases]
-        if all(found):
+        results: Results = [quantities(numbers) or str(message) for numbers in cases]
+        if all(results):
             values: Overrides = {}
             for free, column in zip(case.free, columns, strict=True):
                 values |= dict.fromkeys(free.keys, _value(free, float(column[row])))
-            known.setdefault(int(record[REFINEMENT][row]), []).append((values, found))
+            evaluated.setdefault(int(record[REFINEMENT][row]), []).append((values, results))
     start: dict[int, Results] = {}
     for factor, cases in zip(record["level"], record[START_QUANTITIES], strict=True):
         of_start: Results = [quantities(numbers) for numbers in cases]
@@ -168,7 +168,7 @@ def unfinished_in(case: DesignCase, record: Record) -> Unfinished:
         for place, value in enumerate(record[name])
         if np.isfinite(value)
     }
-    return Unfinished(known, start, moved)
+    return Unfinished(evaluated, start, moved)
 
 
 def _value(free: Free, number: float) -> object:

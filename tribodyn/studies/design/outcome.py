@@ -102,11 +102,11 @@ def headline(case: DesignCase, archive: Archive, searched: Archive) -> dict[str,
 
 def signed(case: DesignCase, objectives: tuple[float, ...]) -> Any:
     """Objectives with the signs of their quantities; of one objective that number alone."""
-    found = [
+    with_signs = [
         -objective if aim.name.startswith("-") else objective
         for objective, aim in zip(objectives, case.objectives, strict=True)
     ]
-    return found[0] if len(found) == 1 else found
+    return with_signs[0] if len(with_signs) == 1 else with_signs
 
 
 def chosen_best(case: DesignCase, archive: Archive) -> Candidate | None:

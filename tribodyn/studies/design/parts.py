@@ -31,13 +31,13 @@ def parts_of_design(table: Any, sources: Sources) -> tuple[dict[str, Any], list[
     studies = {name: source.study for name, source in sources.items()}
 
     def collect(place: str, some: Sequence[Any], read: Callable[..., Any], *more: Any) -> list[Any]:
-        found = []
+        entries = []
         for number, entry in enumerate(some):
             try:
-                found.append(read(f"{place}.{number}", entry, *more))
+                entries.append(read(f"{place}.{number}", entry, *more))
             except InputError as error:
                 errors.append(error)
-        return found
+        return entries
 
     free = collect("design.free", table.free, _free, sources)
     if not table.free:
@@ -133,18 +133,18 @@ def _number(place: str, value: Any, kind: Kind | None) -> _Number:
             number, unit = to_si(value, kind), case.unit_of(value) or ""
         except NotAQuantity as error:
             raise InputError(place, quoted(value), error.rule, error.remedy) from None
-        found = _Number(number, unit, kind.si.replace("**", ""), factor_to_si(unit, kind) if unit else 1.0)
+        amount = _Number(number, unit, kind.si.replace("**", ""), factor_to_si(unit, kind) if unit else 1.0)
     elif isinstance(value, (int, float)) and not isinstance(value, bool):
-        found = _Number(float(value))
+        amount = _Number(float(value))
     elif (base := base_units(value)) is not None:
         unit = case.unit_of(str(value)) or ""
         single = base_units(f"1 {unit}")
-        found = _Number(base[0], unit, base[1], single[0] if single else 1.0)
+        amount = _Number(base[0], unit, base[1], single[0] if single else 1.0)
     else:
         raise InputError(place, quoted(value), "neither a number nor a quantity", 'write 0.3 or "3 mm"')
-    if not isfinite(found.value):
+    if not isfinite(amount.value):
         raise InputError(place, quoted(value), "not a finite number", 'write such as 0.3 or "3 mm"')
-    return found
+    return amount
 
 
 def _twice(free: Sequence[case.Free]) -> list[InputError]:
@@ -169,27 +169,27 @@ def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[
     if table.maximise is not None:
         name = quantity_name("design.maximise", table.maximise, studies)
         return (case.Objective(f"-{name}", ((name, -1.0),)),)
-    given = table.minimise
-    if not isinstance(given, (str, list, tuple)) or given in ([], ()):
+    wanted = table.minimise
+    if not isinstance(wanted, (str, list, tuple)) or wanted in ([], ()):
         remedy = 'write minimise = "peak_to_peak", a list of two, or [{ quantity = "…", weight = 1.0 }, …]'
-        raise InputError("design.minimise", quoted(given), "not the name of a quantity", remedy)
-    if not isinstance(given, str) and not all(isinstance(name, str) for name in given):
-        return (_weighted(given, studies),)
-    places = {"design.minimise": given}
-    if not isinstance(given, str):
-        places = {f"design.minimise.{number}": name for number, name in enumerate(given)}
+        raise InputError("design.minimise", quoted(wanted), "not the name of a quantity", remedy)
+    if not isinstance(wanted, str) and not all(isinstance(name, str) for name in wanted):
+        return (_weighted(wanted, studies),)
+    places = {"design.minimise": wanted}
+    if not isinstance(wanted, str):
+        places = {f"design.minimise.{number}": name for number, name in enumerate(wanted)}
     if len(places) > 2:
         rule = f"{len(places)} objectives; a front has two"
-        raise InputError("design.minimise", quoted(list(given)), rule, "bound the others: subject_to")
+        raise InputError("design.minimise", quoted(list(wanted)), rule, "bound the others: subject_to")
     names = [quantity_name(place, name, studies) for place, name in places.items()]
     if len(set(names)) < len(names):
-        raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another quantity")
+        raise InputError("design.minimise", quoted(list(wanted)), "the same twice", "name another quantity")
     return tuple(case.Objective(name, ((name, 1.0),)) for name in names)
 
 
-def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> case.Objective:
+def _weighted(entries: Sequence[Any], studies: Mapping[str, Study]) -> case.Objective:
     terms = []
-    for number, entry in enumerate(given):
+    for number, entry in enumerate(entries):
         place = f"design.minimise.{number}"
         if not isinstance(entry, Mapping) or set(entry) - {"quantity", "weight"} or "quantity" not in entry:
             remedy = 'write { quantity = "peak_to_peak", weight = 0.5 }'

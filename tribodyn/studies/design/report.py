@@ -54,22 +54,22 @@ def verdict(record: Record) -> list[str]:
         ratio = float(best[place]) / float(before) if before and np.isfinite(before) else np.nan
         changed = f" ({100.0 * (ratio - 1.0):+.2g} %)" if np.isfinite(ratio) else ""
         won.append(f"{quantity.title}: {_change(record.scenario, name, before, best[place])}{changed}")
-    found = [f"{'; '.join(won)}."]
+    texts = [f"{'; '.join(won)}."]
     values = [f"{key} = {value}" for key, value in summary.get("best", {}).items()]
     if values:
         more = f" and {len(values) - 4} more" if len(values) > 4 else ""
-        found.append(f"By {', '.join(values[:4])}{more}.")
+        texts.append(f"By {', '.join(values[:4])}{more}.")
     feasible, evaluations = summary.get("evaluations_feasible"), summary.get("evaluations")
     if feasible is not None and evaluations:
-        holds = "The best keeps every constraint" if feasible else "No candidate keeps every constraint"
+        kept = "The best keeps every constraint" if feasible else "No candidate keeps every constraint"
         total = summary.get("evaluations_total", evaluations)
         more = f" Besides, {total - evaluations} evaluations were finer or about the best." * (
             total > evaluations
         )
-        found.append(f"{holds}; {feasible} of {evaluations} candidates do.{more}")
+        texts.append(f"{kept}; {feasible} of {evaluations} candidates do.{more}")
     if feasible:
-        found.append("To do: run the best, which lies beside the record as a scenario of its own.")
-    return found
+        texts.append("To do: run the best, which lies beside the record as a scenario of its own.")
+    return texts
 
 
 def sentences(record: Record) -> list[str]:
@@ -80,33 +80,33 @@ def sentences(record: Record) -> list[str]:
     search = record.scenario
     names = str(summary["objective_name"]).split(" and ")
     start, best = (np.atleast_1d(summary.get(f"objective{end}", np.nan)) for end in ("_start", ""))
-    found = []
+    texts = []
     for place, name in enumerate(names):
         before = start[place] if place < len(start) and start[place] is not None else np.nan
-        found.append(
+        texts.append(
             f"{_quantity_or_name(search, name).title}: {_change(search, name, before, best[place])}."
         )
-    found += [
+    texts += [
         f"{key}: {summary.get('start', {}).get(key, 'not set')} at the start, {value} at the best."
         for key, value in summary.get("best", {}).items()
     ]
     before, after = summary.get("constraints_start", {}), summary.get("constraints_best", {})
-    known = summary.get("quantities_best", {})
+    quantities = summary.get("quantities_best", {})
     for text, value in after.items():
-        if name := _quantity_in(text, known):
-            found.append(f"{text}: at its worst {_change(search, name, before.get(text), value)}.")
+        if name := _quantity_in(text, quantities):
+            texts.append(f"{text}: at its worst {_change(search, name, before.get(text), value)}.")
     if "resolution" in summary:
-        found.append(_resolution(search, names, summary))
+        texts.append(_resolution(search, names, summary))
     if "objective_confirmed" in summary:
         ends = (summary[f"objective_{end}confirmed"] for end in ("start_", ""))
         change = _change(search, names[0], *ends)
-        found.append(f"Evaluated once more as design.confirm says: {change}.")
+        texts.append(f"Evaluated once more as design.confirm says: {change}.")
     if "without_quantities_message" in summary:
         count = summary["evaluations_without_quantities"]
-        found.append(
+        texts.append(
             f"{count} candidates have no quantities, most because: {summary['without_quantities_message']}"
         )
-    return found
+    return texts
 
 
 def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mapping[str, Any]) -> str:
@@ -128,17 +128,17 @@ def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mappin
     )
 
 
-def _quantity_in(text: str, known: Mapping[str, Any]) -> str:
+def _quantity_in(text: str, quantities: Mapping[str, Any]) -> str:
     name = text.split()[0].split("<")[0].split(">")[0]
-    return name if name in known else ""
+    return name if name in quantities else ""
 
 
 def quantity_of(search: Mapping[str, Any], name: str) -> Quantity | None:
     """The quantity of a name, as a search's scenario or a part of it reports it; None: a sum of several."""
     parts = search.get("design", {}).get("part") or {}
     part, plain = split(name, parts)
-    found = study_of(parts[part] if part else search.get("scenario", {})).quantity(plain)
-    return found._replace(label=f"{found.title} ({part})", symbol="") if part and found else found
+    quantity = study_of(parts[part] if part else search.get("scenario", {})).quantity(plain)
+    return quantity._replace(label=f"{quantity.title} ({part})", symbol="") if part and quantity else quantity
 
 
 def _quantity_or_name(search: Mapping[str, Any], name: str) -> Quantity:

@@ -70,9 +70,9 @@ def check(case: DesignCase) -> CheckResult:
     wanted = [objective.name.removeprefix("-") for objective in case.objectives]
     more = case.objectives[0].name.startswith("-")
     by_factor = counts(case, name)
-    beside = sum(by_factor.values()) - case.search.evaluations
+    further = sum(by_factor.values()) - case.search.evaluations
     last = max(by_factor)
-    finer = f"about {beside}, on up to {last} times the resolution" if last > 1 else f"about {beside}"
+    finer = f"about {further}, on up to {last} times the resolution" if last > 1 else f"about {further}"
     data = {
         "free": {key: _bounds(free) for free in case.free for key in free.keys},
         "objective": wanted,
@@ -155,8 +155,8 @@ def run(
 
         def so_far(**more: Any) -> dict[str, Any]:
             where = {"method": name, "method_reason": reason, "engine": pool.name, "workers": pool.workers}
-            found = headline(case, archive, at(1)) if archive else {}
-            return found | where | more | {"wall_time": perf_counter() - begun}
+            quantities = headline(case, archive, at(1)) if archive else {}
+            return quantities | where | more | {"wall_time": perf_counter() - begun}
 
         archive = None
         try:
@@ -207,10 +207,10 @@ def quantities_of(case: DesignCase) -> dict[str, Any]:
         at = cache(lambda factor: Archive(case, pool, factor=factor))
         _search(case, at(1), name)
         end = converged(case, at, name)
-        found = headline(case, end.archive, at(1))
-        if "objective" not in found:
+        quantities = headline(case, end.archive, at(1))
+        if "objective" not in quantities:
             raise SimulationError(_why_none(case, end.archive))
-        return found
+        return quantities
 
 
 def _pool(case: DesignCase, client: Any = None) -> Evaluators:
@@ -288,8 +288,8 @@ def _about(
         changed[place] = np.clip(changed[place] + side * MOVED, 0.0, 1.0)
         return archive.found_of(chosen(case, changed))
 
-    def objective(found: Results) -> float:
-        return archive.scoring.score(found).objectives[0]
+    def objective(results: Results) -> float:
+        return archive.scoring.score(results).objectives[0]
 
     places = range(keys + len(case.tolerances)) if case.sensitivities else ()
     waiting = {

@@ -91,8 +91,8 @@ Scenario = DesignScenario
 def table_for(data: Mapping[str, Any]) -> type[Table]:
     """Return the schema for data whose scenarios, as far as they are opened, are of known kinds."""
     design = data.get("design")
-    given = design.get("part") if isinstance(design, Mapping) else None
-    parts = given if isinstance(given, Mapping) else {}
+    in_design = design.get("part") if isinstance(design, Mapping) else None
+    parts = in_design if isinstance(in_design, Mapping) else {}
     names = [name for name in parts if NAME.fullmatch(name) and not hasattr(Table, name)]
     named = tuple((name, schema_inside(parts[name], KIND)) for name in names)
     return _around(schema_inside(data.get("scenario"), KIND), named)
@@ -117,10 +117,10 @@ def _around(base: type[Table] | None, parts: tuple[tuple[str, type[Table] | None
         changed["design"] = (design, ...)
     if not changed:
         return DesignScenario
-    made: Any = create_model(
+    model: Any = create_model(
         "DesignScenario", __base__=DesignScenario, __doc__=DesignScenario.__doc__, **changed
     )
-    return made
+    return model
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
@@ -152,13 +152,13 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
 
 def broken_rules(scenario: Any) -> Iterator[InputError]:
     """Go through the rules that such a scenario breaks, those of the scenarios within it included."""
-    given = scenario.design.part
-    if isinstance(given, dict):
-        for name in given:
+    parted = scenario.design.part
+    if isinstance(parted, dict):
+        for name in parted:
             rule, remedy = "not a name for a part", "write letters, digits and hyphens, such as efficiency"
             yield InputError("design.part", quoted(name), rule, remedy)
         return
-    parts = {name: getattr(given, name) for name in type(given).model_fields} if given is not None else {}
+    parts = {name: getattr(parted, name) for name in type(parted).model_fields} if parted is not None else {}
     sources: dict[str, Source] = {}
     clear = True
     for name, place, source in [

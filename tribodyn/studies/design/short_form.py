@@ -51,10 +51,10 @@ def free_of(option: str) -> dict[str, Any]:
     named: dict[str, Any] = {"key": keys if len(keys) > 1 else keys[0]}
     if ":" in text:
         low, _, high = text.partition(":")
-        unit, own = unit_of(high), unit_of(low)
-        if unit is None or own is None:
+        unit, low_unit = unit_of(high), unit_of(low)
+        if unit is None or low_unit is None:
             raise _refusal(option)
-        if unit and not own:
+        if unit and not low_unit:
             low = f"{low.strip()} {unit}"
         return {**named, "from": toml_value(low.strip()), "to": toml_value(high.strip())}
     values = [value.strip() for value in text.split(",")]
@@ -111,6 +111,8 @@ def loaded_search(
             "design": {"free": [], **design},
         }
     # keys of the scenario within, but for those of the search itself
-    own = (f"{KIND}.", "scenario.")
-    within = {key if key.startswith(own) else f"scenario.{key}": value for key, value in overrides.items()}
+    prefixes = (f"{KIND}.", "scenario.")
+    within = {
+        key if key.startswith(prefixes) else f"scenario.{key}": value for key, value in overrides.items()
+    }
     return loaded_from(resolve_table(search, path, within, table_of), path)

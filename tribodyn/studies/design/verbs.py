@@ -119,8 +119,8 @@ def design(
         "evaluations": evaluations,
         **more,
     }
-    given = {key: value for key, value in keys.items() if value is not None and value != []}
-    return loaded_search(source, given, overrides or {})
+    tables = {key: value for key, value in keys.items() if value is not None and value != []}
+    return loaded_search(source, tables, overrides or {})
 
 
 RUN_PROPERTIES = Design

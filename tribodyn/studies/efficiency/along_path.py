@@ -94,11 +94,11 @@ def engage(mesh: Places, duty: MeshDuty) -> PathState:
     cycle = mesh.cycle
     torque, speed = duty.gear_torque, duty.pinion_speed
     seen = contacts(cycle, torque, speed, duty.closure, lever_arms=duty.lever_arms)
-    found = settled(seen, lambda friction: _share(mesh, duty, seen, friction))
-    load, mu, shared = found.normal_load[:, 0], found.friction_coefficient[:, 0], found.shared
+    state = settled(seen, lambda friction: _share(mesh, duty, seen, friction))
+    load, mu, shared = state.normal_load[:, 0], state.friction_coefficient[:, 0], state.shared
     contact = seen.under(shared.peak_load)
     closure_shares, friction_shares = range_shares(contact.contact, duty.closure)
-    torques = duty.way * np.sum(load * seen.arms(found.friction_coefficient)[:, :, 0], axis=-1)
+    torques = duty.way * np.sum(load * seen.arms(state.friction_coefficient)[:, :, 0], axis=-1)
     sliding = (seen.pinion_speed - seen.gear_speed)[:, 0]
     return PathState(
         normal_load=load,
@@ -260,6 +260,6 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
     }
     if cycle.slices > 1:
         arrays = of_pairs(cycle, arrays, state.normal_load, duty.way)
-    known = samples_of(cycle.slices)
-    paired = {name for name, sample in known.items() if sample.dims[:2] == ("time", "pair")}
+    variables = samples_of(cycle.slices)
+    paired = {name for name, sample in variables.items() if sample.dims[:2] == ("time", "pair")}
     return {name: over.by_pair(values) if name in paired else values for name, values in arrays.items()}

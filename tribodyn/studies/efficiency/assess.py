@@ -38,7 +38,7 @@ def tasks(request: Request) -> tuple[Task, ...]:
         **{name: tables[name] for name in ("temperature", "losses") if name in tables},
     }
     film = {name: tables[name] for name in ("film",) if name in tables}
-    found = [
+    requested = [
         Task(
             f"{_TASK}{law}",
             f"film and losses, {law}",
@@ -51,13 +51,13 @@ def tasks(request: Request) -> tuple[Task, ...]:
         inclined = "helix_angle" in tables["drive"] or "shaft" in tables or _tilted(shared["mesh"])
         slices = _MORE_SLICES if inclined else _SLICES
         sliced = {
-            **found[0].scenario,
+            **requested[0].scenario,
             "mesh": {"slices": slices, **shared["mesh"]},
             "output": {"samples_per_cycle": _POSITIONS},
         }
         cases = [of_teeth(sample) for sample in request.samples]
-        found.append(Task(_SAMPLES, "film and losses, samples", sliced, cases, needed=False))
-    return tuple(found)
+        requested.append(Task(_SAMPLES, "film and losses, samples", sliced, cases, needed=False))
+    return tuple(requested)
 
 
 def _tilted(mesh: Mapping[str, Any]) -> bool:
@@ -70,7 +70,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     """Quantities by the first law, and the losses by all of them."""
     first = done[f"{_TASK}{request.laws[0]}"].summary
     summaries = {law: done[f"{_TASK}{law}"].summary for law in request.laws}
-    losses = {law: float(found["power_friction_mean"]) for law, found in summaries.items() if found}
+    losses = {law: float(summary["power_friction_mean"]) for law, summary in summaries.items() if summary}
     values = np.array(list(losses.values()))
     power = float(first["power_in_mean"])
     quantities = {name: first[name] for name in (*_QUANTITIES, *_LAWS) if first.get(name) is not None}

@@ -90,14 +90,14 @@ def path_contact(
     psi, weight = rotation or rotations(pinion_teeth)
     motion = kinematics(path, path.signed_distance(psi))
     ratio = path.pinion_pitch_radius / path.gear_pitch_radius
-    vanishing, own = pitch_point(path), sense(path.gear_pitch_radius)
+    vanishing, gear_sense = pitch_point(path), sense(path.gear_pitch_radius)
     return UnitContact(
         rotation=psi,
         weight=weight,
         pinion_normal_arm=motion.pinion_normal_arm,
-        gear_normal_arm=own * motion.gear_normal_arm,
+        gear_normal_arm=gear_sense * motion.gear_normal_arm,
         pinion_friction_arm=motion.pinion_friction_arm,
-        gear_friction_arm=own * motion.gear_friction_arm,
+        gear_friction_arm=gear_sense * motion.gear_friction_arm,
         curvature=motion.relative_curvature,
         pinion_speed=motion.pinion_speed if exact_speeds else motion.pinion_friction_arm,
         gear_speed=motion.gear_speed if exact_speeds else ratio * motion.gear_friction_arm,
@@ -140,12 +140,12 @@ def torque_ratio(
     def share(friction: Array) -> _Load:
         return _Load(input_torque / (normal_arm[driver] + friction * friction_arm[driver]))
 
-    found = settled(seen, share)
-    mu = found.friction_coefficient
+    state = settled(seen, share)
+    mu = state.friction_coefficient
     arms = seen.arms(mu)
     ratio = arms[driven] / arms[driver]
     lossless = normal_arm[driver] / normal_arm[driven]
-    return TorqueRatio(np.sum(pair.weight * ratio * lossless, axis=-1), ratio, found.normal_load, mu)
+    return TorqueRatio(np.sum(pair.weight * ratio * lossless, axis=-1), ratio, state.normal_load, mu)
 
 
 class _Load(NamedTuple):

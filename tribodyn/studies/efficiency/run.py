@@ -150,7 +150,7 @@ def spectrum_quantities(case: EfficiencyCase) -> dict[str, Any]:
         return {}
     shares = np.array([share for share, _ in case.spectrum])
     every = [quantities_of(duty) for _, duty in case.spectrum]
-    each = {name: np.array([found[name] for found in every]) for name in SPECTRUM}
+    each = {name: np.array([quantities[name] for quantities in every]) for name in SPECTRUM}
     means = {name: float(shares @ each[name]) for name in ("power_in_mean", "power_friction_mean")}
     return {
         "duty_share": shares,
@@ -179,18 +179,18 @@ def _sampled(study: PreparedEfficiency) -> tuple[Samples, Places, PathState]:
 
 
 def efficiencies(
-    study: PreparedEfficiency, known: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
+    study: PreparedEfficiency, done: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
 ) -> dict[str, float]:
     """Cycle efficiency under every load sharing, by the torque ratio, and of an involute by Höhn's formula.
 
-    What is `known` by its load sharing is not computed again. A load sharing that does not fit the teeth, and
+    What is `done` by its load sharing is not computed again. A load sharing that does not fit the teeth, and
     Höhn's formula where friction is not one mean coefficient, are left out.
     """
     results = {}
     for sharing in SHARINGS:
         duty = study.duty._replace(sharing=sharing)
         try:
-            means = known.get(sharing) or cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
+            means = done.get(sharing) or cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
         except InputError:
             continue
         results[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
@@ -239,8 +239,8 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
     loaded = judged(mesh.cycle, state.normal_load)
     balance = means.power_in - means.power_out - means.power_friction
     put_in = float(power_put_in(means.power_in, means.power_out))
-    beside, jumps = _at_jumps(study)
-    everywhere = np.concatenate([loaded, judged(beside.cycle, jumps.normal_load)])
+    near_jumps, jumps = _at_jumps(study)
+    everywhere = np.concatenate([loaded, judged(near_jumps.cycle, jumps.normal_load)])
 
     def of_faces(values: np.ndarray) -> np.ndarray:
         return by_pairs(values, cycle.slices)
@@ -259,11 +259,11 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
         **under_load,
         "load_sharing": duty.sharing,
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
-        "normal_load_max": float(max(np.max(of_faces(found.normal_load)) for found in (state, jumps))),
+        "normal_load_max": float(max(np.max(of_faces(one.normal_load)) for one in (state, jumps))),
         "film_min": float(np.min(film)),
         "film_parameter_min": float(np.min(film)) / duty.closure.surfaces.roughness,
         "film_parameter_min_roll_angle": float(
-            np.concatenate([mesh.roll, beside.roll])[everywhere][np.argmin(film)]
+            np.concatenate([mesh.roll, near_jumps.roll])[everywhere][np.argmin(film)]
         ),
         "hertz_pressure_max": float(np.max(along("hertz_pressure"))),
         "flash_temperature_max": flash,

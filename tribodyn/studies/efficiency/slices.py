@@ -47,18 +47,18 @@ def slices_at(cycle: MeshCycle, phase: Array, sharing: Sharing) -> Places:
 
     # what a slice is out of contact means nothing: where it comes or goes only the node beside it counts
     before, after = ((1.0 - beyond) * (ends(cycle.share)[0] > 0.0), beyond * (ends(cycle.share)[1] > 0.0))
-    known = before + after > 0.0
-    after = np.where(known, after / np.where(known, before + after, 1.0), beyond)
+    shared = before + after > 0.0
+    after = np.where(shared, after / np.where(shared, before + after, 1.0), beyond)
 
     def between(name: str) -> Array:
         first, second = ends(getattr(cycle, name))
         weight = after if name in _IN_CONTACT else beyond
         return (first + weight * (second - first))[:, None]
 
-    found = {name: between(name) for name in _OVER_PHASE}
-    touching = cycle.in_contact[segment, :front] * (found["share"][:, 0] > 0.0)
+    fields = {name: between(name) for name in _OVER_PHASE}
+    touching = cycle.in_contact[segment, :front] * (fields["share"][:, 0] > 0.0)
     looked_up = cycle._replace(
-        **found,
+        **fields,
         in_contact=touching,
         side=np.ones(front),
         phase=phase[:, None],
@@ -105,8 +105,8 @@ def of_pairs(cycle: MeshCycle, arrays: dict[str, Any], normal_load: Array, way: 
     share = np.where(cycle.share[:, 0] > 0.0, cycle.share[:, 0], 1.0)
     line_load = normal_load / (cycle.slice_width * share) * cycle.line_load_friction[:, 0]
     slots = {name: values for name, values in arrays.items() if np.shape(values) == line_load.shape}
-    found = arrays | over_faces(slots, cycle.front_pairs, line_load)
+    datasets = arrays | over_faces(slots, cycle.front_pairs, line_load)
     # where the gear drives the table is passed backwards, and +z is late all the same
-    found["line_load"] = found["line_load"][:, :, :: int(way)]
+    datasets["line_load"] = datasets["line_load"][:, :, :: int(way)]
     arms = normal_arms(cycle)[:, 0]
-    return found | {"axial_force": -way * np.sum(normal_load * cycle.pitch_slope * arms, axis=-1)}
+    return datasets | {"axial_force": -way * np.sum(normal_load * cycle.pitch_slope * arms, axis=-1)}

@@ -75,10 +75,10 @@ def way(study: PreparedEhl) -> PairWay:
         return _way(study, study.case.positions, None)
     free = _way(study, FRICTION_POSITIONS, None)
     friction = np.abs(friction_along(study, free))
-    known = np.isfinite(friction)
-    if not np.any(known):
+    solved = np.isfinite(friction)
+    if not np.any(solved):
         return _way(study, study.case.positions, None)
-    return _way(study, study.case.positions, (free.roll[known], friction[known]))
+    return _way(study, study.case.positions, (free.roll[solved], friction[solved]))
 
 
 def _way(study: PreparedEhl, positions: int, friction: tuple[Array, Array] | None) -> PairWay:
@@ -181,8 +181,8 @@ def given_loads(loads: tuple[Array, Array], limits: tuple[float, float]) -> tupl
     """Return given loads, those below 0 as 0; InputError for another way of contact, or none above 0."""
     (roll, load), (start, end) = loads, limits
     if max(abs(roll[0] - start), abs(roll[-1] - end)) > _SAME_WAY * (end - start):
-        given, touching = (f"{a:.4g} … {b:.4g}°" for a, b in np.degrees([(roll[0], roll[-1]), (start, end)]))
-        rule = f"for roll angles {given}, where a pair touches at {touching}"
+        stated, touching = (f"{a:.4g} … {b:.4g}°" for a, b in np.degrees([(roll[0], roll[-1]), (start, end)]))
+        rule = f"for roll angles {stated}, where a pair touches at {touching}"
         remedy = "give loads of this drive over its whole contact, from the pitch point"
         raise InputError("contact.loads", None, rule, remedy)
     if not np.any(load > 0.0):
@@ -198,8 +198,8 @@ def jump_width(study: PreparedEhl, line_load: float, radius: Array, speeds: tupl
     """
     modulus = float(surfaces_of(study.case).effective_modulus)
     width = hertz_half_width(line_load, 1.0 / np.median(radius), modulus)
-    drawn = np.median(0.5 * np.abs(speeds[0] + speeds[1]))
-    return float(width / drawn) * study.case.operating.pinion_speed
+    entrainment = np.median(0.5 * np.abs(speeds[0] + speeds[1]))
+    return float(width / entrainment) * study.case.operating.pinion_speed
 
 
 def _spread(nodes: Array, loads: Array, width: float) -> tuple[Array, Array]:
@@ -215,12 +215,12 @@ def _spread(nodes: Array, loads: Array, width: float) -> tuple[Array, Array]:
 def friction_along(study: PreparedEhl, over: PairWay) -> Array:
     """Friction coefficient of the solved contact, of the sign of the sliding; NaN where there is none."""
     seen = seen_by(study, over)
-    found = np.full(len(over.roll), np.nan)
+    coefficient = np.full(len(over.roll), np.nan)
     for at in map(int, np.flatnonzero(loaded(over))):
         solved = solved_at(study, over, seen, at)
         if solved is not None:
-            found[at] = solved.friction / float(over.line_load[at])
-    return found
+            coefficient[at] = solved.friction / float(over.line_load[at])
+    return coefficient
 
 
 def seen_by(
@@ -275,12 +275,12 @@ def loaded_places(study: PreparedEhl, over: PairWay, most: int) -> list[tuple[fl
     return [(float(w), float(u), float(r), float(v)) for w, u, r, v in rows]
 
 
-def profiles(found: CoupledSolution) -> dict[str, Array]:
+def profiles(coupled: CoupledSolution) -> dict[str, Array]:
     """Pressure, film, temperature and shear at the places of a record."""
-    solution = found.solution
+    solution = coupled.solution
     return pressure_and_film(solution) | {
-        "temperature_rise": over_places(solution, found.temperature, 0.0),
-        "shear_stress": over_places(solution, found.shear.stress, 0.0),
+        "temperature_rise": over_places(solution, coupled.temperature, 0.0),
+        "shear_stress": over_places(solution, coupled.shear.stress, 0.0),
     }
 
 
@@ -300,8 +300,8 @@ def over_places(solution: Solution, values: Array, outside: float) -> Array:
 
 def contact_for(case: EhlCase) -> Contact:
     """What all contacts of a case have in common: oil, surfaces, rheology and heat."""
-    given = LawInput(surfaces_of(case), case.lubricant, case.materials, without_nominal_conditions)
-    return contact_of(given._replace(asperities=case.asperities))
+    law_input = LawInput(surfaces_of(case), case.lubricant, case.materials, without_nominal_conditions)
+    return contact_of(law_input._replace(asperities=case.asperities))
 
 
 def loaded(over: PairWay) -> Array:

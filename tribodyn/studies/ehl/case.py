@@ -76,7 +76,7 @@ SCALES = {
 def unsolved(variables: Mapping[str, Variable], positions: int) -> dict[str, NDArray[np.float64]]:
     """Arrays of NaN for these datasets at the positions of a way."""
     sizes = {"phase": positions, "place": PLACES}
-    return {name: np.full([sizes[dim] for dim in known.dims], np.nan) for name, known in variables.items()}
+    return {name: np.full([sizes[dim] for dim in row.dims], np.nan) for name, row in variables.items()}
 
 
 def layout_of(transient: bool, slices: int = 1) -> Layout:

@@ -35,16 +35,16 @@ def _drawing(about: str, draw: Callable[[Record, Figure], None], height: float, 
     def figure(records: Sequence[Record], _view: View) -> Figure:
         if len(records) != 1:
             raise InputError("plot", "records", "this figure shows one record", "give one")
-        drawn = new_figure(WIDTH, height * PANEL_HEIGHT)
-        draw(records[0], drawn)
-        drawn.suptitle(record_title(records[0]))
-        return drawn
+        canvas = new_figure(WIDTH, height * PANEL_HEIGHT)
+        draw(records[0], canvas)
+        canvas.suptitle(record_title(records[0]))
+        return canvas
 
     return drawing(about, figure, *fits, samples=0, timeless="a study of the solved contact")
 
 
-def _overview(record: Record, drawn: Figure) -> None:
-    film, friction, load = drawn.subplots(3, 1, sharex=True)
+def _overview(record: Record, figure: Figure) -> None:
+    film, friction, load = figure.subplots(3, 1, sharex=True)
     roll = np.degrees(record["roll_angle"])
     film.plot(roll, 1e6 * record["central_film_thickness"], color="black", lw=2, label="solved, central")
     film.plot(roll, 1e6 * record["minimum_film_thickness"], "k--", label="solved, minimum")
@@ -86,8 +86,8 @@ _PROFILES = {
 }
 
 
-def _profiles(record: Record, drawn: Figure) -> None:
-    rows = drawn.subplots(2, 2, sharex=True)
+def _profiles(record: Record, figure: Figure) -> None:
+    rows = figure.subplots(2, 2, sharex=True)
     for axes, (letter, (name, scale, label, unit)) in zip(rows.ravel(), _PROFILES.items(), strict=True):
         mark_panel(axes, letter, label)
         for number, at in enumerate(_chosen(record)):
@@ -100,23 +100,23 @@ def _profiles(record: Record, drawn: Figure) -> None:
         axes.set_xlabel(_PLACE)
 
 
-def _maps(record: Record, drawn: Figure) -> None:
-    rows = drawn.subplots(2, 2, sharex=True, sharey=True)
+def _maps(record: Record, figure: Figure) -> None:
+    rows = figure.subplots(2, 2, sharex=True, sharey=True)
     roll, top = np.degrees(record["roll_angle"]), 3e6 * np.nanmax(record["central_film_thickness"])
     for axes, (letter, (name, scale, label, unit)) in zip(rows.ravel(), _PROFILES.items(), strict=True):
         mark_panel(axes, letter, label)
         limit = {"vmax": top} if name == "film_thickness" else {}
         values = np.ma.masked_invalid(scale * record[name])
         mesh = axes.pcolormesh(roll, record["place"], values.T, shading="nearest", rasterized=True, **limit)
-        drawn.colorbar(mesh, ax=axes, label=unit)
+        figure.colorbar(mesh, ax=axes, label=unit)
     for axes in rows[1]:
         axes.set_xlabel(ROLL)
     for axes in rows[:, 0]:
         axes.set_ylabel("Place over half width")
 
 
-def _moes(record: Record, drawn: Figure) -> None:
-    axes = drawn.subplots()
+def _moes(record: Record, figure: Figure) -> None:
+    axes = figure.subplots()
     load = np.geomspace(0.5, 2e4, 80)
     for color, material in zip(PALETTE, (1.0, 2.5, 5.0, 10.0, 25.0), strict=False):
         # in b²/R = 8 W R/π, over R √U_Σ
@@ -132,14 +132,14 @@ def _moes(record: Record, drawn: Figure) -> None:
     axes.legend(fontsize="small")
 
 
-def _traction(record: Record, drawn: Figure) -> None:
-    axes = drawn.subplots()
+def _traction(record: Record, figure: Figure) -> None:
+    axes = figure.subplots()
     axes.semilogx(record["slide_to_roll"], record["traction"], "o-", color=PALETTE[0])
     axes.set(xlabel="Slide-to-roll ratio", ylabel="Friction coefficient", ylim=(0.0, None))
 
 
-def _transient(record: Record, drawn: Figure) -> None:
-    film, departure, friction = drawn.subplots(3, 1, sharex=True)
+def _transient(record: Record, figure: Figure) -> None:
+    film, departure, friction = figure.subplots(3, 1, sharex=True)
     roll = np.degrees(record["roll_angle"])
     for color, name in zip(PALETTE, ("central", "minimum"), strict=False):
         steady, squeezed = (record[f"{way}{name}_film_thickness"] for way in ("", "transient_"))
@@ -178,14 +178,14 @@ def laws_figure(title: str, ratios: Sequence[Any], right: Mapping[str, float]) -
     """Draw minimum, median and maximum of each `judgement.LawRatio`; points: medians of the map."""
     groups = [[law for law in ratios if law.what == what] for what in right]
     with house_style():
-        drawn = new_figure(WIDTH, 1.2 + 0.22 * len(ratios))
-        panels = drawn.subplots(len(groups), 1, height_ratios=[len(laws) for laws in groups], squeeze=False)
+        figure = new_figure(WIDTH, 1.2 + 0.22 * len(ratios))
+        panels = figure.subplots(len(groups), 1, height_ratios=[len(laws) for laws in groups], squeeze=False)
         for axes, what, laws in zip(panels[:, 0], right, groups, strict=True):
             _rows(axes, laws)
             axes.axvspan(1.0 - right[what], 1.0 + right[what], color=GRID, zorder=0)
             axes.set_xlabel(f"{what.capitalize()} by the law over the solved one")
-        drawn.suptitle(literal(title))
-    return drawn
+        figure.suptitle(literal(title))
+    return figure
 
 
 def _rows(axes: Axes, laws: Sequence[Any]) -> None:
@@ -203,5 +203,5 @@ def _rows(axes: Axes, laws: Sequence[Any]) -> None:
     axes.set_xticks(shown, [f"{ratio:g}" for ratio in shown])
     axes.minorticks_off()
     every = [value for law in laws for value in (law.minimum, law.maximum, *np.ravel(law.map))]
-    known = [value for value in every if np.isfinite(value)]
-    axes.set_xlim(max(min([*known, 0.5]) / 1.2, 0.05), min(max([*known, 2.0]) * 1.2, 20.0))
+    finite = [value for value in every if np.isfinite(value)]
+    axes.set_xlim(max(min([*finite, 0.5]) / 1.2, 0.05), min(max([*finite, 2.0]) * 1.2, 20.0))

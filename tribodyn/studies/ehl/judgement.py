@@ -164,14 +164,14 @@ def case_for(case: CaseHead, positions: int) -> EhlCase:
     if missing := [name for name in _TABLES if not isinstance(data.get(name), dict)]:
         rule = f"a scenario without {' and without '.join(missing)}: there is no contact to solve"
         raise InputError("kind", case.kind, rule, "name a scenario with drive, lubricant and operating")
-    known = fields_of(OiledOperatingTable)
+    fields = fields_of(OiledOperatingTable)
     tables = {
         "title": case.title,
         "name": case.name,
         "kind": "ehl",
         "drive": data["drive"],
         "lubricant": data["lubricant"],
-        "operating": {name: value for name, value in data["operating"].items() if name in known},
+        "operating": {name: value for name, value in data["operating"].items() if name in fields},
         "output": {"positions": positions},
     }
     if "duty" in data:
@@ -188,8 +188,8 @@ def ratios_over(
     report = progress or (lambda _share: None)
     points = [(torque, speed) for torque in loads for speed in speeds]
     done = case.positions / (case.positions + AT_A_POINT * len(points))
-    found = _compared(case, lambda share: report(done * share))
-    medians: dict[tuple[str, str], list[float]] = {(value.what, value.law): [] for value in found}
+    laws = _compared(case, lambda share: report(done * share))
+    medians: dict[tuple[str, str], list[float]] = {(value.what, value.law): [] for value in laws}
     for number, (torque, speed) in enumerate(points):
         duty = replace(
             case.operating,
@@ -201,15 +201,15 @@ def ratios_over(
         report(done + (1.0 - done) * (number + 1) / len(points))
     width = max(len(speeds), 1)
     rows = range(0, len(points), width)
-    maps = [[medians[law.what, law.law][row : row + width] for row in rows] for law in found]
-    return [law._replace(map=tuple(map(tuple, rows))) for law, rows in zip(found, maps, strict=True)]
+    maps = [[medians[law.what, law.law][row : row + width] for row in rows] for law in laws]
+    return [law._replace(map=tuple(map(tuple, rows))) for law, rows in zip(laws, maps, strict=True)]
 
 
 def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
     study = prepare(case)
     over = way(study)
     arrays = solve(study, over, progress)
-    found = []
+    comparisons = []
     for what, laws in by_laws(study, over).items():
         for law, values in laws.items():
             if what == "film":
@@ -225,8 +225,8 @@ def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
                 right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what]))
             inside = _inside(study, over, stated)
             ratios = LawRatio(what, law, low, middle, high, *inside, right)
-            found.append(ratios._replace(against=AGAINST[meant], range=stated.stated))
-    return found
+            comparisons.append(ratios._replace(against=AGAINST[meant], range=stated.stated))
+    return comparisons
 
 
 def _inside(study: PreparedEhl, over: PairWay, law: FilmLaw | FrictionLaw) -> tuple[float, float]:

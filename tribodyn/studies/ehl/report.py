@@ -54,7 +54,7 @@ def profiles(record: Record) -> Profiles:
 
 def verdict(record: Record) -> list[str]:
     """Say what keeps the flanks apart, what friction and heat there are, and what squeeze changes."""
-    summary, found = numbers(record.summary), []
+    summary, texts = numbers(record.summary), []
     if {"minimum_film_min", "film_parameter_min", "asperity_load_ratio_max", "hertz_pressure_max"} <= set(
         summary
     ):
@@ -64,39 +64,39 @@ def verdict(record: Record) -> list[str]:
             f"asperities carry up to {share(carried)} of the load" if carried > 0.0 else "a full film"
         )
         pressure = with_unit("hertz_pressure_max", summary["hertz_pressure_max"])
-        found.append(f"The flanks press with up to {pressure}; {asperities}.")
-        found.append(f"The oil film is at least {film}; the central film is {ratio:.2g} times the roughness.")
+        texts.append(f"The flanks press with up to {pressure}; {asperities}.")
+        texts.append(f"The oil film is at least {film}; the central film is {ratio:.2g} times the roughness.")
     if {"friction_coefficient_mean", "temperature_rise_max"} <= set(summary):
         rise = with_unit("temperature_rise_max", summary["temperature_rise_max"])
         mean = summary["friction_coefficient_mean"]
-        found.append(
+        texts.append(
             f"The friction coefficient is {mean:.3f} on the mean{band_of(summary)}; the oil film heats by up "
             f"to {rise}."
         )
     if (departure := summary.get("central_film_departure_max")) is not None:
-        found.append(f"Squeeze moves the central film by up to {share(departure)}.")
+        texts.append(f"Squeeze moves the central film by up to {share(departure)}.")
     if (solved := summary.get("positions_solved", 0)) < (positions := summary.get("positions", 0)):
-        found.append(
+        texts.append(
             f"{positions - solved:.0f} of {positions:.0f} positions carry nothing, or have no solution."
         )
-    return found
+    return texts
 
 
 def sentences(record: Record) -> list[str]:
     """Say what the model leaves out, and where no solution was found."""
     summary = record.summary
-    given = summary.get("loads") == "given"
-    loads = "given loads" if given else "quasi-static loads with friction, without inertia"
-    found = [f"Steady contacts, one after another, under {loads}."]
-    found.extend(_squeeze_sentences(summary))
+    prescribed = summary.get("loads") == "given"
+    loads = "given loads" if prescribed else "quasi-static loads with friction, without inertia"
+    texts = [f"Steady contacts, one after another, under {loads}."]
+    texts.extend(_squeeze_sentences(summary))
     if (origin := summary.get("viscosity_origin")) is not None:
-        found.append(f"Viscosity at high pressure: {origin}.")
+        texts.append(f"Viscosity at high pressure: {origin}.")
     if (residual := summary.get("residual_max")) is not None:
-        found.append(f"Flow and load are balanced to {residual:.1e}.")
+        texts.append(f"Flow and load are balanced to {residual:.1e}.")
     solved, of = summary.get("positions_solved"), summary.get("positions")
     if solved is not None and of is not None and solved < of:
-        found.append(f"At {of - solved} of {of} positions the pair carries nothing or no solution was found.")
-    return found
+        texts.append(f"At {of - solved} of {of} positions the pair carries nothing or no solution was found.")
+    return texts
 
 
 def _squeeze_sentences(summary: Any) -> list[str]:
@@ -104,12 +104,12 @@ def _squeeze_sentences(summary: Any) -> list[str]:
     restarts, solved = summary.get("transient_restarts"), summary.get("transient_positions_solved")
     if restarts is None or solved is None:
         return []
-    found = [
+    texts = [
         "Beside them the same way with squeeze, from the steady film of the first position on: shear and "
         "heat quasi-steady, jumps of the load spread over the time in which the oil passes half a contact."
     ]
     if missing := summary.get("positions_solved", solved) - solved:
-        found.append(f"With squeeze {missing} positions were not reached; the film began anew behind them.")
+        texts.append(f"With squeeze {missing} positions were not reached; the film began anew behind them.")
     elif restarts:
-        found.append(f"With squeeze the film began anew {restarts} times.")
-    return found
+        texts.append(f"With squeeze the film began anew {restarts} times.")
+    return texts

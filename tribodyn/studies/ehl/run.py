@@ -77,7 +77,7 @@ def solve(study: along_path.PreparedEhl, over: along_path.PairWay, progress: Pro
     """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
     case, seen = study.case, along_path.seen_by(study, over)
     (start, _), count = along_path.roll_limits(study), len(over.roll)
-    alone = {name: known for name, known in SAMPLES.items() if not name.endswith("_by_law")}
+    alone = {name: variable for name, variable in SAMPLES.items() if not name.endswith("_by_law")}
     arrays = unsolved(alone, count) | {
         "phase": (over.roll - start) / float(study.cycle.pitch_angle),
         "roll_angle": over.roll,
@@ -90,19 +90,19 @@ def solve(study: along_path.PreparedEhl, over: along_path.PairWay, progress: Pro
     }
     steady: list[SteadyContact | None] = [None] * count
     for at in map(int, np.flatnonzero(along_path.loaded(over))):
-        found = along_path.solved_at(study, over, seen, at)
-        if found is not None:
-            solution, problem = found.solution, found.solution.problem
+        contact = along_path.solved_at(study, over, seen, at)
+        if contact is not None:
+            solution, problem = contact.solution, contact.solution.problem
             gap = solution.mean_gap
             central = float(np.interp(0.0, solution.place, gap))
-            values = along_path.profiles(found) | {
+            values = along_path.profiles(contact) | {
                 "half_width": problem.half_width,
                 "central_film_thickness": central,
                 "minimum_film_thickness": float(np.min(gap)),
                 "film_parameter": central / case.roughness,
-                "friction_coefficient": abs(found.friction) / problem.line_load,
+                "friction_coefficient": abs(contact.friction) / problem.line_load,
                 "asperity_load_ratio": solution.asperity_load_ratio,
-                "temperature_rise_max": float(np.max(found.temperature)),
+                "temperature_rise_max": float(np.max(contact.temperature)),
                 "moes_load": problem.moes_load,
                 "moes_material": problem.moes_material,
                 "residual": solution.imbalance,
@@ -110,7 +110,7 @@ def solve(study: along_path.PreparedEhl, over: along_path.PairWay, progress: Pro
             for name, value in values.items():
                 arrays[name][at] = value
             if case.transient:
-                steady[at] = steady_of(found)
+                steady[at] = steady_of(contact)
         flat = along_path.solved_at(study, over, seen, at, smooth=True)
         if flat is not None:
             arrays["central_film_smooth"][at] = flat.solution.central_film_thickness
@@ -147,8 +147,8 @@ def _traction(study: along_path.PreparedEhl, over: along_path.PairWay) -> list[f
     seen, at = along_path.seen_by(study, over), int(np.argmax(over.line_load))
     curve = []
     for ratio in TRACTION:
-        found = along_path.solved_at(study, over, seen, at, slide_to_roll=ratio)
-        curve.append(np.nan if found is None else abs(found.friction) / float(over.line_load[at]))
+        contact = along_path.solved_at(study, over, seen, at, slide_to_roll=ratio)
+        curve.append(np.nan if contact is None else abs(contact.friction) / float(over.line_load[at]))
     return curve
 
 
@@ -205,16 +205,16 @@ def _viscosity(study: along_path.PreparedEhl, over: along_path.PairWay) -> dict[
 
 def _judged(case: EhlCase, arrays: dict[str, Array], solved: Array) -> dict[str, Any]:
     """Whether the solved contacts lie within their model, see `record.trust`."""
-    judge, found = Judge(), {name: values[solved] for name, values in arrays.items() if name in SAMPLES}
+    judge, solutions = Judge(), {name: values[solved] for name, values in arrays.items() if name in SAMPLES}
     judge.take(
-        {name: found[name] for name in ("friction_coefficient", "hertz_pressure")}
-        | heat_of(found["temperature_rise_max"], case.lubricant.temperature),
+        {name: solutions[name] for name in ("friction_coefficient", "hertz_pressure")}
+        | heat_of(solutions["temperature_rise_max"], case.lubricant.temperature),
         {"phase": arrays["phase"][solved]},
     )
     measured, pressure, temperature = along_path.contact_for(case).viscosity_limits
-    beyond = (found["hertz_pressure"] > pressure) | (min(measured, temperature) < 1.0)
+    beyond = (solutions["hertz_pressure"] > pressure) | (min(measured, temperature) < 1.0)
     judge.take({"viscosity_unmeasured": np.mean(beyond)})
-    film = np.min(found["minimum_film_thickness"]), np.min(found["film_parameter"])
+    film = np.min(solutions["minimum_film_thickness"]), np.min(solutions["film_parameter"])
     judge_tribology(judge, dict(zip(("film_min", "film_parameter_min"), film, strict=True)))
     return judge.summary()
 
@@ -228,25 +228,25 @@ def _mean_by_loss(arrays: dict[str, Array], values: Array, solved: Array) -> flo
 def squeeze_summary(arrays: dict[str, Array]) -> dict[str, Any]:
     """How far films and friction with squeeze depart from the steady ones."""
     solved = np.isfinite(arrays["transient_central_film_thickness"])
-    found: dict[str, Any] = {
+    quantities: dict[str, Any] = {
         "transient_positions_solved": int(np.count_nonzero(solved)),
         "transient_restarts": int(arrays["restarts"]),
     }
     if not np.any(solved):
-        return found
+        return quantities
 
     def of(name: str) -> Array:
         return arrays[name][solved]
 
     for name in ("central", "minimum"):
         departure = np.abs(of(f"transient_{name}_film_thickness") / of(f"{name}_film_thickness") - 1.0)
-        found[f"{name}_film_departure_max"] = float(np.max(departure))
-        found[f"{name}_film_departure_mean"] = float(np.mean(departure))
+        quantities[f"{name}_film_departure_max"] = float(np.max(departure))
+        quantities[f"{name}_film_departure_mean"] = float(np.mean(departure))
     friction, steady = (
         _mean_by_loss(arrays, arrays[name], solved)
         for name in ("transient_friction_coefficient", "friction_coefficient")
     )
-    return found | {
+    return quantities | {
         "transient_minimum_film_min": float(np.min(of("transient_minimum_film_thickness"))),
         "transient_friction_coefficient_mean": friction,
         "friction_departure_mean": friction / steady - 1.0,

@@ -54,10 +54,10 @@ class Stretch(NamedTuple):
     loads: tuple[Array, Array]
 
 
-def steady_of(found: CoupledSolution) -> SteadyContact:
+def steady_of(coupled: CoupledSolution) -> SteadyContact:
     """Return what is kept of a steady contact."""
-    solution = found.solution
-    rise = np.zeros((len(solution.place), LAYERS)) if found.heat is None else found.heat.layers
+    solution = coupled.solution
+    rise = np.zeros((len(solution.place), LAYERS)) if coupled.heat is None else coupled.heat.layers
     whole = solution.pressure / solution.problem.hertz_pressure
     return SteadyContact(solution.problem, solution.state, solution.grid.node, whole, solution.closure, rise)
 
@@ -149,8 +149,8 @@ def _times(stretch: Stretch, at: int) -> tuple[Array, dict[int, int]]:
     for number in range(at, len(stretch.times) - 1):
         whole = stretch.times[number + 1] - stretch.times[number]
         problem = stretch.steady[number + 1].problem
-        drawn = whole * problem.entrainment_speed / problem.half_width
-        parts = max(math.ceil(drawn / WAY_OF_A_STEP), 1)
+        lengths = whole * problem.entrainment_speed / problem.half_width
+        parts = max(math.ceil(lengths / WAY_OF_A_STEP), 1)
         times.extend(stretch.times[number] + whole * np.arange(1, parts + 1) / parts)
         marks[len(times) - 1] = number + 1
     return np.array(times), marks
@@ -159,7 +159,7 @@ def _times(stretch: Stretch, at: int) -> tuple[Array, dict[int, int]]:
 def _instants(stretch: Stretch) -> Callable[[float], Instant]:
     """The contact at any time of a stretch."""
     problems = [position.problem for position in stretch.steady]
-    values = [(known.radius, known.entrainment_speed, known.sliding_speed) for known in problems]
+    values = [(state.radius, state.entrainment_speed, state.sliding_speed) for state in problems]
     smooth, numbers = CubicSpline(stretch.times, np.array(values)), np.arange(len(stretch.times))
 
     def at(time: float) -> Instant:

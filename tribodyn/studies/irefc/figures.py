@@ -73,12 +73,12 @@ def by_angle(record: Record) -> ElementCurves:
 
 
 def _four_panels(records: Sequence[Record], curves: Callable[[Record], ElementCurves]) -> Figure:
-    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
-    panels = drawn.subplots(2, 2, sharex=True).ravel()
+    figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
+    panels = figure.subplots(2, 2, sharex=True).ravel()
     for number, record in enumerate(records):
         draw_curve(panels, curves(record), PALETTE[number % len(PALETTE)], curves is by_number)
     _finish_axes(panels, panels[2:], curves is by_number)
-    return _finish(drawn, panels, CURVES, records, LOSSES)
+    return _finish(figure, panels, CURVES, records, LOSSES)
 
 
 def draw_curve(panels: Sequence[Axes], curve: ElementCurves, color: str, marked: bool) -> None:
@@ -124,11 +124,11 @@ def _over_time(
     view: View,
     draw: Callable[[Sequence[Axes], Sequence[Record], View], tuple[str, str]],
 ) -> Figure:
-    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
-    panels = drawn.subplots(2, 1, sharex=True)
+    figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
+    panels = figure.subplots(2, 1, sharex=True)
     titles = draw(panels, records, view)
     panels[1].set_xlabel(abscissa_label(view))
-    return _finish(drawn, panels, titles, records)
+    return _finish(figure, panels, titles, records)
 
 
 def _draw_loads(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
@@ -176,8 +176,8 @@ def _gears(records: Sequence[Record]) -> Figure:
     columns = min(len(records), 2)
     rows = -(-len(records) // columns)
     side = 0.85 * WIDTH if columns == 1 else 0.65 * WIDTH
-    drawn = new_figure(side * columns, rows * (side + 0.3))
-    grid = drawn.subplots(rows, columns, squeeze=False).ravel()
+    figure = new_figure(side * columns, rows * (side + 0.3))
+    grid = figure.subplots(rows, columns, squeeze=False).ravel()
     for axes in grid[len(records) :]:
         axes.remove()
     shown = grid[: len(records)]
@@ -187,13 +187,13 @@ def _gears(records: Sequence[Record]) -> Figure:
     reach = max(abs(end) for axes in shown for end in (*axes.get_xlim(), *axes.get_ylim()))
     for axes in shown:
         axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
-    return drawn
+    return figure
 
 
 def _overview(records: Sequence[Record], view: View) -> Figure:
     record = records[0]
-    drawn = new_figure(11.0, 6.2)
-    rows = drawn.subplots(2, 3)
+    figure = new_figure(11.0, 6.2)
+    rows = figure.subplots(2, 3)
     draw_gear(rows[0, 0], record)
     panels = [rows[0, 1], rows[0, 2], rows[1, 0], rows[1, 1]]
     moving = record.samples > 1
@@ -210,8 +210,8 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
     titles = ("Cam, elements and crown", *CURVES, "Normal load of each element over time")
     for letter, axes, title in zip("abcdef" if moving else "abcde", rows.flat, titles, strict=False):
         mark_panel(axes, letter, title)
-    drawn.suptitle(_title(record), x=0.01, ha="left", fontsize=11)
-    return drawn
+    figure.suptitle(_title(record), x=0.01, ha="left", fontsize=11)
+    return figure
 
 
 def _title(record: Record) -> str:
@@ -222,7 +222,7 @@ def _title(record: Record) -> str:
 
 
 def _finish(
-    drawn: Figure,
+    figure: Figure,
     panels: Sequence[Axes],
     titles: Sequence[str],
     records: Sequence[Record],
@@ -230,17 +230,19 @@ def _finish(
 ) -> Figure:
     for letter, axes, title in zip("abcd", panels, titles, strict=False):
         mark_panel(axes, letter, title)
-    drawn.align_ylabels()
+    figure.align_ylabels()
     handles = [Line2D([], [], color=QUIET, linestyle=style) for _, style in lines]
     labels = [name for name, _ in lines]
     if len(records) > 1:
         handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles
         labels = [*map(record_label, records), *labels]
     else:
-        drawn.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
+        figure.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
     if labels:
-        drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6)
-    return drawn
+        figure.legend(
+            handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6
+        )
+    return figure
 
 
 OF_A_POSITION: dict[str, Drawing] = {

@@ -52,13 +52,13 @@ PANELS = ("normal_load", "slip_speed", "power_friction", "efficiency")
 
 def verdict(record: Record) -> list[str]:
     """Say what the elements carry, how even the output is, what is lost, and whether it is a prediction."""
-    summary, found = numbers(record.summary), []
+    summary, lines = numbers(record.summary), []
     if {"normal_load_max", "elements_loaded_min"} <= set(summary):
         load, fewest = (
             with_unit("normal_load_max", summary["normal_load_max"]),
             summary["elements_loaded_min"],
         )
-        found.append(
+        lines.append(
             f"At least {fewest:.0f} elements carry; the one that carries most is pressed with {load}."
         )
     if {"output_torque_mean", "output_torque_peak_to_peak"} <= set(summary):
@@ -66,9 +66,9 @@ def verdict(record: Record) -> list[str]:
         even = f", {share(swing / abs(mean))} of it" if mean else ""
         torque = with_unit("output_torque_mean", mean)
         swings = with_unit("output_torque_peak_to_peak", swing)
-        found.append(f"The output gives {torque} on the mean and swings by {swings}{even}.")
-    found += lost(summary)
-    return [*found, *_SHORT[record.summary["mode"]]] if record.summary.get("mode") in _SHORT else found
+        lines.append(f"The output gives {torque} on the mean and swings by {swings}{even}.")
+    lines += lost(summary)
+    return [*lines, *_SHORT[record.summary["mode"]]] if record.summary.get("mode") in _SHORT else lines
 
 
 def sentences(record: Record) -> list[str]:

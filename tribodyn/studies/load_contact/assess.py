@@ -55,22 +55,22 @@ def tasks(request: Request) -> tuple[Task, ...]:
         "mesh": dict(request.tables.get("mesh", {})),
         **request.supports(),
     }
-    found = [Task(_TASK, "loaded error, pressures, root stresses", scenario)]
+    requested = [Task(_TASK, "loaded error, pressures, root stresses", scenario)]
     at_duty = scenario | {"operating": {"gear_torque": operating["gear_torque"]}}
     if request.pitch_deviation:
         deviating = at_duty | {
             "drive": _with_deviating_tooth(at_duty["drive"], request.pitch_deviation),
             "output": {"cycles": _CYCLES},
         }
-        found.append(Task(_DEVIATING, "load sharing with a pitch deviation", deviating, needed=False))
+        requested.append(Task(_DEVIATING, "load sharing with a pitch deviation", deviating, needed=False))
     if request.spectrum_torques:
         others = [{"operating.gear_torque": f"{torque!r} N*m"} for torque in request.spectrum_torques]
-        found.append(Task(_SPECTRUM, "loads along the face of the spectrum's duties", at_duty, others))
+        requested.append(Task(_SPECTRUM, "loads along the face of the spectrum's duties", at_duty, others))
     if request.samples:
         cases = [of_teeth(sample) for sample in request.samples]
         about = "load sharing, samples"
-        found.append(Task(_SAMPLES, about, at_duty, cases, arrays=tuple(ALONG), needed=False))
-    return tuple(found)
+        requested.append(Task(_SAMPLES, about, at_duty, cases, arrays=tuple(ALONG), needed=False))
+    return tuple(requested)
 
 
 def _with_deviating_tooth(drive: Mapping[str, Any], deviation: float) -> dict[str, Any]:
@@ -92,14 +92,14 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         pressure = highest_over_face(roll, over_face, np.asarray(record["slice"]) * late(record))
         _, line_load = over_roll(record, record["line_load"])
         torques, spread = record["torque"], record["map_peak_to_peak"]
-    found: dict[str, Any] = {name: summary[name] for name in _QUANTITIES if name in summary}
+    quantities: dict[str, Any] = {name: summary[name] for name in _QUANTITIES if name in summary}
     if _SPECTRUM in done:
         ratios = done[_SPECTRUM].rows["face_load_factor"] / summary["face_load_factor"]
-        found["face_load_ratios"] = [float(ratio) if np.isfinite(ratio) else 1.0 for ratio in ratios]
+        quantities["face_load_ratios"] = [float(ratio) if np.isfinite(ratio) else 1.0 for ratio in ratios]
     accurate = summary.get("shared_load_max")
     deviating = done[_DEVIATING].summary.get("shared_load_max") if _DEVIATING in done else None
     if deviating is not None and accurate is not None:
-        found["transverse_load_factor"] = transverse_load_factor(deviating, accurate)
+        quantities["transverse_load_factor"] = transverse_load_factor(deviating, accurate)
     rows = done[_SAMPLES].rows if _SAMPLES in done else {}
     scattered = {name: rows[name] for name in _SCATTERED} if rows else {}
     if rows and accurate is not None:
@@ -116,7 +116,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         {"": 1e6 * np.asarray(spread)},
         request.gear_torque,
     )
-    return Findings(found, along, (curve,), scattered)
+    return Findings(quantities, along, (curve,), scattered)
 
 
 ROLE = Contribution(1, "Loaded contact", tasks, answer, of_teeth=True)

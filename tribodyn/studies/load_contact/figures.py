@@ -30,7 +30,7 @@ def colour(number: int) -> str:
 
 def _loaded_error(records: Sequence[Record]) -> Figure:
     modified = any(np.ptp(record["unloaded_transmission_error"]) > _NO_ERROR for record in records)
-    drawn, rows = _stacked(2 if modified else 1)
+    figure, rows = _stacked(2 if modified else 1)
     datasets = ("loaded_transmission_error", "unloaded_transmission_error")
     titles = (
         "Transmission error under load, in slow rotation",
@@ -41,7 +41,7 @@ def _loaded_error(records: Sequence[Record]) -> Figure:
         axes.set_ylabel("Transmission error (µm)")
         axes.legend(loc="upper right", ncols=1 + (len(records) > 2))
     rows[-1].set_xlabel(PHASE)
-    return _finish(drawn, rows, records, titles)
+    return _finish(figure, rows, records, titles)
 
 
 def draw_error(axes: Axes, records: Sequence[Record], name: str) -> None:
@@ -56,7 +56,7 @@ def draw_error(axes: Axes, records: Sequence[Record], name: str) -> None:
 
 
 def _load_sharing(records: Sequence[Record]) -> Figure:
-    drawn, rows = _stacked(2, sharex=False)
+    figure, rows = _stacked(2, sharex=False)
     draw_loads(rows[0], records)
     rows[0].set_xlabel(PHASE)
     for number, record in enumerate(records):
@@ -67,7 +67,7 @@ def _load_sharing(records: Sequence[Record]) -> Figure:
     rows[1].set_ylabel("Share of the load (%)")
     rows[1].set_ylim(bottom=0)
     titles = ("Normal load of each pair", "Share of the load of one pair from entry to exit")
-    return _finish(drawn, rows, records, titles, pairs=len(records) == 1)
+    return _finish(figure, rows, records, titles, pairs=len(records) == 1)
 
 
 def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
@@ -84,9 +84,9 @@ def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
 
 
 def _mesh_stiffness(records: Sequence[Record]) -> Figure:
-    drawn, rows = _stacked(1)
+    figure, rows = _stacked(1)
     draw_stiffness(rows[0], records)
-    return _finish(drawn, rows, records, ("Stiffness of all pairs together, at the pitch radius",))
+    return _finish(figure, rows, records, ("Stiffness of all pairs together, at the pitch radius",))
 
 
 def show_contact(axes: Axes, records: Sequence[Record]) -> None:
@@ -108,8 +108,8 @@ def draw_stiffness(axes: Axes, records: Sequence[Record]) -> None:
 
 
 def _root_stress(records: Sequence[Record]) -> Figure:
-    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
-    panels = drawn.subplots(2, 2, sharex=True)
+    figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
+    panels = figure.subplots(2, 2, sharex=True)
     for row, name in enumerate(("root_tension", "root_compression")):
         for column, body in enumerate(("pinion", "gear")):
             draw_root_stress(panels[row, column], records, name, body)
@@ -122,7 +122,7 @@ def _root_stress(records: Sequence[Record]) -> Figure:
         for axes in row:
             axes.set_ylim(min(low), max(high))
     titles = [f"{what} in the fillet of the {body}" for what in ("Tension", "Compression") for body in BODIES]
-    return _finish(drawn, panels.ravel(), records, titles)
+    return _finish(figure, panels.ravel(), records, titles)
 
 
 def draw_root_stress(axes: Axes, records: Sequence[Record], name: str, body: str, style: str = "-") -> None:
@@ -136,12 +136,12 @@ def draw_root_stress(axes: Axes, records: Sequence[Record], name: str, body: str
 
 
 def _harris(records: Sequence[Record]) -> Figure:
-    drawn, rows = _stacked(2 if len(records) == 1 else 1, sharex=False)
+    figure, rows = _stacked(2 if len(records) == 1 else 1, sharex=False)
     draw_harris(rows[0], records)
     if len(records) == 1:
         _draw_map_curves(rows[1], records[0])
     titles = ("Peak to peak of the transmission error over torque; circle: torque of all else", MAP_CURVES)
-    return _finish(drawn, rows, records, titles)
+    return _finish(figure, rows, records, titles)
 
 
 def draw_harris(axes: Axes, records: Sequence[Record]) -> None:
@@ -172,8 +172,8 @@ def _draw_map_curves(axes: Axes, record: Record) -> None:
 
 def _overview(records: Sequence[Record]) -> Figure:
     record = records[0]
-    drawn = new_figure(11.0, 6.2)
-    panels = drawn.subplots(2, 3).ravel()
+    figure = new_figure(11.0, 6.2)
+    panels = figure.subplots(2, 3).ravel()
     draw_error(panels[0], [record], "loaded_transmission_error")
     panels[0].set(xlabel=PHASE, ylabel="Loaded transmission error (µm)")
     panels[0].legend(loc="upper right")
@@ -204,17 +204,17 @@ def _overview(records: Sequence[Record]) -> Figure:
     head = (
         f"{record_title(record)}.  Maps: {maps.LINE_LOAD.explained[0].lower()}{maps.LINE_LOAD.explained[1:]}"
     )
-    drawn.suptitle(head, x=0.01, ha="left", fontsize=11)
-    return drawn
+    figure.suptitle(head, x=0.01, ha="left", fontsize=11)
+    return figure
 
 
 def _stacked(count: int, sharex: bool = True) -> tuple[Figure, Sequence[Axes]]:
-    drawn = new_figure(WIDTH, PANEL_HEIGHT * count + 0.4)
-    return drawn, list(drawn.subplots(count, 1, squeeze=False, sharex=sharex)[:, 0])
+    figure = new_figure(WIDTH, PANEL_HEIGHT * count + 0.4)
+    return figure, list(figure.subplots(count, 1, squeeze=False, sharex=sharex)[:, 0])
 
 
 def _finish(
-    drawn: Figure,
+    figure: Figure,
     panels: Sequence[Axes],
     records: Sequence[Record],
     titles: Sequence[str],
@@ -223,16 +223,16 @@ def _finish(
     """Letter and title the panels, name the records (or the pairs of the only one), say what it is about."""
     for letter, axes, title in zip("abcd", panels, titles, strict=False):
         mark_panel(axes, letter if len(panels) > 1 else "", title)
-    drawn.align_ylabels()
+    figure.align_ylabels()
     if len(records) == 1:
-        drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
     handles, labels = panels[0].get_legend_handles_labels() if pairs else ([], [])
     if len(records) > 1:
         handles = [Line2D([], [], color=colour(number)) for number in range(len(records))]
         labels = list(map(record_label, records))
     if handles:
-        drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)))
-    return drawn
+        figure.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)))
+    return figure
 
 
 def _drawing(about: str, draw: Callable[[Sequence[Record]], Figure], *fits: Any) -> Drawing:

@@ -188,8 +188,8 @@ def _grid(maps: int) -> tuple[int, int]:
 def line_load_figure(records: Sequence[Record]) -> Figure:
     """Draw maps of the line load, and below them its course over the face at the pitch point."""
     rows, _ = _grid(len(records))
-    drawn = new_figure(WIDTH, (rows + 1) * PANEL_HEIGHT + 0.4)
-    parts: Any = drawn.subfigures(2, 1, height_ratios=[rows, 1])
+    figure = new_figure(WIDTH, (rows + 1) * PANEL_HEIGHT + 0.4)
+    parts: Any = figure.subfigures(2, 1, height_ratios=[rows, 1])
     upper, lower = parts
     _maps(upper, records, LINE_LOAD)
     below = lower.subplots()
@@ -202,21 +202,21 @@ def line_load_figure(records: Sequence[Record]) -> Figure:
     mark_panel(below, "abcdefgh"[len(records)], "Line load over the face, the pair at the pitch point")
     if len(records) > 1:
         below.legend(loc="lower center", ncols=min(3, len(records)))
-    _head(drawn, records, LINE_LOAD)
-    return drawn
+    _head(figure, records, LINE_LOAD)
+    return figure
 
 
 def face_map_figure(records: Sequence[Record], quantity: OverFace) -> Figure:
     """Draw maps of a quantity, on one scale."""
-    drawn = new_figure(WIDTH, _grid(len(records))[0] * PANEL_HEIGHT + 0.6)
-    _maps(drawn, records, quantity)
-    _head(drawn, records, quantity)
-    return drawn
+    figure = new_figure(WIDTH, _grid(len(records))[0] * PANEL_HEIGHT + 0.6)
+    _maps(figure, records, quantity)
+    _head(figure, records, quantity)
+    return figure
 
 
-def _head(drawn: Figure, records: Sequence[Record], quantity: OverFace) -> None:
+def _head(figure: Figure, records: Sequence[Record], quantity: OverFace) -> None:
     about = f"{quantity.title}." if len(records) > 1 else record_title(records[0])
-    drawn.suptitle(f"{about}\n{quantity.explained}", x=0.01, ha="left", fontsize=9)
+    figure.suptitle(f"{about}\n{quantity.explained}", x=0.01, ha="left", fontsize=9)
 
 
 def _maps(part: Any, records: Sequence[Record], quantity: OverFace) -> None:

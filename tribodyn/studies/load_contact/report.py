@@ -50,28 +50,28 @@ def maps(record: Record) -> list[PageMap]:
 
     if record.samples < 2:
         return []
-    found = []
+    page_maps = []
     for quantity in (LINE_LOAD, PRESSURE, FILM):
         if quantity.dataset in record:
             over = face_map(record, quantity.dataset)
-            found.append(PageMap(quantity.dataset, over.roll, *over.to_edges(record), quantity.top))
-    return found
+            page_maps.append(PageMap(quantity.dataset, over.roll, *over.to_edges(record), quantity.top))
+    return page_maps
 
 
 def sentences(record: Record) -> list[str]:
     """Say what the model leaves out, and how well the loads carry the torque."""
-    summary, found = record.summary, []
+    summary, texts = record.summary, []
     if (slices := summary.get("slices")) is not None:
         what = "in one piece, alike all along" if slices == 1 else f"in {slices} slices"
-        found.append(f"Slow rotation, no inertia; the face is taken {what}.")
+        texts.append(f"Slow rotation, no inertia; the face is taken {what}.")
     if record.mesh_cycle.get("pitch_slope", 0.0) != 0.0:
-        found.append(
+        texts.append(
             "The lines of contact are inclined: line load, pressure and film are per length along them, and "
             "the map shows each place of the face at its own time."
         )
     if (residual := summary.get("torque_residual")) is not None:
-        found.append(f"The loads carry the torque to within {abs(residual):.1e} of it.")
+        texts.append(f"The loads carry the torque to within {abs(residual):.1e} of it.")
     if "film_min" in summary:
-        found.append("The film is that of each slice alone, the oil as warm as it enters.")
-        found += on_closures(summary)
-    return found
+        texts.append("The film is that of each slice alone, the oil as warm as it enters.")
+        texts += on_closures(summary)
+    return texts

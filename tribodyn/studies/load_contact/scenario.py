@@ -118,7 +118,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
 def _without_oil(scenario: Scenario) -> Iterator[InputError]:
     """Refuse what says something of a film that is not computed."""
     remedy = 'add lubricant = "iso-vg-220-mineral", or leave it out'
-    given = {"operating.oil_temperature": scenario.operating.oil_temperature, "film": scenario.film}
-    for key, value in given.items():
+    film_keys = {"operating.oil_temperature": scenario.operating.oil_temperature, "film": scenario.film}
+    for key, value in film_keys.items():
         if value is not None:
             yield InputError(key, rule="without a lubricant there is no film", remedy=remedy)

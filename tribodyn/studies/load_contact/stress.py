@@ -48,8 +48,8 @@ def known(record: Record) -> bool:
 def stress_figure(records: Sequence[Record]) -> Figure:
     """Draw pinion and gear of every record: (a) section where the load is highest, (b) the loaded side."""
     rows = [(record, side, field_of(record, side)) for record in records for side in SIDES]
-    drawn = new_figure(WIDTH, len(rows) * (PANEL_HEIGHT + 0.4) + 0.3)
-    panels = drawn.subplots(len(rows), 2, squeeze=False)
+    figure = new_figure(WIDTH, len(rows) * (PANEL_HEIGHT + 0.4) + 0.3)
+    panels = figure.subplots(len(rows), 2, squeeze=False)
     scale = scale_of([field for *_, field in rows])
     for number, ((section, flank), (record, side, field)) in enumerate(zip(panels, rows, strict=True)):
         part = heaviest(field)
@@ -62,10 +62,10 @@ def stress_figure(records: Sequence[Record]) -> Figure:
             (flank, "b", f"{named}, loaded side"),
         ):
             mark_panel(axes, letter if number == 0 else "", what)
-    add_bar(drawn, scale, panels.ravel().tolist())
+    add_bar(figure, scale, panels.ravel().tolist())
     if len(records) == 1:
-        drawn.suptitle(f"{record_title(records[0])}: pair at the pitch point", x=0.01, ha="left", fontsize=9)
-    return drawn
+        figure.suptitle(f"{record_title(records[0])}: pair at the pitch point", x=0.01, ha="left", fontsize=9)
+    return figure
 
 
 def scale_of(fields: Sequence[ToothField]) -> Normalize:

@@ -29,8 +29,8 @@ class BodyInertia(NamedTuple):
 
 def table_numbers(case: Gearbox) -> tuple[int, ...]:
     """Number of the table of every mesh: equal meshes share one; the first mesh's is 0."""
-    known: dict[object, int] = {}
-    return tuple(known.setdefault(table_key(mesh.pair), len(known)) for mesh in case.meshes)
+    numbers: dict[object, int] = {}
+    return tuple(numbers.setdefault(table_key(mesh.pair), len(numbers)) for mesh in case.meshes)
 
 
 def assemblies(case: Gearbox) -> tuple[Assembly, ...]:
@@ -40,30 +40,30 @@ def assemblies(case: Gearbox) -> tuple[Assembly, ...]:
     found that before.
     """
     numbers = table_numbers(case)
-    made: dict[int, Assembly] = {}
+    by_number: dict[int, Assembly] = {}
     for number, mesh in zip(numbers, case.meshes, strict=True):
-        if number not in made:
-            made[number] = assembled(mesh.pair)
-    return tuple(made[number] for number in numbers)
+        if number not in by_number:
+            by_number[number] = assembled(mesh.pair)
+    return tuple(by_number[number] for number in numbers)
 
 
 def body_inertias(case: Gearbox, pairs: Sequence[Assembly]) -> tuple[BodyInertia, ...]:
     """Mass and inertia of every body; those of a gear that gives none follow from its outline and bore."""
-    found = []
+    inertias = []
     for body in case.bodies:
         mass, inertia, tilting = body.mass, body.inertia, (body.inertia - body.attached) / 2.0
         for gear in (case.gears[number] for number in body.gears):
-            own, turned = gear.given.mass, gear.given.inertia
-            if own is None or turned is None:
+            mass_of_gear, turned = gear.given.mass, gear.given.inertia
+            if mass_of_gear is None or turned is None:
                 mesh, side = gear.meshes[0]
                 computed = mass_and_inertia(pairs[mesh], side, gear.density)
-                own = computed[0] if own is None else own
+                mass_of_gear = computed[0] if mass_of_gear is None else mass_of_gear
                 turned = computed[1] if turned is None else turned
-            mass, inertia = mass + float(own), inertia + float(turned)
-            tilting += tilting_inertia(float(own), float(turned), gear.face_width)
-            tilting += float(own) * gear.axial_position**2
-        found.append(BodyInertia(mass, inertia, tilting))
-    return tuple(found)
+            mass, inertia = mass + float(mass_of_gear), inertia + float(turned)
+            tilting += tilting_inertia(float(mass_of_gear), float(turned), gear.face_width)
+            tilting += float(mass_of_gear) * gear.axial_position**2
+        inertias.append(BodyInertia(mass, inertia, tilting))
+    return tuple(inertias)
 
 
 def phases(case: Gearbox, pairs: Sequence[Assembly], entries: Sequence[float] | None = None) -> Phases:
@@ -106,5 +106,5 @@ def in_space_of(
     if link.bearing is None:
         nothing = [0.0, 0.0, 0.0]
         return np.diag([*link.stiffness[:2], *nothing]), np.diag([*damping[:2], *nothing])
-    own = bodies[link.ends[0]]
-    return matrices_in_space(link.bearing, width, own.mass, own.tilting)
+    body = bodies[link.ends[0]]
+    return matrices_in_space(link.bearing, width, body.mass, body.tilting)

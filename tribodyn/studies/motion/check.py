@@ -39,28 +39,28 @@ HARMONICS = 3
 
 
 @checks_gears
-def check(given: Gearbox | Case) -> CheckResult:
+def check(model: Gearbox | Case) -> CheckResult:
     """Check a case, tabulate its meshes, and say what gearbox it describes."""
-    prepared = prepare(given)
+    prepared = prepare(model)
     case = prepared.case
     listener_of(prepared)
-    found = modes(prepared.model, [made.cycle for made in prepared.made])
-    kinds = kinds_of(prepared, found)
+    mode_set = modes(prepared.model, [one.cycle for one in prepared.made])
+    kinds = kinds_of(prepared, mode_set)
     of_meshes = [_of_mesh(prepared, m) for m in range(len(case.meshes))]
     of_modes = {
-        "natural_frequencies": found.frequency.tolist(),
+        "natural_frequencies": mode_set.frequency.tolist(),
         "mode_shares": [
-            dict(zip(prepared.names, row, strict=True)) for row in np.round(found.share, 6).tolist()
+            dict(zip(prepared.names, row, strict=True)) for row in np.round(mode_set.share, 6).tolist()
         ],
     }
-    tables = [_mode_table(prepared, found, kinds), _campbell_table(prepared, found)]
+    tables = [_mode_table(prepared, mode_set, kinds), _campbell_table(prepared, mode_set)]
     if not case.named:
         (pair,) = of_meshes
         return pair._replace(data=pair.data | of_modes, tables=(*pair.tables, *tables))
     names, train = [mesh.name for mesh in case.meshes], _train(prepared)
     of_sets_alone = {
         "planet_pass_frequencies": planet_pass(prepared),
-        "set_frequencies": {name: own._asdict() for name, own in of_sets(prepared).items()},
+        "set_frequencies": {name: of_set._asdict() for name, of_set in of_sets(prepared).items()},
     }
     data = {
         **train,
@@ -78,15 +78,15 @@ def check(given: Gearbox | Case) -> CheckResult:
     tables = [*_train_tables(prepared, train), *_set_tables(prepared), *tables]
     details = list(_once(names, [checked.tables for checked in of_meshes]))
     remarks = [*_named(names, [checked.remarks for checked in of_meshes]), *bearing_remarks(shafts, oil)]
-    said = _named(names, [checked.warnings for checked in of_meshes])
-    warnings = tuple(dict.fromkeys((*jams(prepared), *said)))
+    sentences = _named(names, [checked.warnings for checked in of_meshes])
+    warnings = tuple(dict.fromkeys((*jams(prepared), *sentences)))
     return CheckResult(data, tables, remarks, warnings, details)
 
 
-def _named(names: list[str], said: list[Any]) -> Iterator[str]:
+def _named(names: list[str], remarks: list[Any]) -> Iterator[str]:
     """What is said of the meshes; once where it is said of all."""
     of_line: dict[str, list[str]] = {}
-    for name, each in zip(names, said, strict=True):
+    for name, each in zip(names, remarks, strict=True):
         for line in dict.fromkeys(each):
             of_line.setdefault(line, []).append(name)
     yield from (line for line, of in of_line.items() if len(of) == len(names))
@@ -97,24 +97,26 @@ def _named(names: list[str], said: list[Any]) -> Iterator[str]:
 
 def _once(names: list[str], tables: Sequence[Sequence[TextTable]]) -> Iterator[TextTable]:
     """The tables of the meshes, equal ones once."""
-    found: list[tuple[TextTable, list[str]]] = []
+    distinct: list[tuple[TextTable, list[str]]] = []
     for name, each in zip(names, tables, strict=True):
         for table in each:
-            same = next((of for other, of in found if other == table), None)
+            same = next((of for other, of in distinct if other == table), None)
             if same is None:
-                found.append((table, [name]))
+                distinct.append((table, [name]))
             else:
                 same.append(name)
-    for table, of in found:
+    for table, of in distinct:
         yield table._replace(title=f"{table.title}, mesh {together(of)}")
 
 
 def _of_mesh(prepared: PreparedGearbox, m: int) -> CheckResult:
-    pair, made = prepared.pairs[m], prepared.made[m]
+    pair, tabulated = prepared.pairs[m], prepared.made[m]
     thermal = prepared.thermal[m]
-    gears = PreparedGears(pair, made.assembly, made.cycle, thermal, slice_remark=made.slice_remark)
+    gears = PreparedGears(
+        pair, tabulated.assembly, tabulated.cycle, thermal, slice_remark=tabulated.slice_remark
+    )
     if not prepared.case.named:
-        return check_gears(gears, prepared.model.closure(m), made.masses)
+        return check_gears(gears, prepared.model.closure(m), tabulated.masses)
     return with_duty(check_gears(gears, prepared.model.closure(m)), pair)
 
 
@@ -128,14 +130,14 @@ def _train(prepared: PreparedGearbox) -> dict[str, Any]:
     case, model = prepared.case, prepared.model
     layout, speeds = model.layout, _speeds(prepared)
     bodies = {}
-    for b, (name, own) in enumerate(zip(prepared.names, prepared.bodies, strict=True)):
+    for b, (name, kinematics) in enumerate(zip(prepared.names, prepared.bodies, strict=True)):
         bodies[name] = {
             "speed": float(speeds[b]),
             "shaft_frequency": float(speeds[b]) / (2.0 * pi),
-            "counter_clockwise": own.sense > 0,
+            "counter_clockwise": kinematics.sense > 0,
             "mass": float(model.bodies.mass[b]) if b < layout.planar else None,
             "inertia": float(model.bodies.inertia[b]),
-            "centre": list(map(float, own.centre)),
+            "centre": list(map(float, kinematics.centre)),
         }
     torques = flow(model).on_driven
     meshes = {
@@ -153,11 +155,11 @@ def _train(prepared: PreparedGearbox) -> dict[str, Any]:
     return {"train_ratio": ratio, "common_period": case.period, "bodies": bodies, "train_meshes": meshes}
 
 
-def _train_tables(prepared: PreparedGearbox, found: dict[str, Any]) -> list[TextTable]:
+def _train_tables(prepared: PreparedGearbox, train: dict[str, Any]) -> list[TextTable]:
     case = prepared.case
     cycles = "1 cycle" if case.period == 1 else f"{case.period} cycles"
     whole = [
-        ("ratio of input to output speed", f"{found['train_ratio']:.6g}"),
+        ("ratio of input to output speed", f"{train['train_ratio']:.6g}"),
         ("common period of the meshes", f"{cycles} of mesh {case.meshes[0].name}"),
         ("repeats every", f"{case.period / mesh_frequencies(prepared)[0] * 1e3:.4g} ms"),
     ]
@@ -171,20 +173,20 @@ def _train_tables(prepared: PreparedGearbox, found: dict[str, Any]) -> list[Text
             f"{body['inertia']:.4g}",
             ", ".join(f"{round(place * 1e3, 9) + 0.0:.5g}" for place in body["centre"]),
         )
-        for name, body in found["bodies"].items()
+        for name, body in train["bodies"].items()
     ]
     meshes = [
         (
             name,
             f"{mesh['driver']} → {mesh['driven']}",
             f"{frequency:.5g}",
-            f"{float(made.cycle.contact_ratio):.4g}",
+            f"{float(tabulated.cycle.contact_ratio):.4g}",
             f"{mesh['driven_torque']:.5g}",
             f"{degrees(mesh['azimuth']):.4g}",
             f"{mesh['phase']:.4f}",
         )
-        for (name, mesh), frequency, made in zip(
-            found["train_meshes"].items(), mesh_frequencies(prepared), prepared.made, strict=True
+        for (name, mesh), frequency, tabulated in zip(
+            train["train_meshes"].items(), mesh_frequencies(prepared), prepared.made, strict=True
         )
     ]
     return [
@@ -203,17 +205,17 @@ def _train_tables(prepared: PreparedGearbox, found: dict[str, Any]) -> list[Text
 def _set_tables(prepared: PreparedGearbox) -> list[TextTable]:
     """How often teeth of planetary sets meet their mates."""
     rows = [
-        (name, *(f"{value:.5g}" for value in (own.mesh, own.planet_pass, *own[3:])))
-        for name, own in of_sets(prepared).items()
+        (name, *(f"{value:.5g}" for value in (of_set.mesh, of_set.planet_pass, *of_set[3:])))
+        for name, of_set in of_sets(prepared).items()
     ]
     head = ("stage", "mesh (Hz)", "planets pass ring", "sun tooth", "planet tooth", "ring tooth")
     return [TextTable("Planetary stages: how often a tooth meets a mate", head, rows)] if rows else []
 
 
-def _mode_table(prepared: PreparedGearbox, found: Modes, kinds: Sequence[str]) -> TextTable:
+def _mode_table(prepared: PreparedGearbox, mode_set: Modes, kinds: Sequence[str]) -> TextTable:
     """Natural frequencies, kinds of modes where there are planets, and the bodies that move in each."""
     rows = []
-    for frequency, share in zip(found.frequency, found.share, strict=True):
+    for frequency, share in zip(mode_set.frequency, mode_set.share, strict=True):
         order = np.argsort(-share, kind="stable")
         who = ", ".join(f"{prepared.names[b]} {100.0 * share[b]:.0f} %" for b in order if share[b] > LITTLE)
         rows.append((f"{frequency:.5g}", *kinds[len(rows) : len(rows) + 1], who))
@@ -221,18 +223,18 @@ def _mode_table(prepared: PreparedGearbox, found: Modes, kinds: Sequence[str]) -
     return TextTable(title, ("Hz", *(("kind",) if kinds else ()), "bodies"), rows)
 
 
-def _campbell_table(prepared: PreparedGearbox, found: Modes) -> TextTable:
+def _campbell_table(prepared: PreparedGearbox, modes_of: Modes) -> TextTable:
     """Speeds of the input at which harmonics of the meshes meet the modes."""
     speed = float(_speeds(prepared)[prepared.model.layout.input]) * 30.0 / pi
-    own: dict[str, tuple[float, int]] = {}
+    meets: dict[str, tuple[float, int]] = {}
     for name, frequency in distinct_meshes(prepared):
-        own |= {
+        meets |= {
             f"{name} ×{order}" if order > 1 else name: (frequency, order) for order in range(1, HARMONICS + 1)
         }
-    own |= {name: (frequency, 1) for name, frequency in passes(prepared) if frequency}
+    meets |= {name: (frequency, 1) for name, frequency in passes(prepared) if frequency}
     rows = [
-        (f"{mode:.5g}", *(f"{mode / (order * frequency) * speed:.4g}" for frequency, order in own.values()))
-        for mode in found.frequency
+        (f"{mode:.5g}", *(f"{mode / (order * frequency) * speed:.4g}" for frequency, order in meets.values()))
+        for mode in modes_of.frequency
     ]
     title = f"Campbell: input speed (rpm) at which a mesh meets a mode; now {speed:.4g}"
-    return TextTable(title, ("mode (Hz)", *own), rows)
+    return TextTable(title, ("mode (Hz)", *meets), rows)

@@ -20,9 +20,9 @@ _USUAL_PERIOD, _INTERVAL_BYTES, _INTERVAL = 200.0, 120.0, 1e-6
 _A_MESH = 1.2
 
 
-def estimate(given: Gearbox | Case) -> cost.Estimate:
+def estimate(model: Gearbox | Case) -> cost.Estimate:
     """What a run of a case takes; every mesh as much as that of a pair."""
-    case = given.gearbox()
+    case = model.gearbox()
     samples, cycles = float(case.output.samples_per_cycle), float(case.solver.cycles)
     meshes = len(case.meshes)
     sides = 1 if case.meshes[0].pair.mesh.backlash is None else 2
@@ -59,14 +59,14 @@ def marching_of(case: Gearbox, cycles: float, together: bool = True) -> list[cos
     solver, samples = case.solver, case.output.samples_per_cycle
     meshes, rates = len(case.meshes), sum(float(mesh.rate) for mesh in case.meshes)
     intervals = 0.0 if meshes == 1 else float(case.laid_out) * cost.SEGMENTS * rates * meshes
-    found = [cost.Estimate(_INTERVAL_BYTES * intervals, seconds=_INTERVAL * intervals)]
+    estimates = [cost.Estimate(_INTERVAL_BYTES * intervals, seconds=_INTERVAL * intervals)]
     for mesh in case.meshes:
         bearings = [_held(case, body) for body in (mesh.driver, mesh.driven)]
         radians = float(mesh.rate) * radians_of(mesh.pair, bearings)
         most = float(solver.max_steps)
-        found.append(table(mesh.pair.mesh))
-        found.append(cost.marching(cycles, radians, solver.method, most, samples, together=together))
-    return [each._replace(record=0.0) for each in found] if together else found
+        estimates.append(table(mesh.pair.mesh))
+        estimates.append(cost.marching(cycles, radians, solver.method, most, samples, together=together))
+    return [each._replace(record=0.0) for each in estimates] if together else estimates
 
 
 def _held(case: Gearbox, body: int) -> float:

@@ -83,13 +83,13 @@ def displacements(record: Record) -> np.ndarray:
         return np.stack([np.hypot(moved[f"x_{side}"], moved[f"y_{side}"]) for side in "pg"], axis=1)
     x, y = record["x"].copy(), record["y"].copy()
     places = record.geometry
-    for own in sets_of(record):
-        ahead = places["sense"][own.carrier] * record["angle"][:, own.carrier]
-        ahead = ahead - places["carried"][own.carrier] * record["reference_angle"]
-        for planet in own.planets:
-            right, up = places["centre"][planet] - places["centre"][own.carrier]
-            x[:, planet] += ahead * up - record["x"][:, own.carrier]
-            y[:, planet] -= ahead * right + record["y"][:, own.carrier]
+    for gearset in sets_of(record):
+        ahead = places["sense"][gearset.carrier] * record["angle"][:, gearset.carrier]
+        ahead = ahead - places["carried"][gearset.carrier] * record["reference_angle"]
+        for planet in gearset.planets:
+            right, up = places["centre"][planet] - places["centre"][gearset.carrier]
+            x[:, planet] += ahead * up - record["x"][:, gearset.carrier]
+            y[:, planet] -= ahead * right + record["y"][:, gearset.carrier]
     return np.hypot(x, y)
 
 

@@ -29,7 +29,7 @@ def mesh_frequencies(prepared: PreparedGearbox) -> list[float]:
 def distinct_meshes(prepared: PreparedGearbox) -> Iterator[tuple[str, float]]:
     """Frequencies of the meshes, Hz, equal ones once; those of a planetary set by its name."""
     case, of_rate = prepared.case, {}
-    sets = {own.members[CARRIER]: own.name for own in case.sets}
+    sets = {gearset.members[CARRIER]: gearset.name for gearset in case.sets}
     for mesh, frequency in zip(case.meshes, mesh_frequencies(prepared), strict=True):
         of_rate.setdefault(mesh.rate, (frequency, []))[1].append(sets.get(mesh.carrier, mesh.name))
     for frequency, names in of_rate.values():
@@ -40,10 +40,10 @@ def passes(prepared: PreparedGearbox) -> Iterator[tuple[str, float]]:
     """Frequencies at which planets pass a tooth of the ring and of the sun, N |n_c − n|, Hz."""
     turning = [body.sense * float(body.ratio) for body in prepared.case.bodies]
     shaft = reference_frequency(prepared)
-    for own in prepared.case.sets:
+    for gearset in prepared.case.sets:
         for member in (RING, SUN):
-            passing = turning[own.members[CARRIER]] - turning[own.members[member]]
-            yield f"{own.name}: planets pass {member}", len(own.planets) * shaft * abs(passing)
+            passing = turning[gearset.members[CARRIER]] - turning[gearset.members[member]]
+            yield f"{gearset.name}: planets pass {member}", len(gearset.planets) * shaft * abs(passing)
 
 
 def reference_frequency(prepared: PreparedGearbox) -> float:
@@ -53,14 +53,14 @@ def reference_frequency(prepared: PreparedGearbox) -> float:
 
 def of_sets(prepared: PreparedGearbox) -> dict[str, SetFrequencies]:
     """What repeats in every planetary set, Hz."""
-    case, found = prepared.case, {}
+    case, by_set = prepared.case, {}
     each = mesh_frequencies(prepared)
-    for own in case.sets:
-        carrier = own.members[CARRIER]
+    for gearset in case.sets:
+        carrier = gearset.members[CARRIER]
         mesh = next(each[m] for m, mesh in enumerate(case.meshes) if mesh.carrier == carrier)
-        teeth = own.teeth.sun, own.teeth.planet, abs(own.teeth.ring)
-        found[own.name] = set_frequencies(*teeth, len(own.planets), mesh)
-    return found
+        teeth = gearset.teeth.sun, gearset.teeth.planet, abs(gearset.teeth.ring)
+        by_set[gearset.name] = set_frequencies(*teeth, len(gearset.planets), mesh)
+    return by_set
 
 
 def lines_of(prepared: PreparedGearbox) -> tuple[SignalLine, ...]:
@@ -69,29 +69,29 @@ def lines_of(prepared: PreparedGearbox) -> tuple[SignalLine, ...]:
     if not case.named:
         one, two = case.gears
         return lines_of_pair(one.name, two.name, (abs(one.teeth), abs(two.teeth)))
-    found = [SignalLine(name, MESH, frequency / shaft) for name, frequency in distinct_meshes(prepared)]
-    if len(found) == 1:
-        found = [found[0]._replace(name="mesh")]
-    planets = {planet for own in case.sets for planet in own.planets}
+    lines = [SignalLine(name, MESH, frequency / shaft) for name, frequency in distinct_meshes(prepared)]
+    if len(lines) == 1:
+        lines = [lines[0]._replace(name="mesh")]
+    planets = {planet for gearset in case.sets for planet in gearset.planets}
     for number, body in zip(prepared.order, prepared.bodies, strict=False):
         if number not in planets and body.ratio:
-            found.append(SignalLine(body.name, SHAFT, float(body.ratio)))
-    for name, own in of_sets(prepared).items():
-        found += [
-            SignalLine(f"planets of {name} pass", PASS, own.planet_pass / shaft),
-            SignalLine(f"sun tooth of {name}", FAULT, own.sun_fault / shaft),
-            SignalLine(f"planet tooth of {name}", FAULT, own.planet_fault / shaft),
+            lines.append(SignalLine(body.name, SHAFT, float(body.ratio)))
+    for name, gearset in of_sets(prepared).items():
+        lines += [
+            SignalLine(f"planets of {name} pass", PASS, gearset.planet_pass / shaft),
+            SignalLine(f"sun tooth of {name}", FAULT, gearset.sun_fault / shaft),
+            SignalLine(f"planet tooth of {name}", FAULT, gearset.planet_fault / shaft),
         ]
     for mesh, frequency in zip(case.meshes, mesh_frequencies(prepared), strict=True):
         if mesh.carrier < 0:
             one, two = (int(abs(case.gears[gear].teeth)) for gear in mesh.gears)
             again = frequency * gcd(one, two) / (one * two)
-            found.append(SignalLine(f"hunting tooth of {mesh.name}", HUNTING, again / shaft))
-    known: set[tuple[str, float]] = set()
+            lines.append(SignalLine(f"hunting tooth of {mesh.name}", HUNTING, again / shaft))
+    seen: set[tuple[str, float]] = set()
     distinct = []
-    for line in found:
+    for line in lines:
         key = (line.sort, round(line.order, 9))
-        if key not in known:
-            known.add(key)
+        if key not in seen:
+            seen.add(key)
             distinct.append(line)
     return tuple(distinct)

@@ -72,49 +72,49 @@ class PreparedGearbox:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the model's bodies."""
-        own = tuple(self.case.bodies[body].name for body in self.order)
-        return own if len(own) == self.model.layout.bodies else (*own, "motor")
+        names = tuple(self.case.bodies[body].name for body in self.order)
+        return names if len(names) == self.model.layout.bodies else (*names, "motor")
 
     @property
     def bodies(self) -> tuple[BodyData, ...]:
         """Bodies of the case as the model has them; a motor stands and turns as what it drives."""
-        own = tuple(self.case.bodies[body] for body in self.order)
+        bodies = tuple(self.case.bodies[body] for body in self.order)
         motor = self.case.bodies[self.case.source.body]
-        return own if len(own) == self.model.layout.bodies else (*own, motor)
+        return bodies if len(bodies) == self.model.layout.bodies else (*bodies, motor)
 
 
 def tabulated(case: Gearbox) -> tuple[Tabulated, ...]:
     """The tables of every mesh; equal meshes share one. Raises what `gears.tabulated.tables` raises."""
-    known: dict[int, Tabulated] = {}
+    table_of: dict[int, Tabulated] = {}
     numbers = table_numbers(case)
     for number, mesh in zip(numbers, case.meshes, strict=True):
-        if number not in known:
-            known[number] = tables(mesh.pair)
-    return tuple(known[number] for number in numbers)
+        if number not in table_of:
+            table_of[number] = tables(mesh.pair)
+    return tuple(table_of[number] for number in numbers)
 
 
-def prepare(given: Gearbox | Case, made: tuple[Tabulated, ...] | None = None) -> PreparedGearbox:
-    """Check the geometry, tabulate the meshes, assemble the model; `made` is of equal tables, if known.
+def prepare(source: Gearbox | Case, tables: tuple[Tabulated, ...] | None = None) -> PreparedGearbox:
+    """Check the geometry, tabulate the meshes, assemble the model; `tables` is of equal tables, if known.
 
     Raises InputError where teeth cannot be made or run together, or a table does not cover the contact.
     """
-    case = given.gearbox()
-    made = made or tabulated(case)
-    inertias = body_inertias(case, [each.assembly for each in made])
-    warm, thermal = zip(*at_tooth_temperatures(case, made), strict=True)
-    entries = [float(each.cycle.roll_start) for each in made]
-    engaged = engagements(case, [each.assembly for each in made], entries)
-    found = nominal_phases(case.toothed_shafts, engaged)
+    case = source.gearbox()
+    tables = tables or tabulated(case)
+    inertias = body_inertias(case, [each.assembly for each in tables])
+    warm, thermal = zip(*at_tooth_temperatures(case, tables), strict=True)
+    entries = [float(each.cycle.roll_start) for each in tables]
+    engaged = engagements(case, [each.assembly for each in tables], entries)
+    phases = nominal_phases(case.toothed_shafts, engaged)
     order = _order(case)
-    model = _model(case, made, warm, inertias, found, order)
+    model = _model(case, tables, warm, inertias, phases, order)
     further = static_twist(model, [mesh.rate for mesh in case.meshes])
     model = with_own_teeth(
         _under_load(model, case, further),
-        entering_teeth(case.toothed_shafts, engaged, found, further.tolist()),
+        entering_teeth(case.toothed_shafts, engaged, phases, further.tolist()),
         [(case.gears[one].teeth, case.gears[two].teeth) for one, two in (mesh.gears for mesh in case.meshes)],
         case.solver.cycles,
     )
-    return PreparedGearbox(case, model, made, tuple(warm), tuple(thermal), found, order, inertias, given)
+    return PreparedGearbox(case, model, tables, tuple(warm), tuple(thermal), phases, order, inertias, source)
 
 
 def _held(case: Gearbox, body: int) -> bool:
@@ -154,15 +154,15 @@ def _moves_in_space(case: Gearbox, body: int) -> bool:
 
     And the reference, which comes before these.
     """
-    return case.tilts and (body == 0 or not any(body in own.bodies for own in case.sets))
+    return case.tilts and (body == 0 or not any(body in gearset.bodies for gearset in case.sets))
 
 
 def _model(
     case: Gearbox,
-    made: Sequence[Tabulated],
+    tables: Sequence[Tabulated],
     pairs: Sequence[LubricatedCase],
     inertias: Sequence[BodyInertia],
-    found: Phases,
+    phases: Phases,
     order: Sequence[int],
 ) -> parameters.Model:
     source, new = case.source, {body: number for number, body in enumerate(order)}
@@ -191,9 +191,9 @@ def _model(
         damping.append((0.0, 0.0, source.shaft_damping))
     meshes = []
     # meshes are damped as by their gears and shafts alone, like those of a pair
-    own = [each.inertia - body.attached for each, body in zip(inertias, case.bodies, strict=True)]
-    for mesh, each, pair, closure in zip(case.meshes, made, pairs, closures, strict=True):
-        ends = own[mesh.driver], own[mesh.driven]
+    polar = [each.inertia - body.attached for each, body in zip(inertias, case.bodies, strict=True)]
+    for mesh, each, pair, closure in zip(case.meshes, tables, pairs, closures, strict=True):
+        ends = polar[mesh.driver], polar[mesh.driven]
         sense = case.bodies[mesh.driver].sense * int(each.cycle.pinion_sense)
         frame = frame_of(mesh.azimuth, sense)
         hand = helix_sign(pair.drive, clockwise=case.bodies[mesh.driver].sense < 0)
@@ -214,9 +214,9 @@ def _model(
             *pins_of(case, layout),
         ),
         schedule_of(
-            [np.asarray(each.table.boundary) for each in made],
+            [np.asarray(each.table.boundary) for each in tables],
             [mesh.rate for mesh in case.meshes],
-            [float(phase) for phase in found.meshes],
+            [float(phase) for phase in phases.meshes],
             case.laid_out,
         ),
         parameters.Operation(
@@ -228,7 +228,7 @@ def _model(
             reversal_width=first.friction.reversal_width,
             **varying_load(varying.table, varying.harmonics),
         ),
-        options_of(first, [each.cycle for each in made], closures[0], layout, drive)._replace(links=chain),
+        options_of(first, [each.cycle for each in tables], closures[0], layout, drive)._replace(links=chain),
     )
 
 
@@ -243,7 +243,7 @@ def _in_space(
     losses = stiffness.copy()
     for number, link in enumerate(case.links if layout.spatial else ()):
         body = link.ends[0]
-        of_sets = [planet for own in case.sets if body in own.bodies for planet in own.planets]
+        of_sets = [planet for gearset in case.sets if body in gearset.bodies for planet in gearset.planets]
         faces = [case.gears[gear].face_width for one in (body, *of_sets) for gear in case.bodies[one].gears]
         width = max(faces, default=0.0)
         stiffness[number], losses[number] = in_space_of(link, damping[number], inertias, width)
@@ -291,7 +291,7 @@ def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
         new[_varying(case).body],
         spatial=sum(_held(case, body) and _moves_in_space(case, body) for body in new),
         pins=[number for number, link in enumerate(case.links) if link.lever],
-        holds=[number for number, link in enumerate(case.links) if link.holds],
+        holding=[number for number, link in enumerate(case.links) if link.holds],
         frames=int(bool(case.sets)),
         carriers=[new.get(mesh.carrier, GROUND) for mesh in case.meshes],
     )
@@ -301,7 +301,7 @@ def geometry_of(prepared: PreparedGearbox) -> dict[str, np.ndarray]:
     """Where bodies, gears and meshes stand, as `record.TRAIN_GEOMETRY` says."""
     case, order = prepared.case, prepared.order
     numbers = {body: number for number, body in enumerate(order)}
-    of_body = {body: numbers[own.members[CARRIER]] for own in case.sets for body in own.bodies}
+    of_body = {body: numbers[gearset.members[CARRIER]] for gearset in case.sets for body in gearset.bodies}
     carriers = [of_body.get(body, HOUSING) for body in order] + [HOUSING] * (
         len(prepared.bodies) - len(order)
     )

@@ -149,28 +149,28 @@ class GearboxRecord(NamedTuple):
     meshes: Sequence[MeshOfRun]
     named: bool  # whether there is a dimension of meshes
 
-    def block(self, found: Sampled) -> dict[str, np.ndarray]:
+    def block(self, sampled: Sampled) -> dict[str, np.ndarray]:
         """What a record takes of samples."""
         if not self.named:
-            every = found.whole | found.meshes[0] | recorded(found)
+            every = sampled.whole | sampled.meshes[0] | recorded(sampled)
             return {name: every[name] for name in ("time", *self.layout.samples)}
-        count, bodies = len(found.cycles), len(self.scales["body"])
-        block = {"time": found.whole["time"]}
-        block["mesh_phase"] = np.stack([mesh.cycles(found.cycles) for mesh in self.meshes], axis=1)
+        count, bodies = len(sampled.cycles), len(self.scales["body"])
+        block = {"time": sampled.whole["time"]}
+        block["mesh_phase"] = np.stack([mesh.cycles(sampled.cycles) for mesh in self.meshes], axis=1)
         for name, variable in self.layout.samples.items():
             if variable.dims[:3] == _PAIRS:
                 further = [len(self.scales[dim]) for dim in variable.dims[3:]]
                 block[name] = np.full((count, len(self.meshes), len(self.pairs), *further), np.nan)
-                for m, (mesh, values) in enumerate(zip(self.meshes, found.meshes, strict=True)):
+                for m, (mesh, values) in enumerate(zip(self.meshes, sampled.meshes, strict=True)):
                     self._put(block[name][:, m], mesh.cycle, values.get(name))
-            elif variable.dims == _MESH and name in found.meshes[0]:
-                block[name] = np.stack([mesh[name] for mesh in found.meshes], axis=1)
+            elif variable.dims == _MESH and name in sampled.meshes[0]:
+                block[name] = np.stack([mesh[name] for mesh in sampled.meshes], axis=1)
             elif variable.dims == _BODY:
-                values = found.whole[name]
+                values = sampled.whole[name]
                 block[name] = np.full((count, bodies), np.nan)
                 block[name][:, : values.shape[1]] = values
-            elif name in found.whole:
-                block[name] = found.whole[name]
+            elif name in sampled.whole:
+                block[name] = sampled.whole[name]
         return block
 
     def _put(self, block: np.ndarray, cycle: MeshCycle, values: np.ndarray | None) -> None:
@@ -233,9 +233,9 @@ def usual_layout(case: Gearbox) -> Layout:
 PINION, GEAR, MESH = 0, 1, 0
 
 
-def recorded(found: Sampled) -> dict[str, np.ndarray]:
+def recorded(sampled: Sampled) -> dict[str, np.ndarray]:
     """Datasets of a pair's record, by name, from those of the train of two bodies that it is."""
-    whole = found.whole
+    whole = sampled.whole
 
     def dof(x: str, y: str, angle: str) -> np.ndarray:
         columns = [whole[name][:, body] for body in (PINION, GEAR) for name in (x, y)]
@@ -249,6 +249,6 @@ def recorded(found: Sampled) -> dict[str, np.ndarray]:
         "displacement": dof("x", "y", "angle"),
         "velocity": dof("x_rate", "y_rate", "speed"),
     }
-    known = OF_A_PAIR | (OF_SLICES if "line_load" in found.meshes[MESH] else {})
-    every = named | found.meshes[MESH] | {name: v for name, v in whole.items() if v.ndim == 1}
-    return {name: values for name, values in every.items() if name in known or name == "time"}
+    variables = OF_A_PAIR | (OF_SLICES if "line_load" in sampled.meshes[MESH] else {})
+    every = named | sampled.meshes[MESH] | {name: v for name, v in whole.items() if v.ndim == 1}
+    return {name: values for name, values in every.items() if name in variables or name == "time"}

@@ -96,9 +96,9 @@ def swept_of(*, named: bool) -> tuple[Quantity, ...]:
 
 def meshes_of(record: Record) -> dict[str, Mapping[str, Any]]:
     """What the summary has of each mesh, by name, in the record's order."""
-    known = record.summary.get(MESHES)
+    meshes = record.summary.get(MESHES)
     names = map(str, record["mesh"]) if "mesh" in record else ()
-    return {name: known[name] for name in names if isinstance(known, Mapping) and name in known}
+    return {name: meshes[name] for name in names if isinstance(meshes, Mapping) and name in meshes}
 
 
 def tables(record: Record) -> list[TextTable]:
@@ -128,10 +128,10 @@ def _stages(summary: Mapping[str, Any]) -> Iterable[TextTable]:
     if not isinstance(stages, Mapping) or not stages:
         return
     rows = [
-        [quantity.title, *(quantity.written(own[quantity.name]) for own in stages.values()), quantity.unit]
+        [quantity.title, *(quantity.written(one[quantity.name]) for one in stages.values()), quantity.unit]
         for quantity in OF_A_STAGE
     ]
-    shares = (", ".join(f"{100.0 * share:.1f}" for share in own["planet_shares"]) for own in stages.values())
+    shares = (", ".join(f"{100.0 * share:.1f}" for share in one["planet_shares"]) for one in stages.values())
     rows.insert(1, ["Shares of the planets", *shares, "%"])
     yield TextTable("Each planetary stage", ("", *stages, ""), rows)
 
@@ -161,8 +161,8 @@ def _cell(
     if any(f"{MESHES}/{name}/{quantity.name}" in withheld for name in names):
         return "withheld"
     values = [meshes[name].get(quantity.name) for name in names]
-    known = [value for value in values if value is not None]
-    return between([quantity.written(value) for value in known], known)
+    numbers = [value for value in values if value is not None]
+    return between([quantity.written(value) for value in numbers], numbers)
 
 
 def verdict(record: Record) -> list[str]:
@@ -171,13 +171,13 @@ def verdict(record: Record) -> list[str]:
     if not meshes:
         return of_any.of_gears(record) if "mesh" not in record else []
     summary, meshes = of_course(summary, meshes)
-    found = [*_moved(summary, meshes), *_pressed(summary, meshes), *_lost(summary, meshes)]
+    sentences = [*_moved(summary, meshes), *_pressed(summary, meshes), *_lost(summary, meshes)]
     name = max(meshes, key=lambda name: _beyond(meshes[name]))
     for line in of_any.outside(meshes[name]):
-        found.append(f"Mesh {name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)
-        if len(found) == of_any.LINES - 1:
+        sentences.append(f"Mesh {name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)
+        if len(sentences) == of_any.LINES - 1:
             break
-    return [*found, *of_any.advised({**meshes[name], **of_any.numbers(summary)})]
+    return [*sentences, *of_any.advised({**meshes[name], **of_any.numbers(summary)})]
 
 
 def of_course(
@@ -201,35 +201,35 @@ def _beyond(mesh: Mapping[str, Any]) -> float:
 
 def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
     factors = {name: of_any.numbers(mesh).get("dynamic_factor") for name, mesh in meshes.items()}
-    known = {name: factor for name, factor in factors.items() if factor is not None}
+    finite = {name: factor for name, factor in factors.items() if factor is not None}
     loss = of_any.numbers(summary).get("contact_loss_fraction", 0.0)
     where = f" in {_worst(summary, meshes, 'contact_loss_fraction')}" if loss > of_any.APART else ""
-    if not known:
+    if not finite:
         if where:
             yield f"Teeth that carry nothing: {of_any.apart(loss)}{where}."
         return
     if courses := {name: mesh["course"] for name, mesh in meshes.items() if "course" in mesh}:
-        name = max(courses, key=lambda name: known.get(name, 0.0))
+        name = max(courses, key=lambda name: finite.get(name, 0.0))
         text = of_any.on_course(courses[name])
         yield text if len(meshes) == 1 else f"Mesh {name}: {text[0].lower()}{text[1:]}"
         return
-    if len(known) <= NAMED:
-        parts = _listed([f"{factor:.2f} ({name})" for name, factor in known.items()])
+    if len(finite) <= NAMED:
+        parts = _listed([f"{factor:.2f} ({name})" for name, factor in finite.items()])
         text = f"Vibration raises the tooth forces to {parts} times their mean"
     else:
-        name = max(known, key=lambda name: known[name])
-        text = f"Vibration raises the tooth forces to at most {known[name]:.2f} times their mean ({name})"
+        name = max(finite, key=lambda name: finite[name])
+        text = f"Vibration raises the tooth forces to at most {finite[name]:.2f} times their mean ({name})"
     yield f"{text}; {of_any.apart(loss)}{where}."
 
 
 def _pressed(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
-    found, parts = of_any.numbers(summary), []
-    if (pressure := found.get("hertz_pressure_max")) is not None:
+    values, parts = of_any.numbers(summary), []
+    if (pressure := values.get("hertz_pressure_max")) is not None:
         where = _worst(summary, meshes, "hertz_pressure_max")
         parts.append(
             f"The flanks press with up to {of_any.with_unit('hertz_pressure_max', pressure)} ({where})"
         )
-    if (ratio := found.get("film_parameter_min")) is not None:
+    if (ratio := values.get("film_parameter_min")) is not None:
         where = _worst(summary, meshes, "film_parameter_min")
         film = of_any.numbers(meshes[where]).get("film_min")
         thick = "" if film is None else f"{of_any.with_unit('film_min', film)}, "
@@ -270,23 +270,23 @@ def sentences(record: Record) -> list[str]:
     if "mesh" not in record:
         return [*on_methods(summary), *on_extremes(summary), *on_closures(summary), *on_energy(summary)]
     of_train = {name: value for name, value in summary.items() if name != "averaging_cycles"}
-    said: dict[str, list[str]] = {}
+    meshes_by_line: dict[str, list[str]] = {}
     for name, mesh in meshes.items():
         for line in (*on_extremes(mesh), *on_closures(mesh)):
-            said.setdefault(line, []).append(name)
+            meshes_by_line.setdefault(line, []).append(name)
     of_meshes = [
         line if len(names) == len(meshes) else f"{line[:-1]} ({together(names)})."
-        for line, names in said.items()
+        for line, names in meshes_by_line.items()
     ]
     return [*on_methods(of_train), *_on_period(record), *of_meshes, *on_energy(summary)]
 
 
 def _on_period(record: Record) -> list[str]:
     """Say over which cycles means are, and whether these are whole common periods of the meshes."""
-    found = of_any.numbers(record.summary)
-    if not {"averaging_cycles", "common_period"} <= set(found):
+    values = of_any.numbers(record.summary)
+    if not {"averaging_cycles", "common_period"} <= set(values):
         return []
-    cycles, period = int(found["averaging_cycles"]), max(int(found["common_period"]), 1)
+    cycles, period = int(values["averaging_cycles"]), max(int(values["common_period"]), 1)
     text = f"Means are over the last {_counted(cycles, 'cycle')} of the mesh {record['mesh'][0]}"
     if cycles % period:
         return [f"{text}, less than the common period of {period} cycles."]

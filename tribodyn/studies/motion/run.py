@@ -60,8 +60,8 @@ def run(
 
 def _warmer(case: Gearbox, summary: Mapping[str, Any]) -> Gearbox | None:
     each = [summary[MESHES][mesh.name] for mesh in case.meshes] if case.named else [summary]
-    warm = [found.get("bulk_temperature") for found in each]
-    return at_own_temperatures(case, warm, [found["power_friction_mean"] for found in each])
+    warm = [of_mesh.get("bulk_temperature") for of_mesh in each]
+    return at_own_temperatures(case, warm, [of_mesh["power_friction_mean"] for of_mesh in each])
 
 
 def _run(case: Gearbox, path: Path, force: bool, *, progress: Progress | None) -> RunResult:
@@ -106,17 +106,17 @@ def of_meshes(case: Gearbox, each: Sequence[Mapping[str, Any]]) -> dict[str, Any
     """What a summary has of the meshes: by their names where files name them, else of the only one."""
     if not case.named:
         return dict(each[0])
-    return {MESHES: {mesh.name: dict(own) for mesh, own in zip(case.meshes, each, strict=True)}}
+    return {MESHES: {mesh.name: dict(quantities) for mesh, quantities in zip(case.meshes, each, strict=True)}}
 
 
 def constants_of(prepared: PreparedGearbox) -> dict[str, Any]:
     """What does not depend on the motion: ratio, period, masses, natural frequencies, shares in them."""
     case, model = prepared.case, prepared.model
-    found = modes(model, [made.cycle for made in prepared.made])
+    mode_set = modes(model, [one.cycle for one in prepared.made])
     layout, ratio = model.layout, np.asarray(model.bodies.ratio)
     masses = np.full(layout.bodies, np.nan)
     masses[: layout.planar] = np.asarray(model.bodies.mass)
-    of_modes = {"mode_frequencies": found.frequency, "mode_shares": found.share.ravel()}
+    of_modes = {"mode_frequencies": mode_set.frequency, "mode_shares": mode_set.share.ravel()}
     if not case.named:  # gears without what drives and what is driven
         (pinion, of_pinion), (gear, of_gear) = prepared.made[0].masses
         return {

@@ -25,13 +25,13 @@ def sensible(prepared: PreparedGearbox) -> Sensible:
         if layout.second[k] >= 0 and stiffness[k, TURN] > 0.0
     }
     rings = {
-        own.name: RingPlaces(
-            numbers[own.members[CARRIER]],
-            case.bodies[own.members[CARRIER]].sense,
-            own.angles,
-            tuple(meshes_of_member(case, own, RING)),
+        gearset.name: RingPlaces(
+            numbers[gearset.members[CARRIER]],
+            case.bodies[gearset.members[CARRIER]].sense,
+            gearset.angles,
+            tuple(meshes_of_member(case, gearset, RING)),
         )
-        for own in case.sets
+        for gearset in case.sets
     }
     return Sensible(
         bodies={name: number for number, name in enumerate(names)},
@@ -46,7 +46,7 @@ def sensible(prepared: PreparedGearbox) -> Sensible:
 
 def listener_of(prepared: PreparedGearbox) -> Listener:
     """What listens to a run of the gearbox; raises InputError where a sensor cannot."""
-    case, known = prepared.case, sensible(prepared)
+    case, places = prepared.case, sensible(prepared)
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
-    at = placed(case.sensors, case.housing, known, prepared.model, samples, cycles)
-    return Listener(at, case.housing, known)
+    at = placed(case.sensors, case.housing, places, prepared.model, samples, cycles)
+    return Listener(at, case.housing, places)

@@ -62,17 +62,19 @@ def window_of(cycles: int, period: int, fastest: float) -> int:
 
 def meshes_of_run(prepared: PreparedGearbox) -> list[MeshOfRun]:
     """The meshes, as the summary of a run sees them."""
-    found = []
-    for number, (mesh, made, pair) in enumerate(
+    meshes = []
+    for number, (mesh, tabulated, pair) in enumerate(
         zip(prepared.case.meshes, prepared.made, prepared.pairs, strict=True)
     ):
         phase = float(prepared.model.schedule.offset[0, number])  # under load
         oil = pair.lubricant.temperature
         place = number + 1 if prepared.case.named else None
-        found.append(
-            MeshOfRun(made.cycle, made.assembly, pair.drive.module, oil, float(mesh.rate), phase, place)
+        meshes.append(
+            MeshOfRun(
+                tabulated.cycle, tabulated.assembly, pair.drive.module, oil, float(mesh.rate), phase, place
+            )
         )
-    return found
+    return meshes
 
 
 def mesh_at_rest(prepared: PreparedGearbox, m: int) -> dict[str, Any]:
@@ -87,13 +89,13 @@ def mesh_at_rest(prepared: PreparedGearbox, m: int) -> dict[str, Any]:
 
 def _by_standard(prepared: PreparedGearbox, m: int) -> dict[str, float]:
     """K_v by ISO 6336-1 of an involute mesh with a quality whose driver drives; nothing of others."""
-    pair, made = prepared.pairs[m], prepared.made[m]
+    pair, tabulated = prepared.pairs[m], prepared.made[m]
     operating = pair.operating
-    if pair.quality is None or not made.assembly.family.involute or operating.gear_torque <= 0.0:
+    if pair.quality is None or not tabulated.assembly.family.involute or operating.gear_torque <= 0.0:
         return {}
     duty = operating.pinion_speed, operating.gear_torque
-    found = rated(made.assembly, pair.materials, made.masses, pair.quality, duty)
-    return {"dynamic_factor_iso": found.dynamic.factor, "resonance_ratio_iso": found.dynamic.resonance_ratio}
+    iso = rated(tabulated.assembly, pair.materials, tabulated.masses, pair.quality, duty)
+    return {"dynamic_factor_iso": iso.dynamic.factor, "resonance_ratio_iso": iso.dynamic.resonance_ratio}
 
 
 def steady_quantities(
@@ -120,14 +122,14 @@ def steady_quantities(
     whole = {"averaging_cycles": int(cycles), "mesh_frequency": cycles / duration}
     whole |= power_quantities(work, duration, layout)
     each, idle = [], list[dict[str, Any]]()
-    for m, (window, mesh, found) in enumerate(zip(windows, meshes, extremes, strict=True)):
+    for m, (window, mesh, extreme) in enumerate(zip(windows, meshes, extremes, strict=True)):
         if case.is_pair and not changes:
             force = _mean_force(prepared, work, cycles)
         else:
             arm = float(mesh.cycle.gear_sense * mesh.cycle.gear_pitch_radius)
             force = float(np.mean(window["driven_torque"])) / arm
         frequency = mesh.rate * cycles / duration
-        quantities = mesh_quantities(window, mesh.cycle, found, force, frequency, samples, mesh.rate)
+        quantities = mesh_quantities(window, mesh.cycle, extreme, force, frequency, samples, mesh.rate)
         if abs(cycles * mesh.rate - round(cycles * mesh.rate)) > 1e-6:
             quantities = {name: value for name, value in quantities.items() if name not in _BY_ORDER}
         if case.is_pair:
@@ -139,7 +141,7 @@ def steady_quantities(
         if case.named:  # of shafts and gears of several meshes: told of all together
             idle.append({name: thermal.pop(name) for name in _TOLD_ONCE if name in thermal})
         quantities |= thermal
-        each.append(quantities | found.values())
+        each.append(quantities | extreme.values())
         each[-1] |= contact_quantities(prepared.pairs[m].lubricant, each[-1])
         each[-1] |= margins_of(case.meshes[m].pair, mesh.assembly, window, each[-1])
     return whole | _idle_losses(whole, idle), each
@@ -179,24 +181,24 @@ def concluded(
 
 def _idle_losses(whole: Mapping[str, Any], each: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """Load-independent losses of all meshes together, and the efficiency with them; nothing without any."""
-    names = [name for name in IDLE if any(name in own for own in each)]
+    names = [name for name in IDLE if any(name in of_mesh for of_mesh in each)]
     if not names:
         return {}
-    found: dict[str, Any] = {name: sum(float(own.get(name, 0.0)) for own in each) for name in names}
+    totals: dict[str, Any] = {name: sum(float(of_mesh.get(name, 0.0)) for of_mesh in each) for name in names}
     put_in = float(whole["power_in_mean"])
-    found["efficiency_with_losses"] = whole["efficiency"] * put_in / (put_in + found[IDLE[-1]])
-    outside = dict.fromkeys(own["losses_outside"] for own in each if "losses_outside" in own)
-    return found | ({"losses_outside": "; ".join(outside)} if outside else {})
+    totals["efficiency_with_losses"] = whole["efficiency"] * put_in / (put_in + totals[IDLE[-1]])
+    outside = dict.fromkeys(of_mesh["losses_outside"] for of_mesh in each if "losses_outside" in of_mesh)
+    return totals | ({"losses_outside": "; ".join(outside)} if outside else {})
 
 
 def worst_of(meshes: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """The worst of all meshes by quantity, and which mesh has it, its number from 1."""
-    found = {}
+    worst_by = {}
     for name, sign in WORST.items():
         values = [mesh.get(name) for mesh in meshes]
-        known = [(sign * value, -m) for m, value in enumerate(values) if value is not None and value == value]
-        if known:
-            worst, place = max(known)
-            found[name] = sign * worst
-            found.setdefault("worst_mesh", {})[name] = 1 - place
-    return found
+        pairs = [(sign * value, -m) for m, value in enumerate(values) if value is not None and value == value]
+        if pairs:
+            worst, place = max(pairs)
+            worst_by[name] = sign * worst
+            worst_by.setdefault("worst_mesh", {})[name] = 1 - place
+    return worst_by

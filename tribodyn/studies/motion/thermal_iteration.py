@@ -19,12 +19,12 @@ CLOSE, PASSES = 1e-3, 8
 Warm = tuple[LubricatedCase, Thermal | None]
 
 
-def at_tooth_temperatures(case: Gearbox, made: Sequence[Tabulated]) -> list[Warm]:
+def at_tooth_temperatures(case: Gearbox, tables: Sequence[Tabulated]) -> list[Warm]:
     """The pair of every mesh with its oil at the temperature of its teeth, and the thermal state of each.
 
     In a lumped network all meshes heat one oil and one housing; that heat and the losses settle together.
     """
-    return _settled(case, [each.assembly for each in made], [quasi_static_loss(each) for each in made])
+    return _settled(case, [each.assembly for each in tables], [quasi_static_loss(each) for each in tables])
 
 
 def at_own_temperatures(
@@ -36,23 +36,23 @@ def at_own_temperatures(
     means of these and of those before are taken: the oil of several meshes would swing to and fro.
     """
     temperatures = [pair.temperature for pair in case.pairs]
-    before = [known and known.mesh_loss if len(temperatures) > 1 else None for known in temperatures]
+    before = [state and state.mesh_loss if len(temperatures) > 1 else None for state in temperatures]
     losses = [
-        lost if known is None else 0.5 * (lost + known) for lost, known in zip(losses, before, strict=True)
+        lost if state is None else 0.5 * (lost + state) for lost, state in zip(losses, before, strict=True)
     ]
     meshes = [
         replace(mesh, pair=_knowing(mesh.pair, lost)) for mesh, lost in zip(case.meshes, losses, strict=True)
     ]
     again = replace(case, meshes=tuple(meshes))
-    to_be_settled = [known is not None and lost >= 0.0 for known, lost in zip(bulk, losses, strict=True)]
+    to_be_settled = [state is not None and lost >= 0.0 for state, lost in zip(bulk, losses, strict=True)]
     if not any(to_be_settled):
         return None
     assemblies = [assemble(family(pair.family), pair.drive) for pair in case.pairs]
     warm = _settled(again, assemblies, [lambda _, lost=lost: lost for lost in losses])
-    for (_, thermal), known, wanted in zip(warm, bulk, to_be_settled, strict=True):
-        if not wanted or known is None or thermal is None or thermal.temperatures is None:
+    for (_, thermal), state, wanted in zip(warm, bulk, to_be_settled, strict=True):
+        if not wanted or state is None or thermal is None or thermal.temperatures is None:
             continue
-        if abs(thermal.temperatures.bulk - known) > CLOSE_TO:
+        if abs(thermal.temperatures.bulk - state) > CLOSE_TO:
             return again
     return None
 
@@ -64,22 +64,22 @@ def _settled(
     shared = _shares_oil(case)
     losses = [_loss(pair, loss) if shared else 0.0 for pair, loss in zip(case.pairs, lost, strict=True)]
     idle: list[dict[str, Loss]] = [{} for _ in losses]
-    found: list[Warm] = []
+    warmed: list[Warm] = []
     for _ in range(PASSES):
         heated = _heated(case, losses, idle) if shared else case.pairs
-        found = [
+        warmed = [
             at_tooth_temperature(pair, assembly, loss)
             for pair, assembly, loss in zip(heated, assemblies, lost, strict=True)
         ]
         if not shared:
             break
-        before = [lost + _power(own) for lost, own in zip(losses, idle, strict=True)]
-        losses = [heat.mesh_loss if heat else 0.0 for _, heat in found]
-        idle = [heat.losses if heat else {} for _, heat in found]
-        now = [lost + _power(own) for lost, own in zip(losses, idle, strict=True)]
+        before = [lost + _power(idle_loss) for lost, idle_loss in zip(losses, idle, strict=True)]
+        losses = [heat.mesh_loss if heat else 0.0 for _, heat in warmed]
+        idle = [heat.losses if heat else {} for _, heat in warmed]
+        now = [lost + _power(idle_loss) for lost, idle_loss in zip(losses, idle, strict=True)]
         if all(abs(new - old) <= CLOSE * abs(new) for new, old in zip(now, before, strict=True)):
             break
-    return found
+    return warmed
 
 
 def _power(losses: Mapping[str, Loss]) -> float:
@@ -92,8 +92,8 @@ def _shares_oil(case: Gearbox) -> bool:
 
 
 def _loss(pair: LubricatedCase, quasi_static: Callable[[LubricatedCase], float]) -> float:
-    known = pair.temperature and pair.temperature.mesh_loss
-    return quasi_static(pair) if known is None else known
+    given_loss = pair.temperature and pair.temperature.mesh_loss
+    return quasi_static(pair) if given_loss is None else given_loss
 
 
 def _knowing(pair: LubricatedCase, lost: float) -> LubricatedCase:
@@ -105,11 +105,11 @@ def _heated(
     case: Gearbox, losses: Sequence[float], idle: Sequence[Mapping[str, Loss]]
 ) -> list[LubricatedCase]:
     """The pairs with what the other meshes give to their oil and housing."""
-    found = []
+    heated = []
     for pair, (whole, bearings) in zip(case.pairs, heat_of_other_meshes(losses, idle), strict=True):
-        known = pair.temperature
-        assert known is not None, "they share one oil"
-        in_housing = bearings if known.housing_ambient > 0.0 else 0.0
+        settings = pair.temperature
+        assert settings is not None, "they share one oil"
+        in_housing = bearings if settings.housing_ambient > 0.0 else 0.0
         heat = {"other_heat": whole - in_housing, "other_housing_heat": in_housing}
-        found.append(replace(pair, temperature=replace(known, **heat)))
-    return found
+        heated.append(replace(pair, temperature=replace(settings, **heat)))
+    return heated

@@ -30,17 +30,17 @@ def evaluated_quantities(study: Study) -> dict[str, Quantity]:
     Of studies with a `batch` the former alone. Of gears the contact ratio and the distances from the limits
     of existence too. None, where a study cannot be swept.
     """
-    found = dict(study.swept())
-    if not found:
-        return found
+    quantities = dict(study.swept())
+    if not quantities:
+        return quantities
     if study.has_gears:
-        found.setdefault(CONTACT_RATIO, QUANTITIES[CONTACT_RATIO])
-        found |= {limit.name: limit for limit in LIMITS}
+        quantities.setdefault(CONTACT_RATIO, QUANTITIES[CONTACT_RATIO])
+        quantities |= {limit.name: limit for limit in LIMITS}
     if not study.batch():
         for heading, some in study.reported().items():
             for quantity in some if heading != "Solver" else ():
-                found.setdefault(quantity.name, quantity)
-    return found
+                quantities.setdefault(quantity.name, quantity)
+    return quantities
 
 
 def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) -> list[dict[str, Any] | str]:
@@ -51,12 +51,12 @@ def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) ->
     """
     batch = study.batch()
     if batch:
-        found = _together(study, batch, cases, workers)
+        results = _together(study, batch, cases, workers)
     else:
-        found = [alone(study, case, number) for number, case in enumerate(cases)]
+        results = [alone(study, case, number) for number, case in enumerate(cases)]
     return [
-        known if isinstance(known, str) else case.without_run() | known
-        for case, known in zip(cases, found, strict=True)
+        result if isinstance(result, str) else case.without_run() | result
+        for case, result in zip(cases, results, strict=True)
     ]
 
 
@@ -77,11 +77,11 @@ def alone(study: Study, case: Any, number: int = 0) -> dict[str, Any] | str:
 def _together(
     study: Study, batch: "Batch", cases: Sequence[Any], workers: int | None
 ) -> list[dict[str, Any] | str]:
-    made = [case for case in cases if not isinstance(case, str)]
-    if not made:
+    valid = [case for case in cases if not isinstance(case, str)]
+    if not valid:
         return list(cases)
     rows = batch.evaluate(
-        Chunk(np.arange(len(cases)), tuple(cases)), batch.settings(made, None, "native"), workers
+        Chunk(np.arange(len(cases)), tuple(cases)), batch.settings(valid, None, "native"), workers
     )
     return [
         {name: float(rows[name][i]) for name in study.swept()} if status == DONE else str(rows["message"][i])
@@ -149,14 +149,14 @@ class OneByOne:
         layout = self.layout(settings)
         rows = layout.empty_rows(len(chunk.cases))
         for i, case in enumerate(chunk.cases):
-            found = alone(self.study, case)
-            if isinstance(found, str):
-                rows["message"][i], rows["status"][i] = found, FAILED
+            result = alone(self.study, case)
+            if isinstance(result, str):
+                rows["message"][i], rows["status"][i] = result, FAILED
                 continue
             for name in layout.quantities:
-                if found.get(name) is not None:
-                    rows[name][i] = found[name]
-            rows["message"][i] = remarked(*map(warned, [*remarks(found), *case.remarks_in_brief()]))
-            rows[TRUST][i] = number(found)
+                if result.get(name) is not None:
+                    rows[name][i] = result[name]
+            rows["message"][i] = remarked(*map(warned, [*remarks(result), *case.remarks_in_brief()]))
+            rows[TRUST][i] = number(result)
             rows["status"][i] = DONE
         return rows

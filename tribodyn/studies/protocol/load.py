@@ -206,8 +206,10 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
         raise origins.locate(error) from None
     except ValidationError as error:
         # a reference that could not be followed has been complained of already
-        known = set(map(same_key, unresolved_keys(unresolved)))
-        mistakes = [mistake for mistake in explain(error, model) if same_key(mistake.key) not in known]
+        unresolved_names = set(map(same_key, unresolved_keys(unresolved)))
+        mistakes = [
+            mistake for mistake in explain(error, model) if same_key(mistake.key) not in unresolved_names
+        ]
         raise _located([*unresolved, *mistakes], origins) from None
     # of a key whose value only its family knows to be a file
     if errors := unresolved or list(broken_rules(study, scenario)):
@@ -221,10 +223,10 @@ def put_chosen(
     data: dict[str, Any], chosen: Mapping[str, tuple[str, str]], but: Collection[str] = ()
 ) -> None:
     """Put what a scenario left open into its tables, as a case took it, but for keys that are given."""
-    for key, (taken, _) in chosen.items():
+    for key, (choice, _) in chosen.items():
         table, name = key.split(".")
         if key not in but:
-            data[table] = {**data.get(table, {}), name: taken}
+            data[table] = {**data.get(table, {}), name: choice}
 
 
 def broken_rules(study: Study, scenario: Any) -> Iterator[InputError]:
@@ -232,13 +234,13 @@ def broken_rules(study: Study, scenario: Any) -> Iterator[InputError]:
     if broken := list(broken_spectrum_rules(scenario)):
         yield from broken
         return
-    known: set[str] = set()
+    reported: set[str] = set()
     for number, (_, duty) in enumerate(spectrum_of(scenario), start=1):
         for error in study.broken_rules(duty):
-            if str(error) not in known:
-                known.add(str(error))
+            if str(error) not in reported:
+                reported.add(str(error))
                 yield of_duty(error, number, scenario)
-    if not known:
+    if not reported:
         yield from study.broken_rules(in_force(scenario))
 
 

@@ -90,16 +90,16 @@ def with_law(
     again. Raises InputError if the case has no such law, or what is given is none.
     """
     table = due.table
-    own = _from_python(table, law, due)
+    given_law = _from_python(table, law, due)
     old: Any = getattr(case, table, None)
     if not isinstance(old, FilmData | FrictionData | WearData):
         rule = f'a case of kind "{case.kind}" has no {table} law'
-        raise InputError(table, quoted(own.name.removeprefix(FROM_PYTHON)), rule, "omit it")
+        raise InputError(table, quoted(given_law.name.removeprefix(FROM_PYTHON)), rule, "omit it")
     data = tomllib.loads(case.toml)
-    data[table] = _naming(data.get(table, {}), own, old.values)
+    data[table] = _naming(data.get(table, {}), given_law, old.values)
     if due is WearLaw:
-        return replace(_written(case, data), wear=WearData(own))  # pyright: ignore[reportCallIssue]
-    laws: dict[str, Any] = {table: own}
+        return replace(_written(case, data), wear=WearData(given_law))  # pyright: ignore[reportCallIssue]
+    laws: dict[str, Any] = {table: given_law}
     changed = cast(Any, _written(case, data))
     return changed.under_laws(**laws) if hasattr(changed, "under_laws") else with_laws(changed, **laws)
 
@@ -109,19 +109,19 @@ def with_link_law(case: CaseHead, name: str, law: LinkLaw | Callable[..., Any]) 
 
     Raises InputError if the case has no such link, or it no torsional stiffness, or what is given is no law.
     """
-    own = _from_python("links", law, LinkLaw)
+    given_law = _from_python("links", law, LinkLaw)
     links: tuple[Any, ...] = getattr(case, "links", ())
-    found = {link.name: place for place, link in enumerate(links) if link.stiffness[-1] > 0.0}
-    if name not in found:
-        if not found:
+    place_of = {link.name: place for place, link in enumerate(links) if link.stiffness[-1] > 0.0}
+    if name not in place_of:
+        if not place_of:
             rule = "this case has no link and no compliant shaft with a torsional stiffness"
             raise InputError(f"links.{name}", None, rule, "omit it, or give one a stiffness")
-        raise unknown_name("links", name, found, "link or compliant shaft")
-    link, data = links[found[name]], tomllib.loads(case.toml)
+        raise unknown_name("links", name, place_of, "link or compliant shaft")
+    link, data = links[place_of[name]], tomllib.loads(case.toml)
     table, _, number = link.key.partition(".")
-    data[table][int(number)] = _naming(data[table][int(number)], own, link.values)
+    data[table][int(number)] = _naming(data[table][int(number)], given_law, link.values)
     changed = list(links)
-    changed[found[name]] = replace(link, law=own, values={})
+    changed[place_of[name]] = replace(link, law=given_law, values={})
     return replace(_written(case, data), links=tuple(changed))  # pyright: ignore[reportCallIssue]
 
 
@@ -131,16 +131,16 @@ def _from_python(table: str, law: Any, due: type[Any]) -> Any:
         name = law.__name__.strip("<>").replace("_", "-")
         law = due(name, next(iter((law.__doc__ or "from Python").strip().splitlines())), law)
     if not isinstance(law, due):
-        rule, given = f"expected a {due.__name__}, got {type(law).__name__}", getattr(law, "name", law)
-        raise InputError(table, quoted(given), rule, f"give a tribodyn.{due.__name__}, or a function")
+        rule, law_name = f"expected a {due.__name__}, got {type(law).__name__}", getattr(law, "name", law)
+        raise InputError(table, quoted(law_name), rule, f"give a tribodyn.{due.__name__}, or a function")
     return law if law.name.startswith(FROM_PYTHON) else replace(law, name=FROM_PYTHON + law.name)
 
 
 def _naming(table: dict[str, Any], law: KeyedLaw, old: Mapping[str, Any]) -> dict[str, Any]:
     """A scenario's table that names a law, without the values of the old one's keys."""
     kept = {key: value for key, value in table.items() if key not in ("law", *old)}
-    own = {key.name: in_toml(key, key.default) for key in law.keys if key.default is not None}
-    return {**kept, "law": law.name, **own}
+    defaults = {key.name: in_toml(key, key.default) for key in law.keys if key.default is not None}
+    return {**kept, "law": law.name, **defaults}
 
 
 def _written(case: CaseHead, data: dict[str, Any]) -> CaseHead:

@@ -214,8 +214,8 @@ class Study:
         """Say in at most `verdict.LINES` sentences what a record shows, whether it holds, and what to do."""
         from tribodyn.post import verdict
 
-        own = self._part("report", "verdict", optional=True)
-        return [*verdict.first(record), *(own or verdict.of_gears)(record)][: verdict.LINES]
+        written = self._part("report", "verdict", optional=True)
+        return [*verdict.first(record), *(written or verdict.of_gears)(record)][: verdict.LINES]
 
     def swept(self) -> "Mapping[str, Quantity]":
         """Quantities that a sweep keeps of every case, by name; none: such a study cannot be swept."""
@@ -241,8 +241,8 @@ class Study:
         """Pictures of its sweeps by name; the first is drawn where none is named."""
         from tribodyn.post.figures.sweep.response import response_drawings
 
-        own = self._part("sweep_figures", "SWEEP_DRAWINGS", optional=True)
-        return own or response_drawings(self.sweep_table())
+        drawings = self._part("sweep_figures", "SWEEP_DRAWINGS", optional=True)
+        return drawings or response_drawings(self.sweep_table())
 
     def top(self) -> tuple[str, ...]:
         """Quantities of its summary that stand at the top of what `run --json` prints, too."""
@@ -254,8 +254,8 @@ class Study:
 
     def besides(self, what: Literal["tables", "maps", "profiles", "mechanism"], record: "Record") -> Any:
         """What is shown of a record besides: `TextTable`s, `PageMap`s, `Profiles`, a `Mechanism`; or None."""
-        found = self._part("report", what, optional=True)
-        return found(record) if found else None
+        part = self._part("report", what, optional=True)
+        return part(record) if part else None
 
     def batch(self) -> "Batch | None":
         """How many cases are evaluated together; None: one after the other, by `quantities_of`."""
@@ -273,8 +273,8 @@ class Study:
         """Quantities of a case as a function of its numbers: a `Differentiable`, or what serves as one."""
         from tribodyn.derivatives.differentiable import Differentiable
 
-        own = self._part("derivatives", "DIFFERENTIABLE", optional=True)
-        return (own or Differentiable)(case, self.table(), of, wrt)
+        differentiable = self._part("derivatives", "DIFFERENTIABLE", optional=True)
+        return (differentiable or Differentiable)(case, self.table(), of, wrt)
 
     def verbs(self) -> "Mapping[str, Verb]":
         """Verbs of the command line that it offers, by name."""
@@ -308,9 +308,9 @@ class Study:
 
     def _imported(self, part: str, name: str, optional: bool) -> Any:
         package = import_module(self.package)
-        own = getattr(package, name, None)
-        if own is not None and not ismodule(own):  # a part may have the name of what it holds
-            return own
+        attribute = getattr(package, name, None)
+        if attribute is not None and not ismodule(attribute):  # a part may have the name of what it holds
+            return attribute
         places = [f"{of}.{place}" for of in self._packages for place in (part, *_ALSO_IN.get(part, ()))]
         for module in places:
             needed = not optional and module == places[-1]

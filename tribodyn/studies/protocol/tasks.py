@@ -120,10 +120,10 @@ def kept(every: Sequence[tuple[Study, Task]], folder: Path) -> dict[str, TaskRes
     done: dict[str, TaskResult] = {}
     for _, task in every:
         _require_unchanged(task, folder)
-        found = _kept(task, folder)
-        if found is None and task.needed:
+        result = _kept(task, folder)
+        if result is None and task.needed:
             return None
-        done[task.name] = found or TaskResult(folder / task.name, failures=(task.about,))
+        done[task.name] = result or TaskResult(folder / task.name, failures=(task.about,))
     return done
 
 
@@ -161,13 +161,13 @@ def _computed(study: Study, task: Task, folder: Path) -> TaskResult:
 def _varied(study: Study, task: Task) -> dict[str, Any]:
     """Quantities over the cases of a task, None where one fails, and why those failed."""
     keys, cases = _cases(task)
-    found = evaluated(study, cases)
+    results = evaluated(study, cases)
     return {
         "scenario": tomli_w.dumps(dict(task.scenario)),
         "cases": keys,
-        "quantities": {name: [_number(known, name) for known in found] for name in study.swept()}
-        | {name: _alike([_array(known, name) for known in found]) for name in task.arrays},
-        "failures": list(dict.fromkeys(known for known in found if isinstance(known, str))),
+        "quantities": {name: [_number(result, name) for result in results] for name in study.swept()}
+        | {name: _alike([_array(result, name) for result in results]) for name in task.arrays},
+        "failures": list(dict.fromkeys(result for result in results if isinstance(result, str))),
     }
 
 
@@ -175,34 +175,34 @@ def _cases(task: Task) -> tuple[list[dict[str, Any]], list[Any]]:
     """Values by which the cases of a task differ, and the cases; a text where one cannot be made: why."""
     chosen, keys, cases = case_of(task).chosen(), list[dict[str, Any]](), list[Any]()
 
-    def add(own: Mapping[str, Any]) -> Any:
-        keys.append(dict(own))
+    def add(overrides: Mapping[str, Any]) -> Any:
+        keys.append(dict(overrides))
         scenario = dict(task.scenario)
-        put_chosen(scenario, chosen, own)
+        put_chosen(scenario, chosen, overrides)
         try:
-            cases.append(load_data(scenario, task.name, own).case)
+            cases.append(load_data(scenario, task.name, overrides).case)
         except InputError as error:
             cases.append(str(error))
         return cases[-1]
 
-    for own in task.cases:
-        case = add(own)
+    for overrides in task.cases:
+        case = add(overrides)
         if task.further is not None and not isinstance(case, str):
             with suppress(InputError, SimulationError):  # the case itself says why
                 for more in task.further(case):
-                    add({**own, **more})
+                    add({**overrides, **more})
     return keys, cases
 
 
-def _number(known: dict[str, Any] | str, name: str) -> float | None:
-    value = None if isinstance(known, str) else known.get(name)
+def _number(result: dict[str, Any] | str, name: str) -> float | None:
+    value = None if isinstance(result, str) else result.get(name)
     return float(value) if value is not None and np.isfinite(value) else None
 
 
-def _array(known: dict[str, Any] | str, name: str) -> list[float | None] | None:
-    if isinstance(known, str) or known.get(name) is None:
+def _array(result: dict[str, Any] | str, name: str) -> list[float | None] | None:
+    if isinstance(result, str) or result.get(name) is None:
         return None
-    return [float(value) if np.isfinite(value) else None for value in known[name]]
+    return [float(value) if np.isfinite(value) else None for value in result[name]]
 
 
 def _alike(rows: list[list[float | None] | None]) -> list[list[float | None]]:

@@ -115,9 +115,11 @@ class WearCase(GearCase):
 
 def layout_of(case: WearCase) -> Layout:
     """Of the record of a case."""
-    left = set() if case.lubricated else set(OF_FILM)
-    left |= set() if case.each_tooth else set(OF_TEETH)
-    return LAYOUT._replace(samples={name: known for name, known in SAMPLES.items() if name not in left})
+    omitted = set() if case.lubricated else set(OF_FILM)
+    omitted |= set() if case.each_tooth else set(OF_TEETH)
+    return LAYOUT._replace(
+        samples={name: variable for name, variable in SAMPLES.items() if name not in omitted}
+    )
 
 
 def recorded_at(case: WearCase, after: float = -1.0) -> np.ndarray:

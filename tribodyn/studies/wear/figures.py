@@ -75,21 +75,21 @@ def _over_revolutions(axes: Axes, records: Sequence[Record], name: str, factor: 
 
 
 def _flanks(records: Sequence[Record], _view: View) -> Figure:
-    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT)
-    panels = drawn.subplots(2, 1, sharex=True)
+    figure = new_figure(WIDTH, 2 * PANEL_HEIGHT)
+    panels = figure.subplots(2, 1, sharex=True)
     for place, axes in enumerate(panels):
         draw_over_roll(axes, records, "worn_depth", 1e6, place)
         axes.set_ylabel("Depth worn off (µm)")
         mark_panel(axes, "ab"[place], f"Flank of the {BODIES[place]}, from new to worn; mean over the face")
     panels[0].set_xlabel("")
     _legend(panels[0], records)
-    return _titled(drawn, records)
+    return _titled(figure, records)
 
 
 def _flank_map(records: Sequence[Record], _view: View) -> Figure:
     record = records[0]
-    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT)
-    panels = drawn.subplots(2, 1, sharex=True)
+    figure = new_figure(WIDTH, 2 * PANEL_HEIGHT)
+    panels = figure.subplots(2, 1, sharex=True)
     depth, top = 1e6 * record["worn_depth"][-1], 1e6 * float(np.max(record["worn_depth"][-1]))
     drawings = [
         axes.pcolormesh(
@@ -109,13 +109,13 @@ def _flank_map(records: Sequence[Record], _view: View) -> Figure:
         axes.set_ylabel("Place on the face (mm)")
         mark_panel(axes, "ab"[place], f"Depth worn off the {BODIES[place]}")
     panels[-1].set_xlabel(ROLL)
-    drawn.colorbar(drawings[0], ax=list(panels), label="Depth (µm)", pad=0.02)
-    return _titled(drawn, records)
+    figure.colorbar(drawings[0], ax=list(panels), label="Depth (µm)", pad=0.02)
+    return _titled(figure, records)
 
 
 def _loads(records: Sequence[Record], _view: View) -> Figure:
-    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT)
-    panels = drawn.subplots(2, 1, sharex=True)
+    figure = new_figure(WIDTH, 2 * PANEL_HEIGHT)
+    panels = figure.subplots(2, 1, sharex=True)
     for axes, name, factor, label, title in (
         (
             panels[0],
@@ -131,7 +131,7 @@ def _loads(records: Sequence[Record], _view: View) -> Figure:
         mark_panel(axes, "ab"[axes is panels[1]], title)
     panels[0].set_xlabel("")
     _legend(panels[0], records)
-    return _titled(drawn, records)
+    return _titled(figure, records)
 
 
 def draw_errors(axes: Axes, records: Sequence[Record]) -> None:
@@ -155,27 +155,27 @@ def draw_errors(axes: Axes, records: Sequence[Record]) -> None:
 
 
 def _errors(records: Sequence[Record], _view: View) -> Figure:
-    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT)
-    panels = drawn.subplots(2, 1)
+    figure = new_figure(WIDTH, 2 * PANEL_HEIGHT)
+    panels = figure.subplots(2, 1)
     draw_errors(panels[0], records)
     _legend(panels[0], records)
     _over_revolutions(panels[1], records, "transmission_error_peak_to_peak", 1e6, "Peak to peak (µm)")
     mark_panel(panels[0], "a", "Transmission error under load over the mesh cycle, from new to worn")
     mark_panel(panels[1], "b", "Its peak to peak")
-    return _titled(drawn, records)
+    return _titled(figure, records)
 
 
 def _history(records: Sequence[Record], _view: View) -> Figure:
-    shown = [known for known in _HISTORY if all(known[0] in record for record in records)]
-    drawn = new_figure(WIDTH, (len(shown) + 1) // 2 * PANEL_HEIGHT)
-    panels = drawn.subplots((len(shown) + 1) // 2, 2, sharex=True, squeeze=False).ravel()
+    shown = [column for column in _HISTORY if all(column[0] in record for record in records)]
+    figure = new_figure(WIDTH, (len(shown) + 1) // 2 * PANEL_HEIGHT)
+    panels = figure.subplots((len(shown) + 1) // 2, 2, sharex=True, squeeze=False).ravel()
     for axes in panels[len(shown) :]:
         axes.remove()
     for letter, axes, (name, factor, label, title) in zip("abcdef", panels, shown, strict=False):
         _over_revolutions(axes, records, name, factor, label)
         mark_panel(axes, letter, title)
     panels[0].legend(fontsize=6.5)
-    return _titled(drawn, records)
+    return _titled(figure, records)
 
 
 _HISTORY = (
@@ -190,8 +190,8 @@ _HISTORY = (
 
 def _overview(records: Sequence[Record], _view: View) -> Figure:
     record = records[0]
-    drawn = new_figure(11.0, 6.2)
-    panels = drawn.subplots(2, 3).ravel()
+    figure = new_figure(11.0, 6.2)
+    panels = figure.subplots(2, 3).ravel()
     for place in (0, 1):
         draw_over_roll(panels[place], [record], "worn_depth", 1e6, place)
         panels[place].set_ylabel("Depth worn off (µm)")
@@ -211,15 +211,15 @@ def _overview(records: Sequence[Record], _view: View) -> Figure:
     )
     for letter, axes, title in zip("abcdef", panels, titles, strict=True):
         mark_panel(axes, letter, title)
-    drawn.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
-    return drawn
+    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
+    return figure
 
 
-def _titled(drawn: Figure, records: Sequence[Record]) -> Figure:
-    drawn.align_ylabels()
+def _titled(figure: Figure, records: Sequence[Record]) -> Figure:
+    figure.align_ylabels()
     if len(records) == 1:
-        drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    return drawn
+        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    return figure
 
 
 def _in_slices(record: Record) -> bool:

@@ -34,7 +34,7 @@ def row_of(study: Wearing, state: Worn, at: WearPassage) -> dict[str, Any]:
     def over_path(values: Any) -> Any:
         return np.where(carried, _loaded_mean(study, at, values), np.nan)
 
-    found: dict[str, Any] = {
+    row: dict[str, Any] = {
         "revolutions": state.revolutions,
         "time": state.revolutions / turns,
         "worn_depth": np.stack(mean),
@@ -57,10 +57,10 @@ def row_of(study: Wearing, state: Worn, at: WearPassage) -> dict[str, Any]:
     if case.lubricated is not None:
         least = float(np.min(at.contacts.film[at.load > 0.0]))
         of_film = over_path(at.contacts.film), least, _roughness(at)
-        found |= dict(zip(OF_FILM, of_film, strict=True))
+        row |= dict(zip(OF_FILM, of_film, strict=True))
     if case.each_tooth:
-        found |= dict(zip(OF_TEETH, state.depths, strict=True))
-    return {name: np.asarray(value, dtype=float)[None] for name, value in found.items()}
+        row |= dict(zip(OF_TEETH, state.depths, strict=True))
+    return {name: np.asarray(value, dtype=float)[None] for name, value in row.items()}
 
 
 def _roughness(at: WearPassage) -> float:
@@ -140,14 +140,14 @@ def _of_laws(
     study: Wearing, summary: dict[str, Any], rows: tuple[dict[str, Any], dict[str, Any]], at: WearPassage
 ) -> dict[str, Any]:
     """What the laws of film and friction say of themselves, and whether the contact lies within its model."""
-    case, judge, found = study.case, Judge(), dict[str, Any]()
+    case, judge, quantities = study.case, Judge(), dict[str, Any]()
     first, last = rows
     oiled, closure, seen = case.lubricated, at.closure, at.contacts.seen
     if oiled is not None and closure is not None and seen is not None:
         carried = at.load > 0.0
         loss = (at.load * at.contacts.friction_coefficient * study.places.sliding.sliding)[carried]
         inside = fraction_in_range(seen.surface.friction_in_range)
-        found = {
+        quantities = {
             "film_parameter_min": summary["film_min"] / float(last["roughness"]),
             "film_parameter_min_unworn": summary["film_min_unworn"] / float(first["roughness"]),
             "closure_in_range_fraction": fraction_in_range(seen.surface.closure_in_range),
@@ -158,5 +158,5 @@ def _of_laws(
     bent = at.approach / float(case.drive.module)
     judge.take({"deflection": bent, "hertz_pressure": at.pressure.reshape(len(at.pressure), -1)})
     judge.take({"friction_coefficient": at.friction.reshape(len(at.friction), -1)})
-    judge_tribology(judge, found | summary)
-    return found | judge.summary()
+    judge_tribology(judge, quantities | summary)
+    return quantities | judge.summary()

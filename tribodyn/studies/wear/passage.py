@@ -223,6 +223,6 @@ def by_teeth(
     pair = np.arange(len(places.ages))
     history = values[cycle[:, None, :], np.arange(values.shape[1])[:, None], pair]
     samples = np.moveaxis(history.reshape(cycles, -1, slices), -1, 1)
-    found = np.matmul(places.to_node, samples[..., None])[..., 0]  # (pair number, slice, node)
-    of_teeth = found.reshape(-1, teeth, *found.shape[1:]).mean(axis=0)
+    at_nodes = np.matmul(places.to_node, samples[..., None])[..., 0]  # (pair number, slice, node)
+    of_teeth = at_nodes.reshape(-1, teeth, *at_nodes.shape[1:]).mean(axis=0)
     return np.maximum(np.moveaxis(of_teeth, 1, -1), 0.0)

@@ -148,9 +148,9 @@ def _back(
     for number, (at, mask) in enumerate(zip(every, inside, strict=True)):
         chosen = np.flatnonzero(mask)
         chosen = chosen[np.argsort(at[chosen], kind="stable")]
-        known = at[chosen]
-        matrix[number][:, chosen] = _interpolation(known, node[None])[0]
-        edges = np.concatenate([node[:1], (known[1:] + known[:-1]) / 2.0, node[-1:]])
+        covered = at[chosen]
+        matrix[number][:, chosen] = _interpolation(covered, node[None])[0]
+        edges = np.concatenate([node[:1], (covered[1:] + covered[:-1]) / 2.0, node[-1:]])
         along[number, chosen] = np.diff(edges)
     return matrix, np.moveaxis(along.reshape(-1, *roll.shape[:2]), 0, -1)
 
@@ -160,8 +160,8 @@ def _sliding(flanks: LoadedFlanks, held: HeldFlanks) -> Sliding:
     r = np.clip(motion.signed_distance, assembly.r_start, assembly.r_end)
     share = np.asarray(speed_share(pitch_slope(assembly), assembly.path, r))
     sliding = np.abs(motion.pinion_speed - motion.gear_speed)
-    own = share * motion.pinion_speed, share * motion.gear_speed
-    return Sliding(*own, sliding, specific_slip(own[0], sliding), specific_slip(own[1], sliding))
+    speeds = share * motion.pinion_speed, share * motion.gear_speed
+    return Sliding(*speeds, sliding, specific_slip(speeds[0], sliding), specific_slip(speeds[1], sliding))
 
 
 def _areas(flanks: LoadedFlanks, node: Float[Array, " node"]) -> tuple[Any, Any]:

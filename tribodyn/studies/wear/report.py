@@ -55,7 +55,7 @@ def maps(record: Record) -> list[PageMap]:
 
 def verdict(record: Record) -> list[str]:
     """Say what is worn off, what that does to error, pressure and film, and what to do."""
-    summary, found = numbers(record.summary), []
+    summary, sentences = numbers(record.summary), []
     if {"wear_revolutions", "pinion_worn_depth_max", "gear_worn_depth_max"} <= set(summary):
         depths = [
             with_unit(f"{body}_worn_depth_max", summary[f"{body}_worn_depth_max"])
@@ -63,11 +63,11 @@ def verdict(record: Record) -> list[str]:
         ]
         count = counted(summary["wear_revolutions"])
         if max(summary["pinion_worn_depth_max"], summary["gear_worn_depth_max"]) > 0.0:
-            found.append(
+            sentences.append(
                 f"After {count} revolutions the pinion has lost up to {depths[0]}, the gear {depths[1]}."
             )
         else:
-            found.append(f"In {count} revolutions nothing is worn.")
+            sentences.append(f"In {count} revolutions nothing is worn.")
     changed = [
         _change(name, what, summary)
         for name, what in (
@@ -79,10 +79,10 @@ def verdict(record: Record) -> list[str]:
     ]
     if changed:
         text = "; ".join(changed)
-        found.append(f"{text[0].upper()}{text[1:]}.")
+        sentences.append(f"{text[0].upper()}{text[1:]}.")
     if (ratio := summary.get("film_parameter_min")) is not None:
-        found.append(f"The oil film is at least {ratio:.2g} times the roughness: {lubrication(ratio)}.")
-    return [*found, *advised(record.summary)]
+        sentences.append(f"The oil film is at least {ratio:.2g} times the roughness: {lubrication(ratio)}.")
+    return [*sentences, *advised(record.summary)]
 
 
 def counted(revolutions: float) -> str:
@@ -102,17 +102,17 @@ def sentences(record: Record) -> list[str]:
     """Say what the model leaves out, and how well the volume balances."""
     summary = record.summary
     law = summary.get("wear_law", "the wear law")
-    found = [
+    texts = [
         f"Slow rotation at a constant load, by {law}: the wear coefficient is known to a factor of ten at "
         "best, and the revolutions that wear a depth go with its inverse."
     ]
     if (residual := summary.get("wear_balance")) is not None:
-        found.append(
+        texts.append(
             f"The volume missing on the flanks is that of load and sliding to within {residual:.1e}."
         )
     if (share := summary.get("corner_sliding_share")) is not None and share > 0.0:
-        found.append(
+        texts.append(
             f"{100.0 * share:.2g} % of the sliding under load is that of tips' corners beyond the path of "
             "contact, which wears nothing here."
         )
-    return [*found, *on_closures(summary)]
+    return [*texts, *on_closures(summary)]

@@ -52,22 +52,22 @@ def prepare(case: WearCase) -> Wearing:
     check_contact(flanks, case.operating.gear_torque)
     law = wear_law_of(case.wear)
     places = places_of(flanks, case.operating.gear_torque, case.positions_per_cycle, case.mesh.early)
-    own = own_gaps(flanks, places.node, case) if any(case.teeth) else None
-    return Wearing(case, places, law, law.made(None, dict(case.wear.values)), own)
+    gaps = own_gaps(flanks, places.node, case) if any(case.teeth) else None
+    return Wearing(case, places, law, law.made(None, dict(case.wear.values)), gaps)
 
 
 def own_gaps(flanks: LoadedFlanks, node: Float[Array, " node"], case: WearCase) -> Depths:
     """What is missing at the nodes of every tooth from the beginning, m, pitch errors apart."""
-    found = []
+    of_gears = []
     faces = flank_places(flanks.flexible.assembly, node, np.asarray(flanks.face()))
-    for own, flank, at, count in zip(case.teeth, (LEADING, TRAILING), faces, case.counts, strict=True):
+    for deviations, flank, at, count in zip(case.teeth, (LEADING, TRAILING), faces, case.counts, strict=True):
         gaps = np.zeros((count, len(node), flanks.slices))
         for tooth in range(count):
-            for each in own:
+            for each in deviations:
                 if (more := each.fields(tooth, flank, at)) is not None:
                     gaps[tooth] += more.gap.T
-        found.append(gaps)
-    return found[0], found[1]
+        of_gears.append(gaps)
+    return of_gears[0], of_gears[1]
 
 
 def flanks_of(case: WearCase) -> LoadedFlanks:
@@ -126,18 +126,18 @@ def run(
         keep_previous(path, Origin(case.kind, case.scenario_file))
     begun = perf_counter()
     study = prepare(case)
-    known = len(before.get("revolutions", ()))
-    rows = recorded_at(case, float(before["revolutions"][-1])) if known else recorded_at(case)
-    start = state_of(study, {name: values[-1] for name, values in before.items()}) if known else unworn(study)
+    done = len(before.get("revolutions", ()))
+    rows = recorded_at(case, float(before["revolutions"][-1])) if done else recorded_at(case)
+    start = state_of(study, {name: values[-1] for name, values in before.items()}) if done else unworn(study)
     how: dict[str, Any] = {"force": replace, "code": _code_of(case), **_beside(study)}
-    with writer(case, path, layout_of(case), known + len(rows), **how) as record:
-        if known:
+    with writer(case, path, layout_of(case), done + len(rows), **how) as record:
+        if done:
             record.write(0, before)
         first = {name: values[0] for name, values in before.items()}
         row, at = {name: values[-1] for name, values in before.items()}, None
         try:
             # of what is recorded already, where no row is left
-            at = passage(study, start.depths, start.revolutions) if known else None
+            at = passage(study, start.depths, start.revolutions) if done else None
             for state, at in march(study, start, rows):
                 block = row_of(study, state, at)
                 record.write(record.written, block)
@@ -166,9 +166,9 @@ def _summary(
 ) -> dict[str, Any]:
     if at is None:
         return {"wall_time": perf_counter() - begun}
-    found = summary_of(study, dict(first), dict(last), at)
+    summary = summary_of(study, dict(first), dict(last), at)
     oil = {} if study.case.lubricated is None else {"lubricant": oil_data(study.case.lubricated.lubricant)}
-    return found | oil | {"wall_time": perf_counter() - begun}
+    return summary | oil | {"wall_time": perf_counter() - begun}
 
 
 def _beside(study: Wearing) -> dict[str, Any]:
@@ -204,21 +204,21 @@ def _recorded(case: WearCase, path: Path) -> dict[str, np.ndarray]:
     Raises InputError if there is one of another scenario or of other code, or one that is longer.
     """
     partial = partial_path(path)
-    found = partial if partial.exists() else path
-    if not found.exists():
+    record_path = partial if partial.exists() else path
+    if not record_path.exists():
         return {}
     check_target(path, force=True)
-    with Record(found) as record:
+    with Record(record_path) as record:
         remedy = "move it away, or --force to begin anew"
         if record.kind != case.kind or _kept(record.attrs["scenario"]) != _kept(case.toml):
-            raise InputError("--resume", str(found), "made from another scenario", remedy)
+            raise InputError("--resume", str(record_path), "made from another scenario", remedy)
         if not all(map(_is_recognised, _functions_of(case))):
             rule = "a law depends on data of which nobody knows whether they are still the same"
-            raise InputError("--resume", str(found), rule, remedy)
-        require_same_code(record.attrs, found, _code_of(case))
+            raise InputError("--resume", str(record_path), rule, remedy)
+        require_same_code(record.attrs, record_path, _code_of(case))
         rows = {name: record[name] for name in record}
     done = float(rows["revolutions"][-1]) if len(rows["revolutions"]) else 0.0
-    if found == path and done >= case.revolutions:
+    if record_path == path and done >= case.revolutions:
         rule = f"the record reaches {done:g} revolutions already"
         raise InputError("wear.revolutions", f"{case.revolutions:g}", rule, "write a larger number")
     return {name: values[rows["revolutions"] <= case.revolutions] for name, values in rows.items()}
@@ -226,10 +226,12 @@ def _recorded(case: WearCase, path: Path) -> dict[str, np.ndarray]:
 
 def _functions_of(case: WearCase) -> list[Callable[..., Any]]:
     """The functions of laws from outside this package: from Python, or from installed packages."""
-    oiled, own = case.lubricated, __name__.partition(".")[0] + "."
+    oiled, ours = case.lubricated, __name__.partition(".")[0] + "."
     laws = (wear_law_of(case.wear), *(() if oiled is None else laws_of(oiled)))
     outside = [
-        law for law in laws if law.name.startswith(FROM_PYTHON) or not law.function.__module__.startswith(own)
+        law
+        for law in laws
+        if law.name.startswith(FROM_PYTHON) or not law.function.__module__.startswith(ours)
     ]
     return [part for law in outside for part in (*law.functions, law.parameters) if part is not None]
 
@@ -241,8 +243,8 @@ def _is_recognised(function: Callable[..., Any]) -> bool:
 
 def _code_of(case: WearCase) -> str:
     """Digest of the code that computes a case, laws from outside and what they refer to included."""
-    known = [function_layout(part).identity for part in _functions_of(case) if _is_recognised(part)]
-    return hashlib.sha256(repr((computing_digest(), known)).encode()).hexdigest()
+    layouts = [function_layout(part).identity for part in _functions_of(case) if _is_recognised(part)]
+    return hashlib.sha256(repr((computing_digest(), layouts)).encode()).hexdigest()
 
 
 def _kept(toml: str) -> dict[str, Any]:

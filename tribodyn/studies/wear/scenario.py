@@ -116,10 +116,10 @@ Scenario = WearScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> WearCase:
     """Return the case of a scenario that has passed schema and rules."""
     wear = scenario.wear
-    mesh, own = mesh_data(scenario, every_tooth=wear.teeth == EACH), _own_teeth(scenario)
-    early = sum(each.early for gear in own for each in gear)
+    mesh, teeth = mesh_data(scenario, every_tooth=wear.teeth == EACH), _own_teeth(scenario)
+    early = sum(each.early for gear in teeth for each in gear)
     gears: dict[str, Any] = gear_fields(scenario, toml, sha256)
-    gears |= {"mesh": replace(mesh, early=early), "teeth": own}
+    gears |= {"mesh": replace(mesh, early=early), "teeth": teeth}
     oiled, friction = None, 0.0
     if scenario.lubricant is not None:
         oil, film = oil_fields(scenario), WEAR_LAWS[wear.law].film
@@ -147,7 +147,7 @@ def _own_teeth(scenario: Scenario) -> tuple[OwnTeeth, OwnTeeth]:
     if scenario.wear.teeth == ALIKE:
         return (), ()
     every = own_teeth_of(scenario.drive, scenario.mesh.tooth_sample)
-    pinion, gear = (tuple(own for own in of if not isinstance(own, PitchErrors)) for of in every)
+    pinion, gear = (tuple(one for one in of if not isinstance(one, PitchErrors)) for of in every)
     return pinion, gear
 
 
@@ -194,12 +194,12 @@ def _broken_law(scenario: Scenario) -> Iterator[InputError]:
 def _without_oil(scenario: Scenario) -> Iterator[InputError]:
     """Refuse what says something of a film that is not there."""
     remedy = 'add lubricant = "iso-vg-220-mineral", or leave it out'
-    given = {
+    film_keys = {
         "operating.oil_temperature": scenario.operating.oil_temperature,
         "film": scenario.film,
         "running_in": scenario.running_in,
     }
-    for key, value in given.items():
+    for key, value in film_keys.items():
         if value is not None:
             yield InputError(key, rule="without a lubricant there is no film", remedy=remedy)
     if scenario.friction is not None and scenario.friction.law not in DRY:

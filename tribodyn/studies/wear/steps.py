@@ -57,30 +57,30 @@ def march(study: Wearing, start: Worn, rows: np.ndarray) -> Iterator[tuple[Worn,
 
 def _step(study: Wearing, state: Worn, at: WearPassage, row: float) -> tuple[Worn, WearPassage]:
     """Take one step, to a row at most."""
-    limit, left = study.case.load_change, row - state.revolutions
+    limit, remaining = study.case.load_change, row - state.revolutions
     wished = state.next_step or _first(study, at)
     rejected, running_in = state.rejected, study.case.running_in
     longest = np.inf if running_in is None else running_in.step_at(state.revolutions)
     while True:
-        step = min(wished, left, longest)
+        step = min(wished, remaining, longest)
         there = _ahead(state.depths, at.rates, step)
-        ahead = row if step == left else state.revolutions + step
+        ahead = row if step == remaining else state.revolutions + step
         trial = passage(study, there, ahead, at.friction)
-        moved, found = trial.moved_from(at), None
+        moved, passed = trial.moved_from(at), None
         if moved <= limit:
             rates = tuple((a + b) / 2.0 for a, b in zip(at.rates, trial.rates, strict=True))
             depths = _ahead(state.depths, (rates[0], rates[1]), step)
-            found = passage(study, depths, ahead, trial.friction)
-            moved = max(moved, found.moved_from(at))
-        if found is not None and moved <= limit:
+            passed = passage(study, depths, ahead, trial.friction)
+            moved = max(moved, passed.moved_from(at))
+        if passed is not None and moved <= limit:
             break
         wished, rejected = step / 2.0, rejected + 1
-        if step < _SHORTEST * left:
+        if step < _SHORTEST * remaining:
             raise SimulationError(
                 f"after {state.revolutions:.6g} revolutions no step is short enough: loads still move by "
                 f"{100.0 * moved:.2g} %"
             )
-    deepest = float(max(np.max(depth) for depth in found.depths)) / study.case.drive.module
+    deepest = float(max(np.max(depth) for depth in passed.depths)) / study.case.drive.module
     if deepest > DEEPEST:
         raise SimulationError(
             f"after {state.revolutions + step:.6g} revolutions flanks are worn by more than a tenth of the "
@@ -90,7 +90,7 @@ def _step(study: Wearing, state: Worn, at: WearPassage, row: float) -> tuple[Wor
     # a step that was cut short at a row says little of the next one
     next_step = min(step * growth if step == wished else max(wished, step * growth), _ANY)
     volume = state.volume + step * (at.volume_rate + trial.volume_rate) / 2.0
-    return Worn(ahead, found.depths, next_step, volume, state.steps + 1, rejected), found
+    return Worn(ahead, passed.depths, next_step, volume, state.steps + 1, rejected), passed
 
 
 def _first(study: Wearing, at: WearPassage) -> float:

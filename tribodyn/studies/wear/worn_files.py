@@ -35,10 +35,10 @@ def write_profiles(study: Wearing, row: dict[str, Any], record: Path, force: boo
     """
     roll, files = study.places.node, []
     for body, depth in zip(BODIES, row["worn_depth"], strict=True):
-        given = getattr(study.case.mesh.modifications, body).profile_error
+        profile_error = getattr(study.case.mesh.modifications, body).profile_error
         total = np.mean(depth, axis=-1)
-        if given is not None:
-            total = total + np.interp(roll, *given)
+        if profile_error is not None:
+            total = total + np.interp(roll, *profile_error)
         about = f"profile error of the {body} after {float(row['revolutions']):g} revolutions of the pinion"
         text = profile_text(roll, total, about)
         files.append(write_output(profile_path(record, body), text, force=force))

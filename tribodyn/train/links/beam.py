@@ -66,12 +66,12 @@ def element(section: ShaftSection, length: float, metal: ShaftMetal) -> Float[Ar
             ]
         )
     )
-    found = np.zeros((2 * DIRECTIONS, 2 * DIRECTIONS))
+    stiffness = np.zeros((2 * DIRECTIONS, 2 * DIRECTIONS))
     for places, sign in (((0, 4, 5, 9), 1.0), ((1, 3, 6, 8), -1.0)):
         turned = np.array([1.0, sign, 1.0, sign])
-        found[np.ix_(places, places)] = in_plane * np.outer(turned, turned)
-    found[np.ix_((2, 7), (2, 7))] = modulus * area / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    return found
+        stiffness[np.ix_(places, places)] = in_plane * np.outer(turned, turned)
+    stiffness[np.ix_((2, 7), (2, 7))] = modulus * area / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    return stiffness
 
 
 def stiffness_between(

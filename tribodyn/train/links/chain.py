@@ -121,19 +121,19 @@ def chain_of(
     plays = [Play(0.0, 1.0)] * len(laws)
     outside: list[Any] = []
     loose = False
-    for link, (key, own, values) in enumerate(laws):
-        if own.function is linear:
+    for link, (key, used, values) in enumerate(laws):
+        if used.function is linear:
             continue
         try:
-            numbers = own.made(None, values)
-            try_link_law(own, stiffness[link], numbers)
+            numbers = used.made(None, values)
+            try_link_law(used, stiffness[link], numbers)
         except InputError as error:
             place = f"{key}.{error.key.rpartition('.')[2]}"
             raise InputError(place, error.value, error.rule, error.remedy) from error
-        if own.function is with_play:
+        if used.function is with_play:
             plays[link], loose = numbers, True
         else:
-            chain = LawOfLink(_act, _slope, own.function, StaticInt(link), chain)
+            chain = LawOfLink(_act, _slope, used.function, StaticInt(link), chain)
             outside.append(numbers)
     parameters: Any = NO_PLAY
     if loose:

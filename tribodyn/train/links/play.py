@@ -21,7 +21,7 @@ class Play(NamedTuple):
     contact_share: Any
 
 
-def checked(given: Any, **values: Any) -> Play:
+def checked(_inputs: Any, **values: Any) -> Play:
     """Make the parameters; raises InputError where contact would set in before the play is half used."""
     if values["contact_share"] > 1.0:
         key, rule = "link.contact_share", "contact sets in over no more than the whole play"

@@ -125,12 +125,12 @@ def _movements(
     """
     angle = (2.0 * np.pi * np.arange(elements) / elements)[:, None]
     cosine, sine = np.broadcast_arrays(np.cos(angle), np.sin(angle), np.zeros((elements, len(radius))))[:2]
-    found = np.zeros((elements, len(radius), 2, 5))
-    found[..., 0, 0], found[..., 0, 1] = cosine, sine
-    found[..., 0, 3], found[..., 0, 4] = -offset * sine, offset * cosine
-    found[..., 1, 2] = 1.0
-    found[..., 1, 3], found[..., 1, 4] = radius * sine, -radius * cosine
-    return found
+    movements = np.zeros((elements, len(radius), 2, 5))
+    movements[..., 0, 0], movements[..., 0, 1] = cosine, sine
+    movements[..., 0, 3], movements[..., 0, 4] = -offset * sine, offset * cosine
+    movements[..., 1, 2] = 1.0
+    movements[..., 1, 3], movements[..., 1, 4] = radius * sine, -radius * cosine
+    return movements
 
 
 def _of_balls(row: BallRow, moved: Float[Array, "5"]) -> BearingState:

@@ -94,10 +94,10 @@ def under_load(shaft: SupportedShaft, load: Sequence[float]) -> UnderLoad:
         if np.linalg.norm(force) <= SETTLED * size or np.max(np.abs(here)) > length:
             break
         step = np.linalg.solve(tangent + damping * np.eye(len(beam)), -force)
-        found = look(here + step)
-        closer = np.linalg.norm(found[1]) < np.linalg.norm(force)
-        if found[0] < energy or closer:  # energies of small steps differ by rounding alone
-            here, seen, damping = here + step, found, max(damping / 10.0, least)
+        trial = look(here + step)
+        closer = np.linalg.norm(trial[1]) < np.linalg.norm(force)
+        if trial[0] < energy or closer:  # energies of small steps differ by rounding alone
+            here, seen, damping = here + step, trial, max(damping / 10.0, least)
         else:
             damping *= 10.0
     _, _, tangent, states = seen

@@ -60,16 +60,16 @@ class Mixing:
         self._tried: list[Array] = []
         self._change: list[Array] = []
 
-    def next(self, tried: Array, found: Array) -> Array:
-        """Return the argument to try after x = `tried` gave g(x) = `found`."""
+    def next(self, tried: Array, image: Array) -> Array:
+        """Return the argument to try after x = `tried` gave g(x) = `image`."""
         self._tried = [*self._tried[-MEMORY:], tried]
-        self._change = [*self._change[-MEMORY:], found - tried]
+        self._change = [*self._change[-MEMORY:], image - tried]
         if len(self._tried) == 1:
-            return found
+            return image
         steps: Array = np.diff(np.array(self._tried), axis=0)
         changes: Array = np.diff(np.array(self._change), axis=0)
         weight = np.linalg.lstsq(changes.T, self._change[-1], rcond=_RANK)[0]
-        return found - weight @ (steps + changes)
+        return image - weight @ (steps + changes)
 
     def shorter(self, share: float) -> Array:
         """Return a shorter way from the last argument to what it gave, and forget what was before."""
@@ -100,9 +100,9 @@ def solve_coupled(
     closure, rise = solution.closure, np.zeros((len(solution.place), LAYERS))
     heat: FilmHeat | None = None
     for rounds in range(1, MOST_ROUNDS + 1):
-        shear, heat, found = _closed(solution, rheology, surfaces, heat, rise)
+        shear, heat, image = _closed(solution, rheology, surfaces, heat, rise)
         warmed = heat.layers if heat is not None else rise
-        target = _packed(found, warmed)
+        target = _packed(image, warmed)
         if not np.all(np.isfinite(target)):
             raise _diverged(problem, rounds)
         trial = mixing.next(_packed(closure, rise), target)
@@ -117,11 +117,11 @@ def solve_coupled(
                     raise
                 trial = mixing.shorter(share)
         friction = _friction(solution, shear, rheology)
-        known = (solution.central_film_thickness, friction, float(np.max(warmed)))
+        now = (solution.central_film_thickness, friction, float(np.max(warmed)))
         least = (0.0, 1e-3 * problem.line_load, 1e-2)
-        if all(abs(a - b) <= TOLERANCE * max(abs(a), c) for a, b, c in zip(known, last, least, strict=True)):
+        if all(abs(a - b) <= TOLERANCE * max(abs(a), c) for a, b, c in zip(now, last, least, strict=True)):
             return CoupledSolution(solution, shear, heat, friction, rounds)
-        last = known
+        last = now
     raise _diverged(problem, MOST_ROUNDS)
 
 

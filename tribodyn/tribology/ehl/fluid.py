@@ -64,8 +64,8 @@ def hot_log_viscosity(pressure: Array, rise: Array, fluid: Fluid, coefficient: f
         hotter, _, by_heat = fluid.law.rise(pressure, fluid.law.temperature + rise)
         pole = math.log(fluid.viscosity) + ROELANDS_POLE
         thinner = np.exp(-coefficient / pole * rise)
-        found = np.clip(hotter, 0.0, MAXIMUM_LOG_VISCOSITY) + pole * (thinner - 1.0)
-        return found, by_heat - coefficient * thinner
+        logarithm = np.clip(hotter, 0.0, MAXIMUM_LOG_VISCOSITY) + pole * (thinner - 1.0)
+        return logarithm, by_heat - coefficient * thinner
     cold, _ = log_viscosity(pressure, fluid)
     if fluid.viscosity_pressure_index == 1.0 or fluid.pressure_viscosity == 0.0:
         return cold - coefficient * rise, np.full_like(cold + rise, -coefficient)

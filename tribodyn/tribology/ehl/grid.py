@@ -126,8 +126,8 @@ def placed(film: float, step: float, beyond: float = 0.0, thickest: float = 0.0)
 
 def _spaced(fine: Array, number: Callable[[Array], Array]) -> Array:
     """Places from the first to the last of `fine` at which `number` has gone on by equal parts, 1 at most."""
-    known = number(fine)
-    return np.interp(np.linspace(known[0], known[-1], int(np.ceil(known[-1] - known[0])) + 1), known, fine)
+    count = number(fine)
+    return np.interp(np.linspace(count[0], count[-1], int(np.ceil(count[-1] - count[0])) + 1), count, fine)
 
 
 def made(node: Array) -> FilmGrid:

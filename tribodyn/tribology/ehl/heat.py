@@ -90,15 +90,15 @@ def heated(
     surfaces: WarmedSurfaces,
     film: Array,
     flow: Array,
-    made: Array,
+    heating: Array,
     feedback: Array,
-    known: Array,
+    rise: Array,
     guess: FilmHeat | None = None,
 ) -> FilmHeat:
     """Solve for the temperatures under a film (x,), m, with quantities of its layers (x, layer).
 
     They are `flow` of mass over the density at ambient pressure, m²/s, its sum the same at every x; heat of
-    shear `made`, W/m², at the temperatures `known`, K; `feedback`, by how much less is made where the film
+    shear `heating`, W/m², at the temperatures `rise`, K; `feedback`, by how much less is made where the film
     is warmer as a whole, W/(m² K), ≥ 0. The temperatures of the surfaces start at those of `guess`.
     """
     # here and below: who asks for known contacts alone starts faster
@@ -108,10 +108,10 @@ def heated(
     band_factors, band_solves = get_lapack_funcs(("gbtrf", "gbtrs"), dtype=np.float64)
     thermal, width, response = surfaces
     count = len(film)
-    source = (made + feedback * known) * width[:, None]
-    taken = feedback * width[:, None]
+    source = (heating + feedback * rise) * width[:, None]
+    feedback_sum = feedback * width[:, None]
     through = np.concatenate([flow[:1], 0.5 * (flow[1:] + flow[:-1]), flow[-1:]])
-    band, wall = _layers_system(film, width, taken, through, thermal)
+    band, wall = _layers_system(film, width, feedback_sum, through, thermal)
     lower_upper, pivots, failed = band_factors(band, LAYERS, LAYERS)
     if failed:
         raise SimulationError("the temperatures of the film have no solution")
@@ -119,10 +119,10 @@ def heated(
 
     def answered(surface: Array, source: Array | float) -> tuple[Array, Array, Array]:
         """Temperatures of the layers, and fluxes into both surfaces, at temperatures of these."""
-        right = np.zeros_like(made) + source
+        right = np.zeros_like(heating) + source
         right[:, -1] += wall * width * surface[:count]
         right[:, 0] += wall * width * surface[count:]
-        layers = band_solves(lower_upper, LAYERS, LAYERS, right.ravel(), pivots)[0].reshape(made.shape)
+        layers = band_solves(lower_upper, LAYERS, LAYERS, right.ravel(), pivots)[0].reshape(heating.shape)
         return layers, wall * (layers[:, -1] - surface[:count]), wall * (layers[:, 0] - surface[count:])
 
     def missing(surface: Array, source: Array | float = 0.0) -> Array:
@@ -148,7 +148,7 @@ def heated(
         layers,
         surface[:count],
         surface[count:],
-        float(np.sum(source - taken * layers)),
+        float(np.sum(source - feedback_sum * layers)),
         float(flux[0] @ width),
         float(flux[1] @ width),
         thermal.heat_capacity * float(right - left),
@@ -184,7 +184,7 @@ def _coupling(response: tuple[Array, Array], conductance: tuple[Array, Array, Ar
 
 
 def _layers_system(
-    film: Array, width: Array, taken: Array, through: Array, thermal: HeatProperties
+    film: Array, width: Array, feedback: Array, through: Array, thermal: HeatProperties
 ) -> tuple[Array, Array]:
     """Matrix of the layers' temperatures in LAPACK's band form, and conductance to the walls, W/(m² K).
 
@@ -198,7 +198,7 @@ def _layers_system(
     across = -np.cumsum(np.diff(through, axis=0), axis=1)[:, :-1] * capacity
     conducted = (layer * width)[:, None]
     up, down = conducted + np.maximum(across, 0.0), conducted - np.minimum(across, 0.0)
-    diagonal = taken + ahead[1:] - behind[:-1]
+    diagonal = feedback + ahead[1:] - behind[:-1]
     diagonal[:, :-1] += up
     diagonal[:, 1:] += down
     diagonal[:, 0] += wall * width

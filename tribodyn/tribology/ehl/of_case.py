@@ -36,13 +36,13 @@ class Contact(NamedTuple):
         )
 
 
-def contact_of(given: LawInput) -> Contact:
+def contact_of(inputs: LawInput) -> Contact:
     """Return what all contacts of a case have in common, from its surfaces, oil and materials.
 
     The film slips at the oil's limiting shear stress Λ p beside `Rheology`'s floor. Raises InputError if a
     derivative by one of these numbers is requested: a table is of one oil and one pair of surfaces.
     """
-    surfaces, oil, asperities = given.surfaces, given.lubricant, given.asperities
+    surfaces, oil, asperities = inputs.surfaces, inputs.lubricant, inputs.asperities
     numbers = (
         *(oil.inlet_viscosity, oil.pressure_viscosity, oil.viscosity_pressure_index, oil.asperity_friction),
         *(oil.limiting_shear_coefficient, oil.temperature_viscosity),
@@ -87,10 +87,10 @@ def friction_band(
                 line_load, radius, speed, each.fluid, each.effective_modulus, sliding, each.roughness
             )
             try:
-                found = solve_coupled(problem, each.rheology, each.thermal, step=step)
+                solution = solve_coupled(problem, each.rheology, each.thermal, step=step)
             except SimulationError:
                 return float("nan"), float("nan")
-            total += abs(found.friction * sliding)
+            total += abs(solution.friction * sliding)
         lost.append(total)
     if lost[0] == 0.0:
         return 1.0, 1.0

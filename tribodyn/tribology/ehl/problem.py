@@ -52,8 +52,8 @@ class LineContact(NamedTuple):
     @property
     def speed_number(self) -> float:
         """λ = 12 u η0 R²/(b³ p_H) of Reynolds' equation; = 3π²/(8 M²)."""
-        drawn = 12.0 * self.entrainment_speed * self.fluid.viscosity * self.radius**2
-        return drawn / (self.half_width**3 * self.hertz_pressure)
+        flow = 12.0 * self.entrainment_speed * self.fluid.viscosity * self.radius**2
+        return flow / (self.half_width**3 * self.hertz_pressure)
 
     @property
     def moes_load(self) -> float:
@@ -73,8 +73,8 @@ class LineContact(NamedTuple):
 
     @property
     def _sum_speed(self) -> float:
-        drawn = 2.0 * self.fluid.viscosity * self.entrainment_speed
-        return drawn / (self.effective_modulus * self.radius)
+        flow = 2.0 * self.fluid.viscosity * self.entrainment_speed
+        return flow / (self.effective_modulus * self.radius)
 
 
 class Solution(NamedTuple):
@@ -166,32 +166,32 @@ def number(name: str, value: Any) -> float:
     """Return a value as a float; raise InputError if it is none, or not finite."""
     real = isinstance(value, numbers.Real) and not isinstance(value, bool)
     try:
-        known = float(value) if real else math.nan
+        converted = float(value) if real else math.nan
     except OverflowError:  # a whole number of hundreds of digits
-        known = math.inf
-    if not math.isfinite(known):
+        converted = math.inf
+    if not math.isfinite(converted):
         raise InputError(name, quoted(value), "is not a finite number", "give a number in SI units")
-    if abs(known) > LARGEST:
-        raise InputError(name, f"{known:g}", f"is beyond {LARGEST:g}", "give a number in SI units")
-    return known
+    if abs(converted) > LARGEST:
+        raise InputError(name, f"{converted:g}", f"is beyond {LARGEST:g}", "give a number in SI units")
+    return converted
 
 
 def not_negative(name: str, value: Any, unit: str = "", remedy: str = "write 0 or more") -> float:
     """Return a value as a float; raise InputError if it is none, or below zero."""
-    known = number(name, value)
-    if known < 0.0:
-        raise InputError(name, f"{known:g} {unit}".strip(), "must not be negative", remedy)
-    return known
+    converted = number(name, value)
+    if converted < 0.0:
+        raise InputError(name, f"{converted:g} {unit}".strip(), "must not be negative", remedy)
+    return converted
 
 
 def positive(name: str, value: Any, unit: str = "", remedy: str = "give a number above 0") -> float:
     """Return a value as a float; raise InputError if it is none, or not above zero."""
-    known = number(name, value)
-    if known <= 0.0:
-        raise InputError(name, f"{known:g} {unit}".strip(), "must be positive", remedy)
-    if known < 1.0 / LARGEST:
-        raise InputError(name, f"{known:g} {unit}".strip(), f"is below {1.0 / LARGEST:g}", remedy)
-    return known
+    converted = number(name, value)
+    if converted <= 0.0:
+        raise InputError(name, f"{converted:g} {unit}".strip(), "must be positive", remedy)
+    if converted < 1.0 / LARGEST:
+        raise InputError(name, f"{converted:g} {unit}".strip(), f"is below {1.0 / LARGEST:g}", remedy)
+    return converted
 
 
 #: Argument that must be positive -> unit, remedy.
@@ -210,9 +210,9 @@ _POSITIVE = {
 
 def check(problem: LineContact) -> None:
     """Raise InputError at the first value that is no number, has the wrong sign, or is out of all bounds."""
-    given = {**problem._asdict(), **problem.fluid._asdict()}
+    values = {**problem._asdict(), **problem.fluid._asdict()}
     for name, (unit, remedy) in _POSITIVE.items():
-        positive(name, given[name], unit, remedy)
+        positive(name, values[name], unit, remedy)
     not_negative("pressure_viscosity", problem.fluid.pressure_viscosity, "1/Pa")
     number("sliding_speed", problem.sliding_speed)
     if problem.fluid.viscosity_pressure_index > 1.0:
@@ -226,13 +226,13 @@ def check(problem: LineContact) -> None:
 def _check_size(problem: LineContact) -> None:
     """Raise InputError outside of what the equations are made for."""
     width, load, material = problem.half_width, problem.moes_load, problem.moes_material
-    given = "line_load", f"{problem.line_load:g} N/m"
+    where = "line_load", f"{problem.line_load:g} N/m"
     if width > problem.radius:
         rule = f"the contact is wider ({2.0 * width:.3g} m) than cylinders of {problem.radius:.3g} m radius"
-        raise InputError(*given, rule, "half spaces need a lower load, a larger radius or a stiffer material")
+        raise InputError(*where, rule, "half spaces need a lower load, a larger radius or a stiffer material")
     if not LEAST_LOAD <= load <= GREATEST_LOAD:
         rule = f"Moes' load parameter M is {load:.3g}, solved is {LEAST_LOAD:g} … {GREATEST_LOAD:g}"
-        raise InputError(*given, rule, "check load, speed and viscosity, and their units")
+        raise InputError(*where, rule, "check load, speed and viscosity, and their units")
     if material > GREATEST_MATERIAL:
         value = f"{problem.fluid.pressure_viscosity:g} 1/Pa"
         rule = f"Moes' material parameter L is {material:.3g}, solved is up to {GREATEST_MATERIAL:g}"

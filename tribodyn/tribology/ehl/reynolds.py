@@ -68,16 +68,16 @@ def squeeze_of(
     last = before[-1]
     step = time - last.time
     if len(before) == 1:
-        own, mass, place = 1.0, last.mass, last.place
+        weight, mass, place = 1.0, last.mass, last.place
     else:
         ratio = step / (last.time - before[-2].time)
         older = ratio * ratio / (1.0 + ratio)
-        own = (1.0 + 2.0 * ratio) / (1.0 + ratio)
+        weight = (1.0 + 2.0 * ratio) / (1.0 + ratio)
         mass, place = (
             (1.0 + ratio) * new - older * old for new, old in zip(last[1:], before[-2][1:], strict=True)
         )
     way = step * speed
-    return Squeeze(own * half_width / way, mass / (way * film_unit), place / way)
+    return Squeeze(weight * half_width / way, mass / (way * film_unit), place / way)
 
 
 def mesh_speed(squeeze: Squeeze, end: float, grid: FilmGrid) -> Array:

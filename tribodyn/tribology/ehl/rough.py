@@ -150,10 +150,10 @@ def rough_residual(
     mobility = volume * fluidity / grid.step[:last]
     by_density = volume * fluidity * gradient / dense - share * middle
     by_gap = volume * fluidity * gradient * (3.0 / middle + widened * unit / factor) - share * dense
-    own = -mobility + volume * gradient * slope[:-1] * upstream + by_density * w[1] * growth[:-1]
+    diagonal = -mobility + volume * gradient * slope[:-1] * upstream + by_density * w[1] * growth[:-1]
     following = mobility + volume * gradient * slope[1:] * downstream + by_density * w[2] * growth[1:]
     matrix[face[:-1], face[:-1]] = following[:-1]
-    matrix[face[1:], face[1:] - 1] = own[1:]
+    matrix[face[1:], face[1:] - 1] = diagonal[1:]
     matrix[face[2:], face[2:] - 2] = (by_density * w[0])[2:] * growth[1:-2]
     column = inner + face
     matrix[face, column + 1] = by_gap * w[2] * opened[1 : last + 1]

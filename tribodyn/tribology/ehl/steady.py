@@ -155,10 +155,10 @@ def _roughened(
         done, imbalance = 0.0, math.nan
         while factor > 1.02 and done < 1.0:
             part = whole._replace(**{name: share * getattr(whole, name)})
-            found, steps, imbalance = converged(state, reduced._replace(roughness=part), grid, closure)
+            solved, steps, imbalance = converged(state, reduced._replace(roughness=part), grid, closure)
             total += steps
             if imbalance <= TOLERANCE:
-                state, done, factor = found, share, factor**1.5
+                state, done, factor = solved, share, factor**1.5
             elif done == 0.0:
                 break
             else:
@@ -177,10 +177,10 @@ def _continued(
     while way >= _SHORTEST_WAY and done < 1.0:
         share = min(done + way, 1.0)
         softer = reduced._replace(fluid=reduced.fluid.softened(share))
-        found, steps, imbalance = converged(state, softer, grid, closure)
+        solved, steps, imbalance = converged(state, softer, grid, closure)
         total += steps
         if imbalance <= TOLERANCE:
-            state, done, way = found, share, 2.0 * way
+            state, done, way = solved, share, 2.0 * way
         else:
             way *= 0.5
     return state, total, imbalance if done >= 1.0 else math.nan
@@ -221,17 +221,17 @@ def _drawn_in(reduced: Reduced, grid: FilmGrid, central: float, thick: Array, mo
     """Pressures of an incompressible fluid drawn into a given gap, up to a share of the reduced pressure."""
     thick = np.maximum(thick, 0.1 * central)
     rise = reduced.speed * (thick - central) / thick**3
-    drawn = np.concatenate([[0.0], np.cumsum(0.5 * (rise[1:] + rise[:-1]) * grid.step)])
-    known, saturating = _reduced_pressure(reduced.hertz_pressure, reduced.fluid)
-    return np.interp(np.clip(drawn, 0.0, most * saturating[-1]), saturating, known)
+    inflow = np.concatenate([[0.0], np.cumsum(0.5 * (rise[1:] + rise[:-1]) * grid.step)])
+    pressures, saturating = _reduced_pressure(reduced.hertz_pressure, reduced.fluid)
+    return np.interp(np.clip(inflow, 0.0, most * saturating[-1]), saturating, pressures)
 
 
 def _reduced_pressure(scale: float, fluid: Fluid) -> tuple[Array, Array]:
     """∫ η0/η dP over P, as a table up to three times Hertz's pressure."""
-    known = np.concatenate([[0.0], np.geomspace(1e-12, 3.0, 600)])
-    fluidity = np.exp(-log_viscosity(scale * known, fluid)[0])
-    steps = 0.5 * np.diff(known) * (fluidity[1:] + fluidity[:-1])
-    return known, np.concatenate([[0.0], np.cumsum(steps)])
+    pressures = np.concatenate([[0.0], np.geomspace(1e-12, 3.0, 600)])
+    fluidity = np.exp(-log_viscosity(scale * pressures, fluid)[0])
+    steps = 0.5 * np.diff(pressures) * (fluidity[1:] + fluidity[:-1])
+    return pressures, np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def _loaded(

@@ -59,9 +59,9 @@ def spread(duty: DutyRange, count: int) -> tuple[Array, Array]:
     ended = 0.5 - 0.5 * np.cos(math.pi * points)
     ends = np.log(np.array(duty[:4]))
     low, width = ends[:, 0], np.diff(ends, axis=1)[:, 0]
-    found = low + width * ended[:, :4]
+    duties = low + width * ended[:, :4]
     if not duty.places:
-        return found, np.ones(count, dtype=bool)
+        return duties, np.ones(count, dtype=bool)
     along = np.arange(count) % BOXED != 0
     path = np.log(np.maximum(np.array(duty.places), [0.0, 0.0, duty.slide_to_roll[0]]))
     step = np.diff(path, axis=0) / np.maximum(width[1:], 1e-6)
@@ -69,10 +69,10 @@ def spread(duty: DutyRange, count: int) -> tuple[Array, Array]:
     place = ended[:, 1] * way[-1]
     on_path = np.stack([np.interp(place, way, values) for values in path.T], axis=1)
     slowest, fastest = ends[1] - np.array([path[:, 0].min(), path[:, 0].max()])
-    beside = (2.0 * points[:, 4:] - 1.0) * _BESIDE
-    on_path += np.column_stack([slowest + (fastest - slowest) * ended[:, 2], beside])
-    found[along, 1:] = on_path[along]
-    return np.clip(found, ends[:, 0], ends[:, 1]), along
+    offset = (2.0 * points[:, 4:] - 1.0) * _BESIDE
+    on_path += np.column_stack([slowest + (fastest - slowest) * ended[:, 2], offset])
+    duties[along, 1:] = on_path[along]
+    return np.clip(duties, ends[:, 0], ends[:, 1]), along
 
 
 def solve_one(contact: Contact, duty: Array, step: float = STEP) -> Array:
@@ -81,12 +81,12 @@ def solve_one(contact: Contact, duty: Array, step: float = STEP) -> Array:
     fluid, modulus, roughness, *_ = contact
     problem = LineContact(line_load, 1.0 / curvature, speed, fluid, modulus, ratio * speed, roughness)
     try:
-        found = solve_coupled(problem, contact.rheology, contact.thermal, step=step)
+        coupled = solve_coupled(problem, contact.rheology, contact.thermal, step=step)
     except SimulationError:
         return np.full(3, np.nan)
-    gap = np.interp(0.0, found.solution.place, found.solution.mean_gap)
-    friction = max(found.friction / line_load, 1e-12)
-    return np.array([math.log(gap), math.log(friction), found.solution.asperity_load_ratio])
+    gap = np.interp(0.0, coupled.solution.place, coupled.solution.mean_gap)
+    friction = max(coupled.friction / line_load, 1e-12)
+    return np.array([math.log(gap), math.log(friction), coupled.solution.asperity_load_ratio])
 
 
 def solve_all(contact: Contact, duties: Array) -> Array:
@@ -98,11 +98,11 @@ def solve_all(contact: Contact, duties: Array) -> Array:
         for at in steps(range(0, len(duties), workers)):
             values[at] = solve_one(contact, duties[at])
         for number, process in enumerate(others, start=1):
-            known = _answer(process)
+            solutions = _answer(process)
             rows = range(number, len(duties), workers)
-            if known is None:  # it could not be begun, or was killed
-                known = [solve_one(contact, duties[row]) for row in rows]
-            values[rows] = known
+            if solutions is None:  # it could not be begun, or was killed
+                solutions = [solve_one(contact, duties[row]) for row in rows]
+            values[rows] = solutions
     except KeyboardInterrupt as error:
         error.add_note("nothing is kept of the table of solved contacts, the same call solves them anew")
         raise
@@ -191,9 +191,9 @@ def table_over(contact: Contact, duty: DutyRange) -> ContactTable:
     Raises SimulationError if too few of the contacts can be solved.
     """
     digest = hashlib.sha256(digest_of(__name__) + repr((contact, duty)).encode()).hexdigest()
-    made = lambda: _made(contact, duty)._asdict()  # noqa: E731
-    found = arrays_kept_or_made(CACHE, digest, made)
-    values: dict[str, Any] = {name: value if value.ndim else float(value) for name, value in found.items()}
+    fit = lambda: _made(contact, duty)._asdict()  # noqa: E731
+    arrays = arrays_kept_or_made(CACHE, digest, fit)
+    values: dict[str, Any] = {name: value if value.ndim else float(value) for name, value in arrays.items()}
     return ContactTable(**values)
 
 
@@ -202,19 +202,19 @@ def _made(contact: Contact, duty: DutyRange) -> ContactTable:
     middle, half = ends.mean(axis=1), np.maximum(0.5 * np.diff(ends, axis=1)[:, 0], 1e-6)
     duties, along = spread(duty, MOST)
     values = np.zeros((0, 3))
-    found = None
+    table = None
     foretell(
         f"solves {FIRST} to {MOST} contacts of the teeth, once, at about {A_CONTACT:g} s of one core each"
     )
     for count in range(FIRST, MOST + 1, MORE):
         with part(len(values) / MOST, count / MOST):
             values = np.concatenate([values, solve_all(contact, duties[len(values) : count])])
-        found = _fitted(contact, (middle, half), duties[:count], values, along[:count])
-        if max(found.film_error, found.friction_error) <= WANTED:
+        table = _fitted(contact, (middle, half), duties[:count], values, along[:count])
+        if max(table.film_error, table.friction_error) <= WANTED:
             break
-    assert found is not None
+    assert table is not None
     low, high = friction_band(contact, _along(duty))
-    return found._replace(friction_low=low, friction_high=high)
+    return table._replace(friction_low=low, friction_high=high)
 
 
 def _along(duty: DutyRange) -> list[tuple[float, float, float, float]]:
@@ -252,10 +252,10 @@ def _fitted(
     powers = np.array([np.prod(place ** np.array(term), axis=1) for term in TERMS]).T
     same = np.ones_like(film)
     coefficients = [
-        _solved(powers[used], known[used], counts[used])
-        for known, counts in ((film, same), (saturation, weight), (share, same))
+        _solved(powers[used], quantity[used], counts[used])
+        for quantity, counts in ((film, same), (saturation, weight), (share, same))
     ]
-    by_film, by_saturation, by_share = (powers @ known for known in coefficients)
+    by_film, by_saturation, by_share = (powers @ quantity for quantity in coefficients)
     mixed = mixed_friction(by_saturation, np.clip(by_share, 0.0, 1.0), most, rubbing)
     deviations = np.abs(np.expm1(by_film - film)), np.abs(mixed * np.exp(-friction) - 1.0)
     errors = (float(np.quantile(deviation[compared], 0.95)) for deviation in deviations)
@@ -268,14 +268,14 @@ def _fitted(
     )
 
 
-def _solved(powers: Array, known: Array, weight: Array) -> Array:
+def _solved(powers: Array, values: Array, weight: Array) -> Array:
     # a little stiffness, so that no high power grows from noise
-    stiff = np.diag(_STIFFNESS * np.sqrt(len(known)) * np.array([sum(term) for term in TERMS], float))
+    stiff = np.diag(_STIFFNESS * np.sqrt(len(values)) * np.array([sum(term) for term in TERMS], float))
     system = np.concatenate([powers * weight[:, None], stiff])
-    right = np.concatenate([known * weight, np.zeros(len(TERMS))])
+    right = np.concatenate([values * weight, np.zeros(len(TERMS))])
     return np.ascontiguousarray(np.linalg.lstsq(system, right, rcond=None)[0])
 
 
-def table_of(given: LawInput) -> ContactTable:
+def table_of(inputs: LawInput) -> ContactTable:
     """Return the table of a case; raises as `contact_of`, `table_over` and the case's duty."""
-    return table_over(contact_of(given), given.duty())
+    return table_over(contact_of(inputs), inputs.duty())

@@ -50,7 +50,7 @@ def march(
     radius and speeds may change with the time, fluid and roughness may not. Raises InputError if a value has
     no meaning, SimulationError where the shortest step does not converge.
     """
-    known, before = [start], [_snapshot(start, float(times[0]))]
+    earlier, before = [start], [_snapshot(start, float(times[0]))]
     for goal in times[1:]:
         whole = shorter = float(goal) - before[-1].time
         while (missing := float(goal) - before[-1].time) > 1e-9 * whole:
@@ -59,8 +59,8 @@ def march(
                 step = min(step, _GROWTH * (before[1].time - before[0].time))
             # equal parts, so that no sliver is left
             step = missing / math.ceil(missing / step - 1e-9)
-            found = _stepped(instant_at, before[-1].time + step, before, known)
-            if found is None:
+            solution = _stepped(instant_at, before[-1].time + step, before, earlier)
+            if solution is None:
                 shorter = 0.5 * step
                 if shorter < _SHORTEST * whole:
                     problem = instant_at(before[-1].time + step).problem
@@ -70,24 +70,24 @@ def march(
                         "its load may rise faster than the oil is drawn in; start again from a steady contact"
                     )
                 continue
-            known = [known[-1], found]
-            before = [before[-1], _snapshot(found, before[-1].time + step)]
-        yield known[-1]
+            earlier = [earlier[-1], solution]
+            before = [before[-1], _snapshot(solution, before[-1].time + step)]
+        yield earlier[-1]
 
 
 def _stepped(
-    instant_at: Callable[[float], Instant], time: float, before: list[Snapshot], known: list[Solution]
+    instant_at: Callable[[float], Instant], time: float, before: list[Snapshot], earlier: list[Solution]
 ) -> Solution | None:
     """Return the solution at a time; None: Newton's method did not converge."""
     problem, closure = instant_at(time)
     check(problem)
-    last = known[-1]
+    last = earlier[-1]
     closure = last.closure if closure is None else closure
     reduced, grid = reduced_problem(problem), last.grid
     squeeze = squeeze_of(time, before, problem.half_width, problem.entrainment_speed, problem.film_unit)
     guess = _same_film(last, problem)
-    if len(known) == 2:
-        guess = _gone_on(known[0], known[1], (time - before[1].time) / (before[1].time - before[0].time))
+    if len(earlier) == 2:
+        guess = _gone_on(earlier[0], earlier[1], (time - before[1].time) / (before[1].time - before[0].time))
     state, steps, imbalance = converged(guess, reduced, grid, closure, squeeze, MOST_STEPS)
     if not imbalance <= TOLERANCE:
         return None

@@ -37,9 +37,9 @@ class SmoothFilm(NamedTuple):
     log_roughness: Any  # of σ in m
 
 
-def smooth_film_of(given: LawInput) -> SmoothFilm:
+def smooth_film_of(inputs: LawInput) -> SmoothFilm:
     """Return the parameters."""
-    surfaces = given.surfaces
+    surfaces = inputs.surfaces
     log_modulus = log(surfaces.effective_modulus)
     return SmoothFilm(
         log_modulus,

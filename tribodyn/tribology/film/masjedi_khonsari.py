@@ -123,9 +123,9 @@ def in_ranges(contact, surfaces, parameters):
     return (*fitted, *low, *high, _HEAT_HIGH / inlet_heating(contact, surfaces))
 
 
-def rough_film_of(given: LawInput, asperity_log_factor: float = 4470.0) -> RoughFilm:
+def rough_film_of(inputs: LawInput, asperity_log_factor: float = 4470.0) -> RoughFilm:
     """Return the parameters; the factor inside the logarithm of the asperity load ratio is the paper's."""
-    surfaces = given.surfaces
+    surfaces = inputs.surfaces
     log_modulus = log(surfaces.effective_modulus)
     return RoughFilm(
         log_modulus=log_modulus,

@@ -14,11 +14,11 @@ def solved_film(contact, surfaces, parameters):
     return polynomial(parameters.film, x, y, z, s), 1.0, asperity_share(parameters, x, y, z, s)
 
 
-def solved_table(given: LawInput) -> Any:
+def solved_table(inputs: LawInput) -> Any:
     """Return the table of a case; it is solved where it is not kept."""
     from tribodyn.tribology.ehl.table import table_of
 
-    return table_of(given)
+    return table_of(inputs)
 
 
 LAW = FilmLaw(

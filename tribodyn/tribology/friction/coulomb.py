@@ -31,10 +31,10 @@ def range_of_constant(contact, film, surfaces, parameters):
 
 
 def mean_of_mesh(
-    given: LawInput, mean: Callable[[NominalConditions], Any], share: Callable[[NominalConditions], Any]
+    inputs: LawInput, mean: Callable[[NominalConditions], Any], share: Callable[[NominalConditions], Any]
 ) -> Constant:
     """Parameters from the conditions at the pitch point: mean coefficient, share that its limits allow."""
-    conditions = given.nominal()
+    conditions = inputs.nominal()
     return Constant(as_float(mean(conditions)), as_float(share(conditions)))
 
 
@@ -62,7 +62,7 @@ def mean_law(
     )
 
 
-def _given(given: LawInput, coefficient: float) -> Constant:
+def _given(_inputs: LawInput, coefficient: float) -> Constant:
     return Constant(as_float(coefficient), float("nan"))
 
 

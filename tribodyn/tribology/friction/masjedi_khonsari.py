@@ -139,7 +139,7 @@ def in_ranges(contact, film, surfaces, parameters):
 
 
 def _mixed(
-    given: LawInput,
+    inputs: LawInput,
     limiting_share: float = 1.0,
     heat_capacity: bool = True,
     lubricant_heat: bool = False,
@@ -151,10 +151,10 @@ def _mixed(
     `heat_capacity`: whether the Péclet numbers contain ρ_s c_p of the solids, as they must to be numbers;
     `lubricant_heat`: whether the density in them is the lubricant's; the others as in `MixedFriction`.
     """
-    surfaces, lubricant = given.surfaces, given.lubricant
+    surfaces, lubricant = inputs.surfaces, inputs.lubricant
     heat = [surfaces.pinion_heat_capacity, surfaces.gear_heat_capacity]
     if lubricant_heat:
-        heat = [lubricant.density * material.specific_heat for material in given.materials]
+        heat = [lubricant.density * material.specific_heat for material in inputs.materials]
     if not heat_capacity:  # the printed Péclet number has none in it; 1 J/(m³ K) is what that amounts to
         heat = [1.0, 1.0]
     return MixedFriction(

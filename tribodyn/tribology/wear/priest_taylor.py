@@ -48,7 +48,7 @@ def priest_taylor(contact, parameters):
     return parameters.coefficient * share
 
 
-def checked(given: Any, **values: float) -> Any:
+def checked(_inputs: Any, **values: float) -> Any:
     """The values of the keys; InputError where the film that separates is not above the other."""
     low, high = values[BOUNDARY.name], values[SEPARATING.name]
     if high <= low:

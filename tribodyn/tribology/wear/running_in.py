@@ -17,8 +17,8 @@ class RunningIn(NamedTuple):
 
     def share_at(self, revolutions: float) -> float:
         """Roughness after so many revolutions over that of new flanks."""
-        left = 1.0 - self.roughness_share
-        return self.roughness_share + left * math.exp(-revolutions / self.revolutions)
+        transient = 1.0 - self.roughness_share
+        return self.roughness_share + transient * math.exp(-revolutions / self.revolutions)
 
     def step_at(self, revolutions: float) -> float:
         """Revolutions in which a tenth of the running-in happens, about."""

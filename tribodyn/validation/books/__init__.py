@@ -19,10 +19,10 @@ def rows_of(book: str, values: Callable[[], Values]) -> Callable[..., list[Row]]
 
     def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
         ours = values()
-        found = [compare(row, _value(ours, key)) for key, row in published(book).items()]
+        comparisons = [compare(row, _value(ours, key)) for key, row in published(book).items()]
         if progress:
             progress(1.0)
-        return found
+        return comparisons
 
     return rows
 
@@ -32,5 +32,5 @@ def _value(values: Values, key: str) -> Any:
     if name in values:
         return values[name]
     name, _, side = name.rpartition("-")
-    found = values.get(name)
-    return found[side == "gear"] if isinstance(found, tuple) else found
+    value = values.get(name)
+    return value[side == "gear"] if isinstance(value, tuple) else value

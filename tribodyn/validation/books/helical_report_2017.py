@@ -61,28 +61,28 @@ MIDDLE_TIPS = {
 
 def _values() -> dict[str, Any]:
     factors = _factors()
-    given = GIVEN | {
+    overrides = GIVEN | {
         "assessment.dynamic_factor": factors["KV"],
         "assessment.transverse_load_factor": factors["KHa"],
     }
-    case, standard, capacity = _rated(given)
+    case, standard, capacity = _rated(overrides)
     named = capacity.by_name()
-    roots = _rated(given | MIDDLE_TIPS)[2].by_name()
+    roots = _rated(overrides | MIDDLE_TIPS)[2].by_name()
     sections = [
-        critical_section(assembled(load_scenario(SCENARIO, given | MIDDLE_TIPS)), side) for side in SIDES
+        critical_section(assembled(load_scenario(SCENARIO, overrides | MIDDLE_TIPS)), side) for side in SIDES
     ]
     ends = shape.thickness_ends()
     assemblies = {
         name: assembled(load_scenario(SCENARIO, allowed))
         for name, allowed in (("", GIVEN), *((end, _thinner(ends[end])) for end in "ei"))
     }
-    found = shape.geometry(assemblies) | measures(ends) | tolerances_1995(2.884) | _loads() | factors
-    found["alfFen"] = both(lambda i: math.degrees(sections[i].load_angle))
-    relieved = _rated(given | {"assessment.tip_relief": "1 mm"})[1]  # X_J 1, as the report has it
+    values = shape.geometry(assemblies) | measures(ends) | tolerances_1995(2.884) | _loads() | factors
+    values["alfFen"] = both(lambda i: math.degrees(sections[i].load_angle))
+    relieved = _rated(overrides | {"assessment.tip_relief": "1 mm"})[1]  # X_J 1, as the report has it
     flash = relieved.flash_bulk, relieved.flash_contact
-    found |= _root(roots, factors) | _flank(named) | films(case, standard)
-    found |= scuffed(case, standard, _SPEED, flash)
-    return found | _masses() | _losses(case, standard)
+    values |= _root(roots, factors) | _flank(named) | films(case, standard)
+    values |= scuffed(case, standard, _SPEED, flash)
+    return values | _masses() | _losses(case, standard)
 
 
 def _thinner(allowances: tuple[float, float]) -> dict[str, Any]:
@@ -196,7 +196,7 @@ def _root(named: Mapping[str, Any], factors: Mapping[str, Any]) -> dict[str, Any
     product = both(
         lambda i: math.prod(_sides(named, name)[i] for name in ("Y_delta_relT", "Y_R_relT", "Y_X", "Y_NT"))
     )
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         name: _sides(named, ours, unit)
         for name, ours, unit in (
             ("YF", "Y_F", 1.0),
@@ -215,7 +215,7 @@ def _root(named: Mapping[str, Any], factors: Mapping[str, Any]) -> dict[str, Any
             ("sigFP", "sigma_FP", 1e6),
         )
     }
-    return found | {
+    return values | {
         "sigF": both(lambda i: _sides(named, "sigma_F", 1e6)[i] * more),
         "SF": safety,
         "Ybet": _sides(named, "Y_beta")[0],

@@ -91,26 +91,26 @@ def geometry(assemblies: dict[str, Assembly]) -> dict[str, Any]:
     """Everything of sections 1 and 6 that follows from geometry; assemblies nominal, with A_se and A_si."""
     allowances = thickness_ends()
     working = working_angle()
-    found = _plain(working) | _limits(allowances) | _paths()
+    values = _plain(working) | _limits(allowances) | _paths()
     of_form = {
         name: both(
             lambda i, name=name: 2e3 * float(assemblies[name].tooth(("pinion", "gear")[i]).form_radius)
         )
         for name in assemblies
     }
-    found |= {"dFf": of_form[""], "dFf_e": of_form["e"], "dFf_i": of_form["i"]}
-    found["cF_e"] = both(lambda i: (found["dNf_e"][i] - of_form["i"][i]) / 2.0)
-    found["cF_i"] = both(lambda i: (found["dNf_i"][i] - of_form["e"][i]) / 2.0)
-    found["cF0_i"] = both(lambda i: (found["dNf0_i"][i] - of_form["e"][i]) / 2.0)
+    values |= {"dFf": of_form[""], "dFf_e": of_form["e"], "dFf_i": of_form["i"]}
+    values["cF_e"] = both(lambda i: (values["dNf_e"][i] - of_form["i"][i]) / 2.0)
+    values["cF_i"] = both(lambda i: (values["dNf_i"][i] - of_form["e"][i]) / 2.0)
+    values["cF0_i"] = both(lambda i: (values["dNf0_i"][i] - of_form["e"][i]) / 2.0)
     for name in ("dFa", "dNa", "dNf", "dFf"):
         for end in "ei":
-            found[f"xsi_{name}_{end}"] = both(
+            values[f"xsi_{name}_{end}"] = both(
                 lambda i, name=name, end=end: math.degrees(
-                    math.sqrt((found[f"{name}_{end}"][i] / BASES[i]) ** 2 - 1.0)
+                    math.sqrt((values[f"{name}_{end}"][i] / BASES[i]) ** 2 - 1.0)
                 )
             )
-    found["Lmin"] = 1e3 * float(contact_lines(assemblies[""]).minimum)
-    return found
+    values["Lmin"] = 1e3 * float(contact_lines(assemblies[""]).minimum)
+    return values
 
 
 def contact_ratio() -> float:
@@ -139,8 +139,8 @@ def _plain(working: float) -> dict[str, Any]:
 
     def sliding(name: str, of: int) -> float:
         first, second = points[name][0], points[name][1] / RATIO
-        own, other = (first, second) if of == 0 else (second, first)
-        return (own - other) / own
+        velocity, other = (first, second) if of == 0 else (second, first)
+        return (velocity - other) / velocity
 
     return {
         "u": RATIO,
@@ -201,10 +201,10 @@ def _limits(allowances: dict[str, tuple[float, float]]) -> dict[str, Any]:
     roots = {
         end: both(lambda i, end=end: REFERENCE[i] - 2.0 * MODULE * (1.25 - shifts[end][i])) for end in "ei"
     }
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for end, other in ("ei", "ie"):
         points = path_points(tips[other], centres[end])
-        found |= {
+        values |= {
             f"da_{end}": tips[end],
             f"dFa_{end}": tips[end],
             f"dNa_{end}": tips[end],
@@ -227,15 +227,15 @@ def _limits(allowances: dict[str, tuple[float, float]]) -> dict[str, Any]:
             f"As_{end}": allowances[end],
             f"Aa_{end}": ALLOWANCE if end == "e" else -ALLOWANCE,
         }
-        found[f"sFan_{end}"] = found[f"san_{end}"]
-    return found | _tight(allowances, tips["e"], roots["e"])
+        values[f"sFan_{end}"] = values[f"san_{end}"]
+    return values | _tight(allowances, tips["e"], roots["e"])
 
 
 def _tight(
     allowances: dict[str, tuple[float, float]], tips: tuple[float, float], roots: tuple[float, float]
 ) -> dict[str, Any]:
     """Backlash, and the centre distance without it."""
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for end in "ei":
         # both gears thinner: inv α_w of contact on both flanks
         thinner = sum(allowances[end])
@@ -248,7 +248,7 @@ def _tight(
         pitch_diameter = BASES[0] / math.cos(angle)
         open_by = 2.0 * far * (_involute(angle) - both_flanks)
         wide = "e" if end == "i" else "i"  # the greatest backlash is of the thinnest teeth
-        found |= {
+        values |= {
             f"aControl_{end}": centres,
             f"jta_{end}": centres - CENTRES,
             f"jtw_{wide}": open_by,
@@ -259,9 +259,9 @@ def _tight(
         }
         if end == "i":
             points = path_points(tips, centres)
-            found["dNf0_i"] = both(lambda i, points=points: math.hypot(BASES[i], 2.0 * points["AE"[i]][i]))
-            found["c0_i"] = both(lambda i, centres=centres: centres - tips[i] / 2.0 - roots[1 - i] / 2.0)
-    return found
+            values["dNf0_i"] = both(lambda i, points=points: math.hypot(BASES[i], 2.0 * points["AE"[i]][i]))
+            values["c0_i"] = both(lambda i, centres=centres: centres - tips[i] / 2.0 - roots[1 - i] / 2.0)
+    return values
 
 
 def _inverse(value: float) -> float:
@@ -273,12 +273,12 @@ def _inverse(value: float) -> float:
 
 def _paths() -> dict[str, Any]:
     """The path of contact, nominal and at the ends of the tolerances."""
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for end, (tips, centres) in CASES.items():
         points = path_points(tips, centres)
         length = points["E"][0] - points["A"][0]
-        found |= {f"T_{name}{end}": place for name, place in points.items()}
-        found |= {
+        values |= {f"T_{name}{end}": place for name, place in points.items()}
+        values |= {
             f"g_alpha{end}": length,
             f"T1T2{end}": sum(points["C"]),
             f"d_B{end}": both(lambda i, points=points: math.hypot(BASES[i], 2.0 * points["B"][i])),
@@ -288,11 +288,11 @@ def _paths() -> dict[str, Any]:
             ),
         }
         if end:
-            found |= {f"eps_alpha{end}": length / PITCH, f"eps_gamma{end}": length / PITCH + OVERLAP}
+            values |= {f"eps_alpha{end}": length / PITCH, f"eps_gamma{end}": length / PITCH + OVERLAP}
         else:
-            found |= {"eps_a": length / PITCH, "eps_g": length / PITCH + OVERLAP}
-    middle = (found["eps_alpha_e"] + found["eps_alpha_i"]) / 2.0
-    return found | {"eps_alpha_m": middle, "eps_gamma_m": middle + OVERLAP}
+            values |= {"eps_a": length / PITCH, "eps_g": length / PITCH + OVERLAP}
+    middle = (values["eps_alpha_e"] + values["eps_alpha_i"]) / 2.0
+    return values | {"eps_alpha_m": middle, "eps_gamma_m": middle + OVERLAP}
 
 
 def thickness_ends() -> dict[str, tuple[float, float]]:

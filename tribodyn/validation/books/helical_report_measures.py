@@ -40,7 +40,7 @@ def measures(allowances: dict[str, tuple[float, float]]) -> dict[str, Any]:
         return virtual * math.sin(thickness / virtual)
 
     arcs = both(lambda i: normal_thickness(i, REFERENCE[i]))
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         "DM": both(lambda i: _theoretical_ball(gears[i], REFERENCE[i] + 2.0 * SHIFTS[i] * MODULE)),
         "Wk": spans,
         "MrK": both(lambda i: radial(i, 0.0)),
@@ -58,7 +58,7 @@ def measures(allowances: dict[str, tuple[float, float]]) -> dict[str, Any]:
         ),
     }
     for end in "ei":
-        found |= {
+        values |= {
             f"Wk_{end}": both(lambda i, end=end: span(gears[i], teeth[i], allowances[end][i])),
             f"dWk_{end}": both(lambda i, end=end: allowances[end][i] * math.cos(ALPHA)),
             f"MrK_{end}": both(lambda i, end=end: radial(i, allowances[end][i])),
@@ -67,7 +67,7 @@ def measures(allowances: dict[str, tuple[float, float]]) -> dict[str, Any]:
             f"sc_{end}": both(lambda i, end=end: chord(i, allowances[end][i])),
             f"sn_{end}": both(lambda i, end=end: arcs[i] + allowances[end][i]),
         }
-    return found
+    return values
 
 
 def _theoretical_ball(gear: Involute, diameter: float) -> float:
@@ -91,7 +91,7 @@ def tolerances_1995(total_contact_ratio: float) -> dict[str, Any]:
     def whole(value: float) -> float:
         return 1e6 * tolerances.rounded(value)
 
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         name: both(lambda i, field=field: whole(getattr(of(i), field)))
         for name, field in (
             ("fptT", "single_pitch"),
@@ -111,8 +111,8 @@ def tolerances_1995(total_contact_ratio: float) -> dict[str, Any]:
     mean = (math.sqrt(280.0 * 560.0), REFERENCE[1])
     radial = both(lambda i: math.sqrt(2.0) * (3.2 * MODULE + 1.01 * math.sqrt(mean[i]) + 6.4))
     tooth = both(lambda i: math.sqrt(2.0) * (2.96 * MODULE + 0.01 * math.sqrt(REFERENCE[i]) + 0.8))
-    return found | {
-        "fpbT": both(lambda i: round(found["fptT"][i] * math.cos(TRANSVERSE), 1)),
+    return values | {
+        "fpbT": both(lambda i: round(values["fptT"][i] * math.cos(TRANSVERSE), 1)),
         "Fpk8T": both(
             lambda i: whole(tolerances.sector_pitch_1995(6, MODULE * 1e-3, sizes[i], TEETH[i] // 8))
         ),
@@ -121,6 +121,6 @@ def tolerances_1995(total_contact_ratio: float) -> dict[str, Any]:
         "FidT": both(lambda i: float(round(radial[i]))),
         "fidT": both(lambda i: float(round(tooth[i]))),
         # ISO/TR 10064-3: bearings twice as far apart as the face is wide
-        "fSigbet": found["FbT"][1],
-        "fSigdel": 2.0 * found["FbT"][1],
+        "fSigbet": values["FbT"][1],
+        "fSigdel": 2.0 * values["FbT"][1],
     }

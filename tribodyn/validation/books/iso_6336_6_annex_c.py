@@ -51,7 +51,7 @@ def _values() -> dict[str, Any]:
     curve = _extended(reference)
     classes = list(_classes())
     first = classes[0]
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         "Z_L": influence.lubricant[0],
         "Z_v": influence.speed[0],
         "sigma_HP1": 1e-6 * permissible(_STEEL, influence.of(0)).stress[0],
@@ -68,16 +68,16 @@ def _values() -> dict[str, Any]:
     greatest = safety(bins, curve)
     for one, shape, number in zip(classes, shapes, cycles, strict=True):
         stress = greatest * shape
-        known = one.face_load_factor == first.face_load_factor  # to more digits than the table has
-        endured = curve.endured(1e6 * (stress if known else printed[f"sigma_HxS_H-{one.name}"]))
-        found |= {
+        same = one.face_load_factor == first.face_load_factor  # to more digits than the table has
+        endured = curve.endured(1e6 * (stress if same else printed[f"sigma_HxS_H-{one.name}"]))
+        values |= {
             f"n_30y-{one.name}": number,
             f"sigma_HxS_H-{one.name}": stress,
-            f"Z_NT-{one.name}": 1e6 * (stress if known else printed[f"sigma_HxS_H-{one.name}"]) / reference,
+            f"Z_NT-{one.name}": 1e6 * (stress if same else printed[f"sigma_HxS_H-{one.name}"]) / reference,
             f"N_i-{one.name}": endured,
             f"U_i-{one.name}": number / endured,
         }
-    return found
+    return values
 
 
 def _extended(reference: float) -> StressCurve:

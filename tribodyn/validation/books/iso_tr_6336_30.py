@@ -119,11 +119,11 @@ def _capacity() -> dict[str, Any]:
     )
     stiffness = iso6336.reference_stiffness(pair)
     dynamic = _dynamic(path, stiffness, tangential / 0.1)
-    found, influence = pitting.geometry(mesh), pitting.influences(mesh, (_STEEL, _STEEL))
+    geometry, influence = pitting.geometry(mesh), pitting.influences(mesh, (_STEEL, _STEEL))
     after = 8.4179e-6 - load_factors.running_in("case-hardened", 1500e6, 2.664).of(8.4179e-6)
     load = tangential / 0.1 * dynamic * _FACE
     across = load_factors.transverse_factor_b((path.contact_ratio, overlap), stiffness.mesh, after, load)
-    stress = pitting.contact_stress(found, dynamic * _FACE * across)
+    stress = pitting.contact_stress(geometry, dynamic * _FACE * across)
     cycles = _both(lambda i: _HOURS * 3600.0 * _SPEED / (2.0 * math.pi) / (1.0, path.ratio)[i])
     life = _both(lambda i: contact_factors(_STEEL.treatment).at(cycles[i]))
     permitted = _both(lambda i: 1500.0 * influence.of(i) * life[i])
@@ -132,7 +132,7 @@ def _capacity() -> dict[str, Any]:
     return {
         "S_H": _both(lambda i: 1e6 * permitted[i] / stress[i]),
         "sigma_HP": permitted,
-        "sigma_H0": 1e-6 * found.nominal,
+        "sigma_H0": 1e-6 * geometry.nominal,
         "sigma_H": _both(lambda i: 1e-6 * stress[i]),
         "F_t": tangential,
         "v": _SPEED * radii[0],
@@ -148,11 +148,11 @@ def _capacity() -> dict[str, Any]:
         "Z_R": influence.roughness[0],
         "Z_v": influence.speed[0],
         "Z_L": influence.lubricant[0],
-        "Z_beta": found.helix,
-        "Z_eps": found.contact_ratio,
-        "Z_E": 1e-3 * found.elasticity,
-        "Z_B": found.single_pair,
-        "Z_H": found.zone,
+        "Z_beta": geometry.helix,
+        "Z_eps": geometry.contact_ratio,
+        "Z_E": 1e-3 * geometry.elasticity,
+        "Z_B": geometry.single_pair,
+        "Z_H": geometry.zone,
         "c_prime": 1e-9 * stiffness.single_pair,
         "c_th": 1e-9 * stiffness.theoretical,
         "c_gamma_alpha": 1e-9 * stiffness.mesh,

@@ -89,8 +89,8 @@ def _values() -> dict[str, Any]:
     capacity = capacity_of(case, assembly, factors, life_bins(case, assembly, factors), case.settings)
     assert capacity is not None, "the material has a heat treatment"
     sheet, named = geometry_sheet(assembly), capacity.by_name()
-    found = shape.geometry(sheet) | shape.measures() | _loads(standard) | _roots(assembly) | dynamic
-    return found | _strength(named, standard) | scuffed(case, standard, stiffness, _K)
+    values = shape.geometry(sheet) | shape.measures() | _loads(standard) | _roots(assembly) | dynamic
+    return values | _strength(named, standard) | scuffed(case, standard, stiffness, _K)
 
 
 def _loads(standard: Any) -> dict[str, Any]:
@@ -179,16 +179,16 @@ def _dynamic(stiffness: iso6336.ReferenceStiffness) -> dict[str, Any]:
         5.0,
         (hard, hard),
     )
-    found = load_factors.dynamic_factor(mesh)
+    dynamic = load_factors.dynamic_factor(mesh)
     crooked = 1.33 * 6e-6 + gear.total_helix
     straightened = load_factors.helix_running_in("case-hardened", 1510e6, 5.749).of(crooked)
-    raised = line_load * found.factor
+    raised = line_load * dynamic.factor
     face = load_factors.face_load_factor_c(crooked - straightened, stiffness.mesh_face, raised)
     after = base_pitch - hard.of(base_pitch)
     across = load_factors.transverse_factor_b((1.43615, 0.0), stiffness.mesh, after, raised * 1.32)
     return {
-        "K_v": found.factor,
-        "N": found.resonance_ratio,
+        "K_v": dynamic.factor,
+        "N": dynamic.resonance_ratio,
         "m_red": 1e-3 * mass,
         "c_gamma_alpha": 1e-9 * stiffness.mesh,
         "c_gamma_beta": 1e-9 * stiffness.mesh_face,
@@ -223,7 +223,7 @@ def _strength(named: dict[str, Any], standard: Any) -> dict[str, Any]:
     permitted = _LIMIT * product * named["Z_X"]
     relative = pair(lambda i: 950.0 * both("Y_delta_relT")[i] * both("Y_R_relT")[i] * both("Y_X")[i])
     rz10 = 1.8 * (10.0 / 8.38205) ** (1.0 / 3.0)
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         "K_Fbeta": named["K_Fbeta"],
         "N_L": both("N_L", 1e6),
         "sigma_H": contact,
@@ -272,12 +272,12 @@ def _strength(named: dict[str, Any], standard: Any) -> dict[str, Any]:
     modulus = 210e9 / (1.0 - 0.09)
     pressure = micropitting.hertz_pressure(load, radii, modulus)
     for number, (p, rho) in enumerate(zip(pressure, radii, strict=True), 1):
-        found |= {
+        values |= {
             f"p_H_{number}": 1e-6 * float(p),
             f"rho_{number}": 1e3 * float(rho),
             f"b_H_{number}": 1e3 * 4.0 * float(rho * p) / modulus,
         }
-    return found
+    return values
 
 
 rows = rows_of(BOOK, _values)

@@ -44,7 +44,7 @@ def scuffed(case: Any, standard: Any, stiffness: ReferenceStiffness, factor: flo
     friction = scuffing.flash_friction(
         line_load * factor, float(sum(speeds)), radius, lubricant, case.mean_roughness
     )
-    found = {
+    values = {
         "eta_40": 1e3 * float(oil.viscosity(313.15)),
         "eta_100": 1e3 * float(oil.viscosity(373.15)),
         "eta_oil": 1e3 * viscosity,
@@ -84,8 +84,8 @@ def scuffed(case: Any, standard: Any, stiffness: ReferenceStiffness, factor: flo
         "theta_S": strength.scuffing - 273.15,
         "S_B": scuffing.flash_safety(strength.scuffing, standard.flash_contact, case.oil_temperature),
     }
-    found |= {f"Gamma_{name}": float(gamma) for name, gamma in zip("ABCDE", gammas, strict=True)}
-    return found | _flashes(case, standard, friction, flanks, factor, 1e-6 * found["C_eff_fla"])
+    values |= {f"Gamma_{name}": float(gamma) for name, gamma in zip("ABCDE", gammas, strict=True)}
+    return values | _flashes(case, standard, friction, flanks, factor, 1e-6 * values["C_eff_fla"])
 
 
 def _flashes(

@@ -108,8 +108,8 @@ def _step_at_pitch_point(flexible: PairFlexibility) -> tuple[bool, str]:
     path: Any = flexible.assembly.path
     angle = float(path.pressure_angle(0.0))
     full = torque / (path.gear_pitch_radius * math.cos(angle))
-    beside = np.array([[-1e-7], [1e-7]])
-    before, after = LoadedFlanks(flexible).share(beside, torque, mu).normal_load[:, 0] / full
+    both_sides = np.array([[-1e-7], [1e-7]])
+    before, after = LoadedFlanks(flexible).share(both_sides, torque, mu).normal_load[:, 0] / full
     slope = mu * math.tan(angle)
     agree = bool(abs(before * (1.0 - slope) - 1.0) < 1e-4 and abs(after * (1.0 + slope) - 1.0) < 1e-4)
     return agree, f"OC4: {before:.4f} to {after:.4f}"

@@ -155,8 +155,8 @@ def _two_panels(
     """Two panels over the roll angle, the curves drawn of what stands behind their titles; and the first."""
     figure = new_figure(height=3.1)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    for letter, axes, (title, given) in zip("ab", panels, panels_of.items(), strict=True):
-        curves(axes, given)
+    for letter, axes, (title, panel_data) in zip("ab", panels, panels_of.items(), strict=True):
+        curves(axes, panel_data)
         axes.axvline(0.0, color=QUIET, linewidth=0.6)
         axes.set_title(title)
         axes.set_xlabel(ROLL)

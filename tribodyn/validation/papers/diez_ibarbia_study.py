@@ -252,8 +252,8 @@ def course_by_equal_loads(scenario: Scenario, shift: float, condition: str) -> C
     ends = -before, after
     # in pitches from the pitch point, with a point on either side of every jump
     jumps = [end + step for end in ends for step in (-2, -1, 1, 2) if -before < end + step < after]
-    beside = [jump + side for jump in jumps for side in (-1e-9, 1e-9)]
-    at = np.sort(np.concatenate([np.linspace(*ends, _POINTS), beside]))
+    near_jumps = [jump + side for jump in jumps for side in (-1e-9, 1e-9)]
+    at = np.sort(np.concatenate([np.linspace(*ends, _POINTS), near_jumps]))
     pairs = np.floor(after - at) + np.floor(at + before) + 1.0
     pitch = 2.0 * math.pi / drive().pinion.teeth
     share = 1.0 / pairs

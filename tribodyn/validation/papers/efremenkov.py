@@ -83,7 +83,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         "efremenkov/vs-range": f"r_b 2 mm; {ranges[0]:.4f} and {ranges[1]:.4f} mm/s with 1.2 and 2.8 mm",
     }
     locked = {key for key, value in otherwise.items() if value is None}
-    beside = {
+    alternatives = {
         "corrected speeds": {key: value for key, value in otherwise.items() if key not in locked},
         "corrected speeds, the gear locks": dict.fromkeys(locked),
         "r_b 2.8 mm, rolling arm 1e-6 m": _columns(results[COLUMNS]),
@@ -92,8 +92,10 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     claims, other = (_claims(results, begin) for begin in (PUBLISHED, CORRECTED))
     values |= {key: value for key, (value, _) in claims.items()}
     notes |= {key: note for key, (_, note) in claims.items()}
-    beside["corrected speeds"] |= {key: value for key, (value, _) in other.items()}
-    return compare_paper(PAPER, {key: (value, notes.get(key, "")) for key, value in values.items()}, beside)
+    alternatives["corrected speeds"] |= {key: value for key, (value, _) in other.items()}
+    return compare_paper(
+        PAPER, {key: (value, notes.get(key, "")) for key, value in values.items()}, alternatives
+    )
 
 
 def _run(path: Path, scenario: str, changes: dict[str, str]) -> FinishedRun:
@@ -120,7 +122,7 @@ def _table(result: FinishedRun) -> dict[str, Any]:
 
 def _of_the_text(results: dict[str, FinishedRun | None]) -> dict[str, Any]:
     """Numbers of the text, from runs by `CHANGES`; None for a gear that locks."""
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         f"efremenkov/ns-max{end or '-r2-20'}": None if result is None else float(result.loss.max())
         for end, result in results.items()
     }
@@ -129,7 +131,7 @@ def _of_the_text(results: dict[str, FinishedRun | None]) -> dict[str, Any]:
     assert larger is not None
     assert largest is not None
     falls = smallest and float(smallest.loss.max() - largest.loss.max())
-    return found | {
+    return values | {
         "efremenkov/ns-max-change-rb": falls,
         "efremenkov/ns-max-change-r2": float(base.loss.max() - larger.loss.max()),
         "efremenkov/efficiency": base.summary["efficiency"],

@@ -174,17 +174,17 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         for unmodified in (0, 8)
         for relief in (4, 8, 12)
     }
-    for done, (key, given) in enumerate(ratios.items(), start=1):
-        values[key] = _ratio(*given)
+    for done, (key, printed) in enumerate(ratios.items(), start=1):
+        values[key] = _ratio(*printed)
         if progress:
             progress(done / len(ratios))
     values |= _families()
     values |= tables()
-    beside: dict[str, dict[str, Any]] = {}
+    alternatives: dict[str, dict[str, Any]] = {}
     for key, (_, _, *others) in values.items():
         for choice, value in others:
-            beside.setdefault(choice, {})[key] = value
-    return compare_paper(PAPER, {key: given[:2] for key, given in values.items()}, beside)
+            alternatives.setdefault(choice, {})[key] = value
+    return compare_paper(PAPER, {key: printed[:2] for key, printed in values.items()}, alternatives)
 
 
 def tables() -> dict[str, tuple[Any, ...]]:
@@ -199,38 +199,38 @@ def tables() -> dict[str, tuple[Any, ...]]:
         sort: [state._replace(misalignment=float(minutes)) for minutes in range(4)]
         for sort, state in (("unmodified", base), ("crowned", CROWNED))
     }
-    found: dict[str, tuple[Any, ...]] = {}
+    ratios: dict[str, tuple[Any, ...]] = {}
     lower = True
     for kind, of in kinds.items():
         for sort, states in tilted.items():
             over = [of("parabolic", state) / of("involute", state) for state in states]
             lower = lower and max(over) < 1.0
             # without misalignment the unmodified gears are the rows of Table 2
-            found[f"jia/families-{kind}-{sort}"] = over[1:] if sort == "unmodified" else over, ""
+            ratios[f"jia/families-{kind}-{sort}"] = over[1:] if sort == "unmodified" else over, ""
             for name in DRIVES if kind != "contact" else ():
-                own = [of(name, state) / of(name, states[0]) for state in states[1:]]
-                found[f"jia/misaligned-{kind}-{name}-{sort}"] = own, ""
+                over_unmodified = [of(name, state) / of(name, states[0]) for state in states[1:]]
+                ratios[f"jia/misaligned-{kind}-{name}-{sort}"] = over_unmodified, ""
         if kind != "contact":
             values = [of("parabolic", state) / of("parabolic", base) for state in relief]
-            found[f"jia/crown-{kind}-0"], found[f"jia/crown-{kind}-8"] = (values[:3], ""), (values[3:], "")
+            ratios[f"jia/crown-{kind}-0"], ratios[f"jia/crown-{kind}-8"] = (values[:3], ""), (values[3:], "")
             stresses = [of(name, base) / 1e6 for name in DRIVES]
-            found[f"jia/stress-{kind}"] = stresses, "involute, parabolic"
+            ratios[f"jia/stress-{kind}"] = stresses, "involute, parabolic"
     for key, after, before in (
         ("modified-at-3", tilted["crowned"][3], tilted["unmodified"][3]),
         ("relief-4-to-12", relief[2], relief[0]),
         ("straight-0-to-8", relief[4], relief[1]),
     ):
-        found[f"jia/{key}"] = [of("parabolic", after) / of("parabolic", before) for of in kinds.values()], ""
+        ratios[f"jia/{key}"] = [of("parabolic", after) / of("parabolic", before) for of in kinds.values()], ""
     pressures = [
         maximum_pressure("parabolic", state).value < maximum_pressure("involute", state).value
         for states in tilted.values()
         for state in states
     ]
     involute, parabolic = (passage(name) for name in DRIVES)
-    found |= positions(involute, parabolic, [passage("parabolic", state) for state in relief])
+    ratios |= positions(involute, parabolic, [passage("parabolic", state) for state in relief])
     note = "line loads and root stresses, modified or not, at 0 to 3 arcmin"
-    found["jia/claim-parabolic-below-involute"] = lower, note, (_PRESSURES, all(pressures))
-    return found
+    ratios["jia/claim-parabolic-below-involute"] = lower, note, (_PRESSURES, all(pressures))
+    return ratios
 
 
 def geometry() -> dict[str, tuple[Any, ...]]:
@@ -296,7 +296,7 @@ def _ratio(
         f"of maximum Hertz pressures {pressures:.4f}"
     )
     if apart:
-        free = [maximum_line_load(name, given._replace(coupled=False)).value for given in (state, base)]
+        free = [maximum_line_load(name, state_of._replace(coupled=False)).value for state_of in (state, base)]
         note += f"; of line loads on slices that do not hold each other {free[0] / free[1]:.4f}"
     return maximum.value / maximum_line_load(name, base).value, note, (_PRESSURES, pressures)
 

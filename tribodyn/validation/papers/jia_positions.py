@@ -34,22 +34,22 @@ def positions(
     exits = {name: [one.place(name) for one in (parabolic, *relieved)] for name in stresses[1:]}
     prefix = "jia/claim-"
 
-    def said(places: Sequence[float]) -> str:
+    def text_of(places: Sequence[float]) -> str:
         return ", ".join(f"{place:+.2f}" for place in places) + " of the way from P to the last contact"
 
     return {
         f"{prefix}involute-largest-near-the-middle": (
             all(abs(place) <= NEAR for place in middle),
-            f"line load, compression, tension at {said(middle)}",
+            f"line load, compression, tension at {text_of(middle)}",
         ),
         f"{prefix}contact-largest-near-the-pitch-circle": (
             all(abs(place) <= NEAR for place in contact),
-            f"line load of the relieved gears at {said(contact)}",
+            f"line load of the relieved gears at {text_of(contact)}",
         ),
         **{
             f"{prefix}{name}-largest-before-the-exit": (
                 all(place >= 1.0 - NEAR for place in places),
-                f"unmodified, then relieved at {said(places)}",
+                f"unmodified, then relieved at {text_of(places)}",
             )
             for name, places in exits.items()
         },

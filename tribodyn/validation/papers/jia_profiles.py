@@ -61,9 +61,9 @@ def paths(_: Path) -> Figure:
     figure = new_figure(WIDTH, 0.95 * PANEL_HEIGHT)
     axes = figure.subplots()
     for colour, k in zip(_colours(), COEFFICIENTS, strict=True):
-        made = gears(k, k)
-        path = made.path
-        along = path.signed_distance(np.linspace(*made.roll_limits, 201))
+        pair = gears(k, k)
+        path = pair.path
+        along = path.signed_distance(np.linspace(*pair.roll_limits, 201))
         axes.plot(*(MM * np.stack(position(path, along))), color=colour, label=f"$k_1 = k_2$ = {k:g}")
     for line in (axes.axhline, axes.axvline):
         line(0.0, color="k", linewidth=0.6)
@@ -79,9 +79,9 @@ def teeth(name: str, _: Path) -> Figure:
     figure = new_figure(WIDTH, PANEL_HEIGHT + 1.2)
     panels = figure.subplots(1, 2, sharey=True, sharex=True)
     for colour, k in zip(_colours(), COEFFICIENTS, strict=True):
-        made = gears(**{name: k})
+        pair = gears(**{name: k})
         for axes, side in zip(panels, SIDES, strict=True):
-            _draw_tooth(axes, half_tooth(made, side), color=colour, label=f"${name[0]}_{name[1]}$ = {k:g}")
+            _draw_tooth(axes, half_tooth(pair, side), color=colour, label=f"${name[0]}_{name[1]}$ = {k:g}")
     for letter, axes, side in zip("ab", panels, SIDES, strict=True):
         axes.axhline(0.0, color="k", linewidth=0.6, linestyle="-.")
         axes.set_aspect("equal")
@@ -99,13 +99,13 @@ def _draw_tooth(axes: Axes, half: np.ndarray, **style: Any) -> None:
 
 def racks(_: Path) -> Figure:
     """Rack-cutters of pinion and gear, k1 = k2 = 0.32, as they fit into each other."""
-    made = gears()
-    pitch = MM * rack_outline(made, "pinion").pitch
+    pair = gears()
+    pitch = MM * rack_outline(pair, "pinion").pitch
     figure = new_figure(WIDTH, PANEL_HEIGHT)
     axes = figure.subplots()
     # against the pinion's the gear's stands half a pitch further on
     for side, first, colour, style in zip(SIDES, (-1.0, -1.5), PALETTE, ("-", "--"), strict=False):
-        across, up = MM * rack_profile(made, side).T
+        across, up = MM * rack_profile(pair, side).T
         for number in range(4):
             label = "" if number else f"rack-cutter of the {side}"
             place = across + (first + number) * pitch
@@ -121,14 +121,14 @@ def racks(_: Path) -> Figure:
 
 def relieved_teeth(_: Path) -> Figure:
     """Three teeth of the modified pinion as a grid, the relief of its flanks exaggerated."""
-    made = gears()
-    width, radius = float(made.drive.pinion.face_width), float(made.path.pinion_pitch_radius)
+    pair = gears()
+    width, radius = float(pair.drive.pinion.face_width), float(pair.path.pinion_pitch_radius)
     place = np.linspace(-width / 2.0, width / 2.0, 26)
-    half = half_tooth(made, "pinion")[::4]
+    half = half_tooth(pair, "pinion")[::4]
     missing = EXAGGERATED * along_face(modified(CROWNED).lead, width, place)
     # all of it from the form circle up, none at the root circle
     shares = np.interp(
-        half[:, 1] + radius, [float(made.pinion.root_radius), float(made.pinion.form_radius)], [0, 1]
+        half[:, 1] + radius, [float(pair.pinion.root_radius), float(pair.pinion.form_radius)], [0, 1]
     )
     across = half[:, :1] - shares[:, None] * missing
     up = np.repeat(half[:, 1:], place.size, axis=1) + radius
@@ -137,7 +137,7 @@ def relieved_teeth(_: Path) -> Figure:
     figure = new_figure(WIDTH, 4.4)
     axes: Any = figure.add_subplot(projection="3d")
     for tooth in (-1, 0, 1):
-        turn = 2.0 * np.pi / float(made.drive.pinion.teeth) * tooth
+        turn = 2.0 * np.pi / float(pair.drive.pinion.teeth) * tooth
         x, y = across * np.cos(turn) + up * np.sin(turn), up * np.cos(turn) - across * np.sin(turn) - radius
         grid = MM * np.stack([x, np.broadcast_to(place, x.shape), y])
         axes.plot_surface(

@@ -63,16 +63,16 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     for name, pair in (("teeth by finite elements", elements), (APART, apart)):
         means = [1e6 * s.summary["transmission_error_normal_mean"] for s in pair]
         values[_ABOVE] = values[_ABOVE][0], f"{values[_ABOVE][1]}; {name} {means[0]:.2f}, {means[1]:.2f} µm"
-    beside = {
+    alternatives = {
         choice: _numbers(pair, dry) | _claims(pair, dry) | courses(pair)
         for choice, pair in zip(CHOICES.values(), others, strict=True)
     }
-    beside[ROTATIONAL] = _errors(*([s._replace(rotational=True) for s in pair] for pair in (wet, dry)))
-    beside[APART] = {_ABOVE: _errors(apart, dry)[_ABOVE]}
+    alternatives[ROTATIONAL] = _errors(*([s._replace(rotational=True) for s in pair] for pair in (wet, dry)))
+    alternatives[APART] = {_ABOVE: _errors(apart, dry)[_ABOVE]}
     return compare_paper(
         PAPER,
         values,
-        {choice: {key: value for key, (value, _) in beside[choice].items()} for choice in beside},
+        {choice: {key: value for key, (value, _) in alternatives[choice].items()} for choice in alternatives},
     )
 
 
@@ -91,8 +91,8 @@ def _numbers(wet: Sequence[Steady], dry: Sequence[Steady]) -> dict[str, tuple[An
         "liu-ni/load-stcp-6dof": (crc_dry.single_load(), ""),
         "liu-ni/load-stcp-mbd": (None, ""),
         **{
-            f"liu-ni/friction-pair{pair}-{name}": (float(found.summary["friction_force_mean"][pair]), weak)
-            for name, found in (("crc", crc), ("involute", involute))
+            f"liu-ni/friction-pair{pair}-{name}": (float(run.summary["friction_force_mean"][pair]), weak)
+            for name, run in (("crc", crc), ("involute", involute))
             for pair in (1, 0)
         },
         "liu-ni/efficiency-crc": (crc.summary["efficiency"], ""),

@@ -178,14 +178,14 @@ def error_and_spectrum(records: Path) -> Figure:
     with _opened(records, tuple(MODELS.values())) as opened:
         pitches = [float(record.mesh_cycle["pitch_point_phase"]) for record in opened]
         for number, (label, record) in enumerate(zip(MODELS, opened, strict=True)):
-            found, window = steady_spectrum(record)
+            spectrum, window = steady_spectrum(record)
             time, error = _error(record, View(3, "time"))
             late = (pitches[0] - pitches[number]) / window.mesh_frequency * 1e3
             above.plot(time + late, error, color=PALETTE[number], linewidth=0.9, label=label)
             above.set_xlim(0.0, 2e3 / window.mesh_frequency)
             places = np.arange(1, ORDERS + 1) * window.mesh_frequency
             at = places + (0.6 * number - 0.3)
-            below.vlines(at, 0.0, 1e6 * found.harmonics(ORDERS), color=PALETTE[number], linewidth=2.2)
+            below.vlines(at, 0.0, 1e6 * spectrum.harmonics(ORDERS), color=PALETTE[number], linewidth=2.2)
             below.plot([], [], color=PALETTE[number], label=label)
     above.set_xlabel("Time (ms)")
     above.set_ylabel(ERROR)

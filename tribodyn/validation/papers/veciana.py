@@ -172,6 +172,6 @@ def _friction(law: Law, slide_to_roll: float) -> float:
     radius, speed, pressure = 5e-3, 5.0, 2e9
     slid = slide_to_roll * speed
     load = 2.0 * math.pi * radius * pressure**2 / EFFECTIVE_MODULUS
-    given = (load, 1 / radius, speed, slid, speed + slid / 2, speed - slid / 2)
-    contact = local_contact(*(np.array([value]) for value in given))
+    conditions = (load, 1 / radius, speed, slid, speed + slid / 2, speed - slid / 2)
+    contact = local_contact(*(np.array([value]) for value in conditions))
     return float(surface_state(contact, closure_of(law)).friction_coefficient[0])

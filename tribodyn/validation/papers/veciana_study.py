@@ -67,8 +67,8 @@ _NAMES: dict[Law, str] = {
 def closure_of(name: Law) -> Closure:
     """Return the surfaces and laws of a reading."""
     friction = FRICTION_LAWS[_NAMES[name]]
-    given = LawInput(SURFACES, LUBRICANT, (STEEL, STEEL), without_nominal_conditions)
-    return closure(given, FILM_LAWS[friction.film], friction)
+    inputs = LawInput(SURFACES, LUBRICANT, (STEEL, STEEL), without_nominal_conditions)
+    return closure(inputs, FILM_LAWS[friction.film], friction)
 
 
 class DriveUnderLaw(NamedTuple):
@@ -133,8 +133,8 @@ class DriveUnderLaw(NamedTuple):
         from scipy.optimize import brentq
 
         level = self.involute()
-        found: Any = brentq(lambda circle: float(self.cycloid(circle)) - level, 0.1, 0.4, xtol=1e-7)
-        return float(found)
+        root: Any = brentq(lambda circle: float(self.cycloid(circle)) - level, 0.1, 0.4, xtol=1e-7)
+        return float(root)
 
 
 def contact_height(pair: UnitContact) -> float:

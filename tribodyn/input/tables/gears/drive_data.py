@@ -89,8 +89,8 @@ def mean_roughness(drive: DriveTable) -> float:
 
     σ/√π where only that is given, of two equal flanks with normally distributed heights.
     """
-    own = _mean_roughnesses(drive)
-    return cast(float, drive.roughness) / math.sqrt(math.pi) if None in own else sum(cast(Any, own)) / 2.0
+    both = _mean_roughnesses(drive)
+    return cast(float, drive.roughness) / math.sqrt(math.pi) if None in both else sum(cast(Any, both)) / 2.0
 
 
 def roughness_of(drive: DriveTable) -> float:
@@ -104,8 +104,8 @@ def roughness_of(drive: DriveTable) -> float:
 
 
 def _mean_roughnesses(drive: DriveTable) -> list[float | None]:
-    own = drive.pinion.mean_roughness, drive.gear.mean_roughness
-    return [drive.mean_roughness if roughness is None else roughness for roughness in own]
+    of_gears = drive.pinion.mean_roughness, drive.gear.mean_roughness
+    return [drive.mean_roughness if roughness is None else roughness for roughness in of_gears]
 
 
 def teeth_of(drive: DriveTable) -> dict[str, Any]:
@@ -169,10 +169,10 @@ def gives_backlash(drive: DriveTable) -> bool:
     return drive.centre_distance is not None or any(gives_thickness(gear) for gear in gears)
 
 
-def backlash_of(drive: DriveTable, given: float | None) -> float | None:
-    """Return the normal backlash (m): as `given`, else of the drive; None where that says nothing."""
-    if given is not None or not gives_backlash(drive):
-        return given
+def backlash_of(drive: DriveTable, backlash: float | None) -> float | None:
+    """Return the normal backlash (m): as `backlash`, else of the drive; None where that says nothing."""
+    if backlash is not None or not gives_backlash(drive):
+        return backlash
     assembly = assembled_on_path(drive)
     with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
         return max(float(normal_backlash(assembly)), 0.0)
@@ -183,9 +183,9 @@ def assembled_on_path(drive: DriveTable) -> Assembly:
 
     Raises InputError as `check_path`.
     """
-    teeth, made = family(drive.family), drive_of(drive)
-    check_path(teeth, made)
-    return Assembly(teeth, made)
+    teeth, drive_numbers = family(drive.family), drive_of(drive)
+    check_path(teeth, drive_numbers)
+    return Assembly(teeth, drive_numbers)
 
 
 def materials_of(drive: DriveTable) -> tuple[MaterialData, MaterialData]:

@@ -35,9 +35,9 @@ def modifications_of(drive: DriveTable, misalignment: MisalignmentTable) -> Modi
     return Modifications(pinion, gear, stand)
 
 
-def slices_of(given: int | None, modifications: Modifications, helical: bool = False) -> int:
+def slices_of(number: int | None, modifications: Modifications, helical: bool = False) -> int:
     """Return the number of slices along the face."""
-    return given or (SLICES if helical or vary_along_lead(modifications) else 1)
+    return number or (SLICES if helical or vary_along_lead(modifications) else 1)
 
 
 class Face(NamedTuple):
@@ -151,7 +151,7 @@ def broken_helix_rules(drive: DriveTable) -> Iterator[InputError]:
 def _broken_hands(drive: DriveTable) -> Iterator[InputError]:
     """Hands without a helix, and hands that contradict each other."""
     other = {"right": "left", "left": "right"}
-    given = [
+    hands = [
         (f"drive.{part}", hand, hand if part != "gear.hand" else other[hand])
         for part, hand in (
             ("hand", drive.hand),
@@ -160,14 +160,14 @@ def _broken_hands(drive: DriveTable) -> Iterator[InputError]:
         )
         if hand is not None
     ]
-    if given and not drive.helix_angle:
-        key, hand, _ = given[0]
+    if hands and not drive.helix_angle:
+        key, hand, _ = hands[0]
         remedy = 'add helix_angle = "20 deg" to [drive], or leave it out'
         yield InputError(key, quoted(hand), "is the hand of a helix, and the gears are spur gears", remedy)
         return
-    for key, hand, of_pinion in given[1:]:
-        if of_pinion != given[0][2]:
-            rule = f"contradicts {given[0][0]} = {quoted(given[0][1])}: external gears have opposite hands"
+    for key, hand, of_pinion in hands[1:]:
+        if of_pinion != hands[0][2]:
+            rule = f"contradicts {hands[0][0]} = {quoted(hands[0][1])}: external gears have opposite hands"
             yield InputError(key, quoted(hand), rule, f"write {quoted(other[hand])}, or leave it out")
 
 
@@ -207,11 +207,11 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
 
 def broken_part_rules(hertz: str, foundation: str, compliance: str) -> Iterator[InputError]:
     """Go through what contradicts between the parts of a compliance, contact and body, and the compliance."""
-    for name, given, refused, part in (
+    for name, value, refused, part in (
         ("hertz", hertz, "load-dependent", "the Hertz contact"),
         ("foundation", foundation, "ring", "the gear bodies"),
     ):
-        if given == refused and compliance != "energy":
+        if value == refused and compliance != "energy":
             rule = f'contradicts compliance = "{compliance}", which contains {part}'
             remedy = f'leave {name} out, or write compliance = "energy"'
-            yield InputError(f"mesh.{name}", f'"{given}"', rule, remedy)
+            yield InputError(f"mesh.{name}", f'"{value}"', rule, remedy)

@@ -59,12 +59,12 @@ def _cutter_teeth(gear: Gear) -> float:
 def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
     """Go through what contradicts an internal gear, and keys of one that is none."""
     for name, gear in (("pinion", drive.pinion), ("gear", drive.gear)):
-        own = [key for key in _OWN if getattr(gear, key) is not None]
-        own += ["profile_shift_of"] if gear.profile_shift_of == "gap" else []
-        own += ["rim"] if gear.rim != "fixed" else []
-        if own and not gear.internal:
+        internal_keys = [key for key in _OWN if getattr(gear, key) is not None]
+        internal_keys += ["profile_shift_of"] if gear.profile_shift_of == "gap" else []
+        internal_keys += ["rim"] if gear.rim != "fixed" else []
+        if internal_keys and not gear.internal:
             rule, remedy = "is of an internal gear", "add internal = true, or leave it out"
-            yield InputError(f"drive.{name}.{own[0]}", rule=rule, remedy=remedy)
+            yield InputError(f"drive.{name}.{internal_keys[0]}", rule=rule, remedy=remedy)
         if gear.internal and (gear.pins is None) == (gear.rim == "pins"):
             rule, remedy = (
                 ('rim = "pins" needs their number', "give pins")

@@ -136,8 +136,8 @@ def broken_quality_rules(drive: DriveTable) -> Iterator[InputError]:
         key = "drive.quality" if gear.quality is None else f"drive.{name}.quality"
         normal, transverse = modules_of(drive)
         sizes = gear.teeth, normal, transverse * gear.teeth, gear.face_width
-        for said in outside(*sizes, drive.quality_edition):
-            rule = f"the tolerances of ISO 1328-1:{drive.quality_edition} do not cover the {name}: {said}"
+        for limit in outside(*sizes, drive.quality_edition):
+            rule = f"the tolerances of ISO 1328-1:{drive.quality_edition} do not cover the {name}: {limit}"
             yield InputError(key, grade, rule, "leave the quality out, and give deviations of your own")
 
 

@@ -195,9 +195,9 @@ def _broken_table(key: str, table: FlankErrors, gear: Gear) -> Iterator[InputErr
         yield InputError(key, None, rule, "measure every tooth at the same heights and places on the face")
 
 
-def with_own_teeth(mesh: MeshData, own: tuple[OwnTeeth, OwnTeeth]) -> MeshData:
+def with_own_teeth(mesh: MeshData, teeth: tuple[OwnTeeth, OwnTeeth]) -> MeshData:
     """Return a mesh whose teeth differ by what they have of their own, and no longer by pitch errors."""
     modifications = mesh.modifications
     pinion, gear = (getattr(modifications, side)._replace(pitch_error=()) for side in SIDES)
-    early = sum(each.early for gear in own for each in gear)
+    early = sum(each.early for gear in teeth for each in gear)
     return replace(mesh, modifications=modifications._replace(pinion=pinion, gear=gear), early=early)

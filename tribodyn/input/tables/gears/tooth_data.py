@@ -50,10 +50,10 @@ def helix_of(drive: DriveTable) -> float:
 
 def pinion_hand(drive: DriveTable) -> Hand:
     """Return the hand of the pinion, whose mate has the other: the first that is said, else right."""
-    given = drive.hand or drive.pinion.hand
-    if given is None and drive.gear.hand is not None:
+    hand = drive.hand or drive.pinion.hand
+    if hand is None and drive.gear.hand is not None:
         return "left" if drive.gear.hand == "right" else "right"
-    return given or "right"
+    return hand or "right"
 
 
 def modules_of(drive: DriveTable) -> tuple[float, float]:
@@ -100,9 +100,9 @@ def broken_tooth_rules(drive: DriveTable) -> Iterator[InputError]:
     for name, gear in (("pinion", drive.pinion), ("gear", drive.gear)):
         for what in ("bore", "tip"):
             if getattr(gear, f"{what}_radius") is not None and getattr(gear, f"{what}_diameter") is not None:
-                key, given = f"drive.{name}.{what}_diameter", _shown(gear, f"{what}_diameter")
+                key, diameter = f"drive.{name}.{what}_diameter", _shown(gear, f"{what}_diameter")
                 rule, remedy = f"contradicts {what}_radius, which says the same", "leave one of them out"
-                yield InputError(key, given, rule, remedy)
+                yield InputError(key, diameter, rule, remedy)
         if gear.tip_diameter is not None and gear.addendum is not None:
             rule, remedy = "contradicts tip_diameter, which takes its place", "leave one of them out"
             yield InputError(f"drive.{name}.addendum", gear.addendum, rule, remedy)
@@ -130,9 +130,9 @@ def _broken_roughness(drive: DriveTable) -> Iterator[InputError]:
 
 
 def _broken_thickness(drive: DriveTable, key: str, gear: Gear) -> Iterator[InputError]:
-    given = [name for name in _MEASURES if getattr(gear, name) is not None]
-    for name in given[1:]:
-        rule = f"gives the tooth thickness, as {given[0]} does"
+    measures = [name for name in _MEASURES if getattr(gear, name) is not None]
+    for name in measures[1:]:
+        rule = f"gives the tooth thickness, as {measures[0]} does"
         yield InputError(f"{key}.{name}", _shown(gear, name), rule, "leave one of them out")
     for measure, other in _WITH.items():
         if getattr(gear, measure) is not None and getattr(gear, other) is None:
@@ -146,13 +146,13 @@ def _broken_thickness(drive: DriveTable, key: str, gear: Gear) -> Iterator[Input
     elif gear.thickness_tolerance is not None and gear.thickness_allowance is None:
         rule, remedy = "missing: thickness_tolerance is below it", 'add thickness_allowance = "-60 um"'
         yield InputError(f"{key}.thickness_allowance", None, rule, remedy)
-    measured = given and given[0] in _WITH
+    measured = measures and measures[0] in _WITH
     if measured and drive.family in FAMILIES and not FAMILIES[drive.family].involute:
-        shown = _shown(gear, given[0])
+        shown = _shown(gear, measures[0])
         rule = f"teeth of the family {drive.family} have no measure over a span or pins in closed form"
-        yield InputError(f"{key}.{given[0]}", shown, rule, "give thickness_allowance in its place")
-    elif measured and pressure_angle_of(drive) is not None and getattr(gear, _WITH[given[0]]) is not None:
-        yield from _impossible_measure(drive, key, gear, given[0])
+        yield InputError(f"{key}.{measures[0]}", shown, rule, "give thickness_allowance in its place")
+    elif measured and pressure_angle_of(drive) is not None and getattr(gear, _WITH[measures[0]]) is not None:
+        yield from _impossible_measure(drive, key, gear, measures[0])
 
 
 def _impossible_measure(drive: DriveTable, key: str, gear: Gear, measure: str) -> Iterator[InputError]:
@@ -224,8 +224,8 @@ def shape_of(drive: DriveTable, family: Family) -> Any:
     """Return the family's shape in SI units; raises the first of `shape_errors`."""
     if family.shape is None:
         return ()
-    given = own_values(Owner(TABLE, "family", family.parameters), drive.shape or {})
-    return family.shape(**{own.name: given.get(own.name, own.default) for own in family.parameters})
+    values = own_values(Owner(TABLE, "family", family.parameters), drive.shape or {})
+    return family.shape(**{key.name: values.get(key.name, key.default) for key in family.parameters})
 
 
 def shape_errors(drive: DriveTable, family: Family) -> list[InputError]:

@@ -69,15 +69,15 @@ def lubricant_of(lubricant: Lubricant, oil_temperature: float | None = None) -> 
 
     Rules as in `broken_lubricant_rules`.
     """
-    given = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
+    specified = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
     stages = oil.FzgStages(
         lubricant.fzg_scuffing_stage, lubricant.fzg_micropitting_stage, lubricant.fzg_micropitting_temperature
     )
     if (sheet := sheet_of(lubricant)) is not None and oil_temperature is not None:
         return oil.lubricant_from(sheet, oil_temperature, stages)
     typical = oil.by_type(lubricant.type) if lubricant.type else {}
-    numbers: dict[str, Any] = {name: number.value for name, number in typical.items()} | given
-    return oil.LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
+    numbers: dict[str, Any] = {name: number.value for name, number in typical.items()} | specified
+    return oil.LubricantData(**numbers, type=lubricant.type, given=frozenset(specified), fzg=stages)
 
 
 def read_lubricant(name: str, oil_temperature: float) -> oil.LubricantData:
@@ -99,12 +99,12 @@ def sheet_of(lubricant: Lubricant) -> oil.OilSheet | None:
     """Return the data sheet of a lubricant; None where it is given by the numbers that the laws read."""
     if lubricant.type is None or lubricant.viscosity_40 is None:
         return None
-    given = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
+    specified = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
     viscosity_100, density_15 = cast(float, lubricant.viscosity_100), cast(float, lubricant.density_15)
     law = lubricant.viscosity_law
     roelands = law is not None and law.model == "roelands"
     return oil.OilSheet(
-        *(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given),
+        *(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, specified),
         measured_of(law),
         roelands,
     )
@@ -129,18 +129,18 @@ def broken_lubricant_rules(lubricant: Lubricant, oil_temperature: float | None) 
 
 
 def _direct(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
-    known = oil.by_type(lubricant.type) if lubricant.type else {}
+    typical = oil.by_type(lubricant.type) if lubricant.type else {}
     for name, example in _DIRECT.items():
-        if getattr(lubricant, name) is None and name not in known:
+        if getattr(lubricant, name) is None and name not in typical:
             remedy = f"add {name} = {example}"
             if name == "inlet_viscosity":
                 remedy += ", or the data sheet: type, viscosity_40, viscosity_100 and density_15"
             yield InputError(f"lubricant.{name}", rule="missing", remedy=remedy)
     if oil_temperature is not None:
-        given = f"{oil_temperature - oil.ZERO_CELSIUS:.6g} degC"
+        temperature = f"{oil_temperature - oil.ZERO_CELSIUS:.6g} degC"
         rule = "contradicts a lubricant whose inlet_viscosity is given at one temperature"
         remedy = "leave it out, or give the data sheet: type, viscosity_40, viscosity_100 and density_15"
-        yield InputError("operating.oil_temperature", given, rule, remedy)
+        yield InputError("operating.oil_temperature", temperature, rule, remedy)
 
 
 def _sheet(lubricant: Lubricant) -> Iterator[InputError]:
@@ -154,44 +154,44 @@ def _sheet(lubricant: Lubricant) -> Iterator[InputError]:
             rule = "missing: a data sheet needs viscosity_40, viscosity_100 and density_15"
             yield InputError(f"lubricant.{name}", rule=rule, remedy=f"add {name} = {_EXAMPLES[name]}")
     if lubricant.inlet_viscosity is not None:
-        given = f"{lubricant.inlet_viscosity:g} Pa*s"
+        written = f"{lubricant.inlet_viscosity:g} Pa*s"
         rule = (
             "contradicts viscosity_40 and viscosity_100, from which it follows at operating.oil_temperature"
         )
         remedy = "leave it out, or leave out viscosity_40, viscosity_100 and density_15"
-        yield InputError("lubricant.inlet_viscosity", given, rule, remedy)
+        yield InputError("lubricant.inlet_viscosity", written, rule, remedy)
     density = lubricant.density_15
     if density is not None and not DENSITIES[0] <= density <= DENSITIES[1]:
-        given, rule = f"{density:g} kg/m**3", f"oils have {DENSITIES[0]:g} to {DENSITIES[1]:g} kg/m**3"
-        yield InputError("lubricant.density_15", given, rule, f"check the unit: {_EXAMPLES['density_15']}")
+        written, rule = f"{density:g} kg/m**3", f"oils have {DENSITIES[0]:g} to {DENSITIES[1]:g} kg/m**3"
+        yield InputError("lubricant.density_15", written, rule, f"check the unit: {_EXAMPLES['density_15']}")
     at_40, at_100 = lubricant.viscosity_40, lubricant.viscosity_100
     if at_40 is not None and at_40 > THICKEST:
-        given, rule = f"{1e6 * at_40:g} mm**2/s", f"more than {1e6 * THICKEST:g} mm**2/s, which is no oil"
+        written, rule = f"{1e6 * at_40:g} mm**2/s", f"more than {1e6 * THICKEST:g} mm**2/s, which is no oil"
         yield InputError(
-            "lubricant.viscosity_40", given, rule, f"check the unit: {_EXAMPLES['viscosity_40']}"
+            "lubricant.viscosity_40", written, rule, f"check the unit: {_EXAMPLES['viscosity_40']}"
         )
     if at_40 is None or at_100 is None:
         return
-    given = f"{1e6 * at_100:g} mm**2/s"
+    written = f"{1e6 * at_100:g} mm**2/s"
     if at_100 >= at_40:
         rule = f"must be below viscosity_40, {1e6 * at_40:g} mm**2/s: oil gets thinner as it warms up"
-        yield InputError("lubricant.viscosity_100", given, rule, "swap the two, or check the data sheet")
+        yield InputError("lubricant.viscosity_100", written, rule, "swap the two, or check the data sheet")
     elif at_100 < oil.MINIMUM_VISCOSITY:
         rule = f"ASTM D341 holds from {1e6 * oil.MINIMUM_VISCOSITY:g} mm**2/s on"
         remedy = "give inlet_viscosity and the other numbers that the laws read instead of the data sheet"
-        yield InputError("lubricant.viscosity_100", given, rule, remedy)
+        yield InputError("lubricant.viscosity_100", written, rule, remedy)
 
 
 def _temperature(lubricant: Lubricant, temperature: float) -> Iterator[InputError]:
     low, high = (round(limit - oil.ZERO_CELSIUS) for limit in oil.TEMPERATURE_RANGE)
-    key, given = "operating.oil_temperature", f"{temperature - oil.ZERO_CELSIUS:.6g} degC"
+    key, written = "operating.oil_temperature", f"{temperature - oil.ZERO_CELSIUS:.6g} degC"
     if not oil.TEMPERATURE_RANGE[0] <= temperature <= oil.TEMPERATURE_RANGE[1]:
         rule = f"outside {low} to {high} degC, for which viscosity and density are derived from a data sheet"
-        yield InputError(key, given, rule, f"write a temperature from {low} to {high} degC")
+        yield InputError(key, written, rule, f"write a temperature from {low} to {high} degC")
     elif lubricant.viscosity_40 and lubricant.viscosity_100:
         viscosity = oil.kinematic_viscosity(lubricant.viscosity_40, lubricant.viscosity_100, temperature)
         limits = f"{1e6 * oil.MINIMUM_VISCOSITY:g} to {1e6 * oil.MAXIMUM_VISCOSITY:g} mm**2/s"
         if not oil.MINIMUM_VISCOSITY <= viscosity <= oil.MAXIMUM_VISCOSITY:
             rule = f"the oil has {1e6 * viscosity:.2g} mm**2/s there, and ASTM D341 holds from {limits}"
             other = "lower" if viscosity < oil.MINIMUM_VISCOSITY else "higher"
-            yield InputError(key, given, rule, f"write a {other} temperature, or take another oil")
+            yield InputError(key, written, rule, f"write a {other} temperature, or take another oil")

@@ -101,12 +101,12 @@ def broken_viscosity_rules(lubricant: Any) -> Iterator[InputError]:
             continue
         rule = f'contradicts viscosity_law.model = "{table.model}", which says how the viscosity rises'
         yield InputError(f"lubricant.{name}", getattr(lubricant, name), rule, "leave one of the two out")
-    given = {name for name in type(table).model_fields if getattr(table, name) is not None} - {"model"}
+    present = {name for name in type(table).model_fields if getattr(table, name) is not None} - {"model"}
     needed = _KEYS[table.model]
-    if missing := [name for name in needed if name not in given]:
+    if missing := [name for name in needed if name not in present]:
         rule = f'missing: model = "{table.model}" needs {", ".join(missing)}'
         yield InputError(f"{_PLACE}.{missing[0]}", None, rule, "give the constants of the oil's publication")
-    if idle := [name for name in type(table).model_fields if name in given and name not in needed]:
+    if idle := [name for name in type(table).model_fields if name in present and name not in needed]:
         of = [model for model, keys in _KEYS.items() if idle[0] in keys]
         rule = f'no effect with model = "{table.model}": {", ".join(idle)}'
         remedy = f"leave out what has none, or write model = {quoted(of[0])}"

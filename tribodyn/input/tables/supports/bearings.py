@@ -95,14 +95,14 @@ def bearing_of(bearing: Bearing) -> BearingData:
     )
 
 
-def broken_bearing_rules(bearings: Bearings, drawn: Collection[str] = ()) -> Iterator[InputError]:
+def broken_bearing_rules(bearings: Bearings, drawn_sides: Collection[str] = ()) -> Iterator[InputError]:
     """Go through what is wrong with the bearings of a pair of gears, and what is missing.
 
-    Nothing is missing of gears whose shafts are `drawn`.
+    Nothing is missing of gears whose shafts are `drawn_sides`.
     """
     yield from broken_bearings(bearings, [*SIDES, DEFAULT], "gear")
     for side in SIDES:
-        if side not in drawn and bearings.of(side) is None:
+        if side not in drawn_sides and bearings.of(side) is None:
             remedy = (
                 f"add [bearings.{side}] with stiffness_x, stiffness_y and damping_ratio, or [shaft.{side}]"
             )
@@ -124,13 +124,13 @@ def broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
         yield from _broken_with_matrix(key, bearing)
         return
     for name in ("stiffness_x", "stiffness_y"):
-        given = getattr(bearing, name)
-        if bearing.rolling is None and given is None:
+        stiffness = getattr(bearing, name)
+        if bearing.rolling is None and stiffness is None:
             remedy = f'add {name} = "1e9 N/m", or the table [{key}.rolling]'
             yield InputError(f"{key}.{name}", rule="missing", remedy=remedy)
-        elif bearing.rolling is not None and given is not None:
+        elif bearing.rolling is not None and stiffness is not None:
             rule = f"contradicts [{key}.rolling], from which it follows"
-            yield InputError(f"{key}.{name}", f"{given:g} N/m", rule, "give the one or the other")
+            yield InputError(f"{key}.{name}", f"{stiffness:g} N/m", rule, "give the one or the other")
     if bearing.stiffness_tilt is not None and bearing.span is not None:
         rule = "contradicts stiffness_tilt, which stands in its place"
         yield InputError(f"{key}.span", f"{1e3 * bearing.span:g} mm", rule, "give the one or the other")

@@ -265,7 +265,7 @@ def _unstable(key: str, shaft: DrawnShaft) -> Iterator[InputError]:
 
 
 def _broken_bearing(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
-    given = [
+    ways = [
         name
         for name, there in (
             ("type", bearing.type is not None),
@@ -274,8 +274,8 @@ def _broken_bearing(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
         )
         if there
     ]
-    if len(given) != 1:
-        rule = f"given as {' and '.join(given)}" if given else "says nothing of how stiff the bearing is"
+    if len(ways) != 1:
+        rule = f"given as {' and '.join(ways)}" if ways else "says nothing of how stiff the bearing is"
         remedy = "give one: type with its sizes, springs such as stiffness_x, or matrix"
         yield InputError(key, None, rule, remedy)
         return

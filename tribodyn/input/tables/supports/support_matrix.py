@@ -20,8 +20,8 @@ EXAMPLE = "six rows of six numbers: x, y, z, tilts about x and y, rotation about
 
 def matrix_of(rows: tuple[tuple[float, ...], ...], unit: str | None) -> tuple[tuple[float, ...], ...]:
     """Return the five by five matrix of a table that breaks no rule, N/m, N and N m/rad; symmetric."""
-    found = _in_si(rows, unit)[:5, :5]
-    return tuple(map(tuple, ((found + found.T) / 2.0).tolist()))
+    matrix = _in_si(rows, unit)[:5, :5]
+    return tuple(map(tuple, ((matrix + matrix.T) / 2.0).tolist()))
 
 
 def _in_si(rows: tuple[tuple[float, ...], ...], unit: str | None) -> Float[Array, "6 6"]:

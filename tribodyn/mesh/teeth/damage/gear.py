@@ -84,12 +84,12 @@ class DamagedTeeth:
         """See `fields.OwnFields`."""
         if self.gear is None:
             raise ValueError("damage acts by the mesh that its gear is in: call in_mesh first")
-        found = None
+        total = None
         for each in self.damage:
             more = each.on_flank(self.gear, flank, places) if each.tooth == tooth else None
             if more is not None:
-                found = more if found is None else found.beside(more)
-        return found
+                total = more if total is None else total.beside(more)
+        return total
 
 
 def strips(gear: DamagedGear, places: FlankPlaces) -> Float[Array, "slice strip"]:
@@ -102,8 +102,8 @@ def strips(gear: DamagedGear, places: FlankPlaces) -> Float[Array, "slice strip"
 
 def arc(gear: DamagedGear, places: FlankPlaces) -> Float[Array, " node"]:
     """Length along the profile (m) from the lowest place of the path of contact, towards the tip."""
-    own = places.distance if gear.loaded.side == "pinion" else -places.distance
-    at = gear.loaded.contact(own)
+    distance = places.distance if gear.loaded.side == "pinion" else -places.distance
+    at = gear.loaded.contact(distance)
     x, y = np.asarray(at.x), np.asarray(at.y)
     steps = np.hypot(np.diff(x), np.diff(y)) * np.sign(np.diff(x))
     length = np.concatenate([[0.0], np.cumsum(steps)])

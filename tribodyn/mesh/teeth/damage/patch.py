@@ -43,9 +43,9 @@ def middle_of(
     height: float | None, radius: float | None, up: Float[Array, " node"], places: FlankPlaces
 ) -> float:
     """Place along the profile (m) at a share of the path of contact's length, or at a radius (m)."""
-    given, at = (height, height_share(places)) if radius is None else (radius, np.abs(places.radius))
+    place, at = (height, height_share(places)) if radius is None else (radius, np.abs(places.radius))
     order = np.argsort(at)
-    return float(np.interp(given or 0.0, at[order], up[order]))
+    return float(np.interp(place or 0.0, at[order], up[order]))
 
 
 def smooth(x: Float[Array, "..."]) -> Float[Array, "..."]:

@@ -53,8 +53,8 @@ class RootCrack:
         shares = np.linspace(0.0, 1.0, _DEPTHS + 1) if self.deepest else np.array([0.0, 1.0])
         added = self._added(gear, places, shares)  # (share, node)
         cracked = np.stack([np.interp(share, shares, node) for node in added.T], axis=-1)
-        own = tooth_compliance(gear.loaded, gear.materials[0], gear.width, places.distance)
-        sound_tooth = own.bending + own.shear + own.axial
+        compliance = tooth_compliance(gear.loaded, gear.materials[0], gear.width, places.distance)
+        sound_tooth = compliance.bending + compliance.shear + compliance.axial
         stiffness = np.mean(1.0 / (sound_tooth + cracked), axis=1)
         return sound(places)._replace(compliance=1.0 / stiffness - sound_tooth)
 

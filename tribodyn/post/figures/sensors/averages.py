@@ -50,18 +50,18 @@ def average_figure(records: Sequence[Record], _view: View) -> Figure:
     figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
     rows = figure.subplots(max(1, len(pairs)), 1, squeeze=False)[:, 0]
     for number, (axes, (one, shaft, teeth)) in enumerate(zip(rows, pairs, strict=True)):
-        found = synchronous_average(one.values, one.signal.turns * shaft.order)
-        left, rest = residual(found.values, teeth), difference(found.values, teeth)
-        place = np.append(found.turn, 1.0)
+        average = synchronous_average(one.values, one.signal.turns * shaft.order)
+        residue, rest = residual(average.values, teeth), difference(average.values, teeth)
+        place = np.append(average.turn, 1.0)
         for values, label, color in (
-            (found.values - np.mean(found.values), "average", QUIET),
-            (left, "residual: without mesh harmonics", PALETTE[5]),
+            (average.values - np.mean(average.values), "average", QUIET),
+            (residue, "residual: without mesh harmonics", PALETTE[5]),
             (rest, "difference: nor first sidebands", PALETTE[1]),
         ):
             axes.plot(place, np.append(values, values[:1]), color=color, linewidth=0.7, label=label)
-        told = f", FM4 {fm4(rest):.3g}" if rms(rest) > FLOOR * rms(found.values) else ""
+        told = f", FM4 {fm4(rest):.3g}" if rms(rest) > FLOOR * rms(average.values) else ""
         name = literal(shaft.name)
-        count = f"{found.turns} turns" if found.turns > 1 else "1 turn"
+        count = f"{average.turns} turns" if average.turns > 1 else "1 turn"
         mark_panel(
             axes, "abcdefgh"[number] if len(pairs) > 1 else "", f"{one.name} over {count} of {name}{told}"
         )

@@ -44,9 +44,9 @@ def shown_signals(records: Sequence[Record]) -> tuple[Sensed, list[ShownSignal]]
     """The signals of the first record that has some; InputError where none has."""
     for record in records:
         sensed = read_sensed(record)
-        found = [_shown(signal) for signal in sensed.signals if len(signal.values) >= FEWEST][:MOST]
-        if found:
-            return sensed, found
+        signals = [_shown(signal) for signal in sensed.signals if len(signal.values) >= FEWEST][:MOST]
+        if signals:
+            return sensed, signals
     path = str(records[0].path)
     raise InputError("record", path, "holds no signals of sensors", "add a [[sensor]] and run it again")
 
@@ -64,8 +64,8 @@ def shafts_of(lines: Sequence[SignalLine]) -> list[SignalLine]:
 def toothed(lines: Sequence[SignalLine]) -> list[tuple[SignalLine, list[int]]]:
     """Shafts with the orders of the meshes of their gears, where these are whole."""
     meshes = [line for line in lines if line.sort == MESH]
-    found = [(shaft, sorted({shaft.teeth_of(mesh) for mesh in meshes} - {0})) for shaft in shafts_of(lines)]
-    return [(shaft, teeth) for shaft, teeth in found if teeth]
+    shafts = [(shaft, sorted({shaft.teeth_of(mesh) for mesh in meshes} - {0})) for shaft in shafts_of(lines)]
+    return [(shaft, teeth) for shaft, teeth in shafts if teeth]
 
 
 def turns_of(signal: SensorSignal, shaft: SignalLine) -> float:

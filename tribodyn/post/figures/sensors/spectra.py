@@ -63,11 +63,11 @@ def order_spectrum_figure(records: Sequence[Record], _view: View) -> Figure:
     rows = figure.subplots(len(shown), 2, squeeze=False, width_ratios=(5, 4))
     colors = line_colors([line for line in sensed.lines if line.sort in (SHAFT, PASS)])
     for number, ((left, right), one) in enumerate(zip(rows, shown, strict=True)):
-        found = order_spectrum(one.values, one.signal.turns)
-        strongest = _draw_orders(left, found, sensed, one)
+        spectrum = order_spectrum(one.values, one.signal.turns)
+        strongest = _draw_orders(left, spectrum, sensed, one)
         left.set_ylabel(f"{one.name} ({one.unit})")
         mark_panel(left, _letter(2 * number, 2 * len(shown)), f"Amplitudes of {one.name}", 1)
-        label = _draw_sidebands(right, found, strongest, colors)
+        label = _draw_sidebands(right, spectrum, strongest, colors)
         mark_panel(right, _letter(2 * number + 1, 2 * len(shown)), f"Beside {label}", 1)
     for axes in rows[-1]:
         axes.set_xlabel(f"Order (cycles per turn of {literal(sensed.reference)})")
@@ -78,15 +78,15 @@ def order_spectrum_figure(records: Sequence[Record], _view: View) -> Figure:
 
 
 def _draw_orders(
-    axes: Axes, found: AmplitudeSpectrum, sensed: Sensed, one: ShownSignal
+    axes: Axes, spectrum: AmplitudeSpectrum, sensed: Sensed, one: ShownSignal
 ) -> tuple[SignalLine, int]:
     """Draw a spectrum with the harmonics of the meshes; returns the highest of them, a mesh and a number."""
     meshes = [line for line in sensed.lines if line.sort == MESH]
     beyond = PASSED * one.signal.rate / one.turning
     limit = min(_HARMONICS * max((line.order for line in meshes), default=beyond), beyond)
-    shown = (found.frequencies > 0.0) & (found.frequencies <= limit)
-    axes.plot(found.frequencies[shown], found.amplitudes[shown], color=PALETTE[0], linewidth=0.7)
-    _logarithmic(axes, found.amplitudes[shown])
+    shown = (spectrum.frequencies > 0.0) & (spectrum.frequencies <= limit)
+    axes.plot(spectrum.frequencies[shown], spectrum.amplitudes[shown], color=PALETTE[0], linewidth=0.7)
+    _logarithmic(axes, spectrum.amplitudes[shown])
     axes.set_xlim(0.0, limit)
     strongest, most = (meshes[0], 1), -1.0
     for line in meshes:
@@ -94,30 +94,32 @@ def _draw_orders(
             axes.axvline(k * line.order, color=QUIET, linewidth=0.6, linestyle=(0, (3, 3)), zorder=0)
             if k == 1 or len(meshes) == 1:
                 name_above(axes, k * line.order, literal(line.name) if k == 1 else f"{k}×", 0)
-            if found.at(k * line.order) > most:
-                strongest, most = (line, k), found.at(k * line.order)
+            if spectrum.at(k * line.order) > most:
+                strongest, most = (line, k), spectrum.at(k * line.order)
     return strongest
 
 
 def _draw_sidebands(
-    axes: Axes, found: AmplitudeSpectrum, strongest: tuple[SignalLine, int], colors: dict[SignalLine, str]
+    axes: Axes, spectrum: AmplitudeSpectrum, strongest: tuple[SignalLine, int], colors: dict[SignalLine, str]
 ) -> str:
     """Draw what lies beside a harmonic of a mesh, with the places of the sidebands; returns its name."""
     line, k = strongest
     middle = k * line.order
-    width = max((_BESIDE + 0.5) * max((beside.order for beside in colors), default=1.0), 20.0 * found.step)
+    width = max(
+        (_BESIDE + 0.5) * max((modulation.order for modulation in colors), default=1.0), 20.0 * spectrum.step
+    )
     width = min(width, 0.5 * line.order)
-    shown = np.abs(found.frequencies - middle) <= width
-    for beside, color in colors.items():
-        label: str | None = f"± n × {literal(beside.name)}"
+    shown = np.abs(spectrum.frequencies - middle) <= width
+    for modulation, color in colors.items():
+        label: str | None = f"± n × {literal(modulation.name)}"
         for n in (*range(-_BESIDE, 0), *range(1, _BESIDE + 1)):
-            place = middle + n * beside.order
+            place = middle + n * modulation.order
             if abs(place - middle) <= width:
                 axes.axvline(place, color=color, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0, label=label)
                 label = None
     axes.axvline(middle, color=QUIET, linewidth=0.8, zorder=0)
-    axes.plot(found.frequencies[shown], found.amplitudes[shown], color=PALETTE[0], linewidth=0.9)
-    _logarithmic(axes, found.amplitudes[shown])
+    axes.plot(spectrum.frequencies[shown], spectrum.amplitudes[shown], color=PALETTE[0], linewidth=0.9)
+    _logarithmic(axes, spectrum.amplitudes[shown])
     axes.set_xlim(middle - width, middle + width)
     label = literal(line.name) if k == 1 else f"{k} × {literal(line.name)}"
     name_above(axes, middle, label, 0)
@@ -133,12 +135,12 @@ def _logarithmic(axes: Axes, amplitudes: np.ndarray) -> None:
 
 def line_colors(lines: Sequence[SignalLine]) -> dict[SignalLine, str]:
     """Colours by which lines are told apart, those that turn, equal ones once."""
-    known: dict[float, SignalLine] = {}
+    by_order: dict[float, SignalLine] = {}
     for line in lines:
         if line.order > 0.0:
-            known.setdefault(round(line.order, 9), line)
+            by_order.setdefault(round(line.order, 9), line)
     colors = (*PALETTE[1:6], INK)
-    return dict(zip(known.values(), colors, strict=False))
+    return dict(zip(by_order.values(), colors, strict=False))
 
 
 def spectrogram_figure(records: Sequence[Record], _view: View) -> Figure:
@@ -159,19 +161,19 @@ def _draw_map(figure: Figure, axes: Axes, one: ShownSignal, meshes: Sequence[Sig
     rate, count = one.signal.rate, len(one.values)
     slowest = min((line.order for line in meshes), default=1.0) * one.turning
     length = int(np.clip(_PERIODS * rate / slowest, 16, max(16, count // 8)))
-    found = spectrogram(one.values, rate, min(length, count), max(1, min(length // 4, count // _PARTS)))
+    spectra = spectrogram(one.values, rate, min(length, count), max(1, min(length // 4, count // _PARTS)))
     highest = max((line.order for line in meshes), default=1.0)
     speed = np.gradient(one.signal.turns, one.signal.time)
     limit = min(_HARMONICS * highest * float(np.max(speed)), PASSED * rate)
-    keep = found.frequencies <= limit
-    time = (one.signal.time[0] + found.time) * 1e3
-    top = float(np.max(found.amplitudes[:, keep]))
+    keep = spectra.frequencies <= limit
+    time = (one.signal.time[0] + spectra.time) * 1e3
+    top = float(np.max(spectra.amplitudes[:, keep]))
     norm = LogNorm(_MAP_FLOOR * top, top) if top > 0.0 else None
-    values = np.maximum(found.amplitudes[:, keep].T, _MAP_FLOOR * top)
+    values = np.maximum(spectra.amplitudes[:, keep].T, _MAP_FLOOR * top)
     if len(time) > 1:
         image = axes.pcolormesh(
             time,
-            found.frequencies[keep] * 1e-3,
+            spectra.frequencies[keep] * 1e-3,
             values,
             norm=norm,
             cmap="viridis",

@@ -84,15 +84,15 @@ def branches(records: Sequence[SweepRecord]) -> list[Branch]:
                 label = f"{record.label}, {label}" if label else record.label
             curves.append((record, place, label))
     colors = colors_of(len(curves))
-    drawn = []
+    all_branches = []
     for number, (record, place, label) in enumerate(curves):
         for d, direction in enumerate(record.directions or ("",)):
             index = (slice(None), *place, *((d,) if direction else ()))
             style = DOWN if direction == "down" else UP
             color = PALETTE[d] if len(curves) == 1 else colors[number]
             x = record.parameters[0].values * shown_unit(record.parameters[0].units)[1]
-            drawn.append(Branch(record, index, x, color, style, label, direction))
-    return drawn
+            all_branches.append(Branch(record, index, x, color, style, label, direction))
+    return all_branches
 
 
 def colors_of(count: int) -> list[str]:
@@ -107,17 +107,17 @@ def chosen_branch(records: Sequence[SweepRecord], at: Mapping[str, float | str])
 
     Of parameters without a value the first is taken.
     """
-    drawn = branches(records[:1])
+    curves = branches(records[:1])
     record = records[0]
     _, *others = record.parameters
     wanted = tuple(
         index_of(parameter.values, parameter.name, at[parameter.name]) if parameter.name in at else 0
         for parameter in others
     )
-    found = [branch for branch in drawn if branch.place[1 : len(record.parameters)] == wanted]
-    count = len(drawn) // len(record.directions or ("",))
+    matching = [branch for branch in curves if branch.place[1 : len(record.parameters)] == wanted]
+    count = len(curves) // len(record.directions or ("",))
     more = f" (one of {count}; choose with --at)" if count > 1 else ""
-    return found, f"{literal(found[0].label)}{more}"
+    return matching, f"{literal(matching[0].label)}{more}"
 
 
 def index_of(values: np.ndarray, name: str, wanted: float | str) -> int:
@@ -174,18 +174,18 @@ def motions(branch: Branch) -> Iterator[tuple[str, dict[str, Any], np.ndarray]]:
             yield label, style, chosen
 
 
-def mark_ends(axes: Axes, drawn: Sequence[Branch]) -> None:
+def mark_ends(axes: Axes, curves: Sequence[Branch]) -> None:
     """Mark, at the lower edge, where branches that were followed end."""
-    for branch in drawn:
+    for branch in curves:
         if "end_value" in branch.record:
             at = branch.values("end_value").ravel() * shown_unit(branch.record.parameters[0].units)[1]
             height = np.full(len(at), 0.03)
             axes.plot(at, height, color=branch.color, transform=axes.get_xaxis_transform(), **ENDS)
 
 
-def draw_unstable(axes: Axes, drawn: Sequence[Branch], name: str, factor: float) -> None:
+def draw_unstable(axes: Axes, curves: Sequence[Branch], name: str, factor: float) -> None:
     """Draw the branches beyond their ends, where a dataset `name` over case, end and motion was recorded."""
-    for branch in drawn:
+    for branch in curves:
         if name not in branch.record:
             continue
         x = branch.values("unstable_value") * shown_unit(branch.record.parameters[0].units)[1]
@@ -194,9 +194,9 @@ def draw_unstable(axes: Axes, drawn: Sequence[Branch], name: str, factor: float)
             axes.plot(x[tuple(at)], y[tuple(at)], color=branch.color, zorder=1.8, **UNSTABLE)
 
 
-def shade_contact_loss(axes: Axes, drawn: Sequence[Branch]) -> None:
+def shade_contact_loss(axes: Axes, curves: Sequence[Branch]) -> None:
     """Shade where contact is lost at times, on any of the branches."""
-    for branch in drawn:
+    for branch in curves:
         if len(branch.x) < 2 or "contact_loss_fraction" not in branch.record:
             continue
         order = np.argsort(branch.x)
@@ -208,29 +208,29 @@ def shade_contact_loss(axes: Axes, drawn: Sequence[Branch]) -> None:
             axes.axvspan(float(edges[first]), float(edges[behind]), color=LOST, linewidth=0, zorder=0)
 
 
-def regime_handles(drawn: Sequence[Branch]) -> list[Artist]:
+def regime_handles(curves: Sequence[Branch]) -> list[Artist]:
     """Entries of a legend for the motions that are marked, and for the loss of contact that is shaded."""
-    marks = {label: style for branch in drawn for label, style, _ in motions(branch)}
+    marks = {label: style for branch in curves for label, style, _ in motions(branch)}
     handles: list[Artist] = [
         Line2D([], [], color=QUIET, linestyle="none", label=label, **style) for label, style in marks.items()
     ]
-    ending = [branch for branch in drawn if "end_value" in branch.record]
+    ending = [branch for branch in curves if "end_value" in branch.record]
     if any(np.isfinite(branch.values("end_value")).any() for branch in ending):
         handles.append(Line2D([], [], color=QUIET, label="a branch ends", **ENDS))
-    continued = [branch for branch in drawn if "unstable_value" in branch.record]
+    continued = [branch for branch in curves if "unstable_value" in branch.record]
     if any(np.isfinite(branch.values("unstable_value")).any() for branch in continued):
         handles.append(Line2D([], [], color=QUIET, label="unstable", **UNSTABLE))
-    known = [branch for branch in drawn if "contact_loss_fraction" in branch.record]
-    if any(np.nanmax(branch.values("contact_loss_fraction"), initial=0.0) > 0.0 for branch in known):
+    judged = [branch for branch in curves if "contact_loss_fraction" in branch.record]
+    if any(np.nanmax(branch.values("contact_loss_fraction"), initial=0.0) > 0.0 for branch in judged):
         handles.append(Patch(color=LOST, label="a curve loses contact"))
     return handles
 
 
 def branch_legend(
-    figure: Figure, drawn: Sequence[Branch], lines: bool = True, marks: Sequence[Artist] = ()
+    figure: Figure, curves: Sequence[Branch], lines: bool = True, marks: Sequence[Artist] = ()
 ) -> None:
     """Put one legend below the figure: branches by colour, directions by line where there are `lines`."""
-    labels = {literal(branch.label): branch.color for branch in drawn if branch.label}
+    labels = {literal(branch.label): branch.color for branch in curves if branch.label}
     if len(labels) > MOST_NAMED:
         first, *_, last = labels
         between = f"… {len(labels) - 2} more in order of colour …"
@@ -239,11 +239,11 @@ def branch_legend(
     handles: list[Artist] = [
         Line2D([], [], color=color, label=label, **plain) for label, color in labels.items()
     ]
-    if any(branch.direction == "down" for branch in drawn):
-        single = len({branch.label for branch in drawn}) == 1
+    if any(branch.direction == "down" for branch in curves):
+        single = len({branch.label for branch in curves}) == 1
         ways: tuple[tuple[str, Any], ...] = ("up", UP), ("down", DOWN)
         for direction, style in ways:
-            color = next((branch.color for branch in drawn if branch.direction == direction), QUIET)
+            color = next((branch.color for branch in curves if branch.direction == direction), QUIET)
             handles.append(
                 Line2D(
                     [],

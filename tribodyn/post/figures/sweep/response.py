@@ -51,9 +51,9 @@ def panels_of(records: Sequence[SweepRecord], quantities: Sequence[Quantity]) ->
         return bool(values.size) and np.ptp(values) > FLAT * np.max(np.abs(values))
 
     quantities = quantities or [described(records[0], name) for name in records[0].quantities]
-    known = [quantity for quantity in quantities if all(quantity.name in record for record in records)]
-    varying = [quantity for quantity in known if varies(quantity.name)]
-    return [ResponsePanel(quantity) for quantity in (varying or known)[:MOST_PANELS]]
+    recorded = [quantity for quantity in quantities if all(quantity.name in record for record in records)]
+    varying = [quantity for quantity in recorded if varies(quantity.name)]
+    return [ResponsePanel(quantity) for quantity in (varying or recorded)[:MOST_PANELS]]
 
 
 def _grid(record: SweepRecord, panels: int, maps: bool = False) -> tuple[Figure, np.ndarray]:
@@ -79,11 +79,11 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[ResponsePan
     if maps_of(records):
         return _maps(records[0], panels)
     figure, rows = _grid(records[0], len(panels))
-    drawn = branches(records)
+    curves = branches(records)
     for letter, axes, (quantity, from_zero) in zip("abcdef", rows.flat, panels, strict=False):
-        for branch in drawn:
+        for branch in curves:
             draw_branch(axes, branch, quantity.in_unit(branch.values(quantity.name)))
-        draw_unstable(axes, drawn, f"unstable_{quantity.name}", quantity.factor)
+        draw_unstable(axes, curves, f"unstable_{quantity.name}", quantity.factor)
         axes.margins(x=0.02)
         axes.set_ylabel(literal(quantity.unit))
         if from_zero:
@@ -91,11 +91,11 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[ResponsePan
         elif np.ptp(axes.dataLim.intervaly) < FLAT * abs(axes.dataLim.y1):
             # a constant: no scale of rounding errors
             axes.set_ylim(0.98 * axes.dataLim.y1, 1.004 * axes.dataLim.y1)
-        shade_contact_loss(axes, drawn)
-        mark_ends(axes, drawn)
+        shade_contact_loss(axes, curves)
+        mark_ends(axes, curves)
         mark_panel(axes, letter, literal(quantity.title))
     figure.align_ylabels()
-    branch_legend(figure, drawn, marks=regime_handles(drawn))
+    branch_legend(figure, curves, marks=regime_handles(curves))
     figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
     return figure
 

@@ -27,8 +27,8 @@ def bifurcation_figure(records: Sequence[SweepRecord]) -> Figure:
     """Draw the points of every case's section over the first parameter."""
     figure = new_figure(WIDTH, PANEL_HEIGHT + 0.9)
     axes = figure.subplots()
-    drawn = branches(records)
-    for branch in drawn:
+    curves = branches(records)
+    for branch in curves:
         points = branch.values("poincare_error") * 1e6
         x = np.repeat(branch.x, points.shape[1]).reshape(points.shape)
         down = branch.direction == "down"
@@ -48,11 +48,11 @@ def bifurcation_figure(records: Sequence[SweepRecord]) -> Figure:
         axes, "", "Once per mesh cycle, at its start: one point where the motion repeats with the mesh"
     )
     axes.margins(x=0.02)
-    mark_ends(axes, drawn)
-    draw_unstable(axes, drawn, "unstable_poincare_error", 1e6)
+    mark_ends(axes, curves)
+    draw_unstable(axes, curves, "unstable_poincare_error", 1e6)
     shown_marks = ("unstable", "a branch ends")
-    marks = [handle for handle in regime_handles(drawn) if handle.get_label() in shown_marks]
-    branch_legend(figure, drawn, lines=False, marks=marks)
+    marks = [handle for handle in regime_handles(curves) if handle.get_label() in shown_marks]
+    branch_legend(figure, curves, lines=False, marks=marks)
     figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
     return figure
 

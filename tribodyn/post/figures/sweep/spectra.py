@@ -44,18 +44,18 @@ def spectra(branch: Branch) -> list[Spectrum | None]:
 def order_amplitudes(branch: Branch, orders: int) -> np.ndarray:
     """Amplitudes (cases, orders) of the mesh orders 1 … orders, m; NaN where a case is not done."""
     none = np.full(orders, np.nan)
-    return np.array([found.harmonics(orders) if found else none for found in spectra(branch)])
+    return np.array([spectrum.harmonics(orders) if spectrum else none for spectrum in spectra(branch)])
 
 
 def _beside(
     records: Sequence[SweepRecord], at: Mapping[str, float | str], height: float
 ) -> tuple[list[Branch], Figure, Sequence[Axes]]:
     """The branches, up and down, nearest to `at`; a figure of a height, inch, with axes for each."""
-    drawn, name = chosen_branch(records, at)
-    figure = new_figure(WIDTH if len(drawn) == 1 else 1.35 * WIDTH, height)
+    curves, name = chosen_branch(records, at)
+    figure = new_figure(WIDTH if len(curves) == 1 else 1.35 * WIDTH, height)
     title = f"{sweep_title(records)}: {name}" if name else sweep_title(records)
     figure.suptitle(title, x=0.01, ha="left", fontsize=9)
-    return drawn, figure, figure.subplots(1, len(drawn), sharex=True, sharey=True, squeeze=False)[0]
+    return curves, figure, figure.subplots(1, len(curves), sharex=True, sharey=True, squeeze=False)[0]
 
 
 def campbell_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str]) -> Figure:
@@ -64,15 +64,15 @@ def campbell_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str
     The area of a marker on an order is the amplitude of the transmission error there. Of several other
     parameters the branch nearest to `at` is drawn, or the first.
     """
-    drawn, figure, panels = _beside(records, at, 4.4)
-    largest = max(float(np.nanmax(order_amplitudes(branch, RAYS))) for branch in drawn) or 1.0
-    for letter, axes, branch in zip("ab", panels, drawn, strict=False):
+    curves, figure, panels = _beside(records, at, 4.4)
+    largest = max(float(np.nanmax(order_amplitudes(branch, RAYS))) for branch in curves) or 1.0
+    for letter, axes, branch in zip("ab", panels, curves, strict=False):
         _draw_modes(axes, branch)
         _draw_orders(axes, branch, largest)
         axes.set_xlabel(axis_label(records[0].parameters[0]))
         way = {"up": "Parameter increasing", "down": "Parameter decreasing"}
         title = way.get(branch.direction, "Modes (dashed) and orders of the mesh frequency $f_m$")
-        mark_panel(axes, letter if len(drawn) > 1 else "", title, 1)
+        mark_panel(axes, letter if len(curves) > 1 else "", title, 1)
     panels[0].set_ylabel("Frequency (kHz)")
     shares = (1.0, 0.5, 0.1)
     figure.legend(
@@ -98,11 +98,11 @@ def _draw_modes(axes: Axes, branch: Branch) -> None:
     modes = branch.values("mode_frequency") * 1e-3
     axes.plot(branch.x, modes, color=QUIET, linestyle=(0, (4, 2)), linewidth=0.9)
     top = 1.15 * float(np.nanmax(modes))
-    known = np.flatnonzero(np.isfinite(modes[:, 0]))
-    first = known[np.argmin(branch.x[known])]
-    found = modes[first][np.isfinite(modes[first])]
-    for _, numbers in apart(found, NAMES_APART * top):
-        low, high = (found[int(number) - 1] for number in (numbers.split("–")[0], numbers.split("–")[-1]))
+    solved = np.flatnonzero(np.isfinite(modes[:, 0]))
+    first = solved[np.argmin(branch.x[solved])]
+    shown = modes[first][np.isfinite(modes[first])]
+    for _, numbers in apart(shown, NAMES_APART * top):
+        low, high = (shown[int(number) - 1] for number in (numbers.split("–")[0], numbers.split("–")[-1]))
         name = (
             f"modes {numbers}: {low:.3g} to {high:.3g} kHz"
             if low < high
@@ -142,16 +142,16 @@ def waterfall_figure(records: Sequence[SweepRecord], at: Mapping[str, float | st
     Up and down beside each other where both were followed; of several other parameters the branch nearest to
     `at`, or the first.
     """
-    drawn, figure, panels = _beside(records, at, 4.6)
-    found = [spectrum for branch in drawn for spectrum in spectra(branch) if spectrum]
-    highest = max(float(spectrum.amplitudes[1:].max()) for spectrum in found) * 1e6 or 1.0
+    curves, figure, panels = _beside(records, at, 4.6)
+    available = [spectrum for branch in curves for spectrum in spectra(branch) if spectrum]
+    highest = max(float(spectrum.amplitudes[1:].max()) for spectrum in available) * 1e6 or 1.0
     norm = LogNorm(highest * LOWEST, highest)
-    limit = max(map(_limit, drawn))
+    limit = max(map(_limit, curves))
     lines: Any = None
-    for letter, axes, branch in zip("ab", panels, drawn, strict=False):
+    for letter, axes, branch in zip("ab", panels, curves, strict=False):
         lines = _draw(axes, branch, norm, limit)
         way = {"up": ", parameter increasing", "down": ", parameter decreasing"}.get(branch.direction, "")
-        mark_panel(axes, letter if len(drawn) > 1 else "", f"Spectra of the transmission error{way}", 2)
+        mark_panel(axes, letter if len(curves) > 1 else "", f"Spectra of the transmission error{way}", 2)
         axes.set_xlabel("Frequency (kHz)")
     panels[0].set_ylabel(axis_label(records[0].parameters[0]))
     bar = figure.colorbar(lines, ax=list(panels), label="Amplitude (µm)", pad=0.02)

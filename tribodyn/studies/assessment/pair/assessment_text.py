@@ -93,14 +93,14 @@ def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, TaskResult]) 
         remarks += result.failures
         if result.summary and not task.needed:
             inside = result.summary.get("friction_in_range_fraction")
-            own = result.summary.get("friction_law") not in laws
-            compared += [task.about] if own and inside is not None and inside < 1.0 else []
+            differs = result.summary.get("friction_law") not in laws
+            compared += [task.about] if differs and inside is not None and inside < 1.0 else []
         elif result.summary:
             with Record(result.path) as record:
                 sentences = study.sentences(record)
             exceeded = [sentence for sentence in sentences if sentence.startswith(EXCEEDED)]
-            found = exceeded or [sentence for sentence in sentences if _BEYOND in sentence]
-            remarks += [f"{task.about.capitalize()}: {sentence}" for sentence in found]
+            statements = exceeded or [sentence for sentence in sentences if _BEYOND in sentence]
+            remarks += [f"{task.about.capitalize()}: {sentence}" for sentence in statements]
     if compared:
         about = "; ".join(compared)
         remarks.append(f"For comparison only, outside the range of the law in part or all: {about}.")

@@ -51,7 +51,7 @@ def by_standard(
 def concluded(
     case: AssessmentCase,
     along: Mapping[str, Any],
-    found: Mapping[str, Any],
+    quantities: Mapping[str, Any],
     motion: Mapping[str, Any] = MappingProxyType({}),
     *,
     accurate: Conclusion | None = None,
@@ -63,14 +63,14 @@ def concluded(
     in slow rotation, with its dynamic factor, are to theirs. `rated` is the rating where it is known.
     """
     assembly = assembled(case)
-    local = local_of(case, assembly, along, found)
+    local = local_of(case, assembly, along, quantities)
     if rated is None:
-        rated = by_standard(case, assembly, found["face_load_factor"], parts.faces_of(case, found))
+        rated = by_standard(case, assembly, quantities["face_load_factor"], parts.faces_of(case, quantities))
     iso, standard, capacity = rated
     factors = standard.factors if standard else None
-    beside = compared(case, assembly, (along, motion), capacity, factors, found)
-    stresses = largest_stresses(case, local, found)
-    strength = beside.strength if accurate is None else accurate.strength_under(stresses)
+    comparison = compared(case, assembly, (along, motion), capacity, factors, quantities)
+    stresses = largest_stresses(case, local, quantities)
+    strength = comparison.strength if accurate is None else accurate.strength_under(stresses)
     judged = margins_and_limits(
         case,
         standard,
@@ -78,8 +78,10 @@ def concluded(
         strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor, case.materials),
         strength.safeties() if strength else {},
         local,
-        found,
+        quantities,
     )
-    simulated = simulated_part(case, assembly, local, found) | (strength.by_name() if strength else {})
+    simulated = simulated_part(case, assembly, local, quantities) | (strength.by_name() if strength else {})
     outcome = Conclusion(local, standard, capacity, iso, simulated, judged)
-    return outcome._replace(stresses=stresses, strength=strength, parted=beside.parted, rests=beside.rests)
+    return outcome._replace(
+        stresses=stresses, strength=strength, parted=comparison.parted, rests=comparison.rests
+    )

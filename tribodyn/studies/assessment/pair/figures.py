@@ -44,8 +44,8 @@ def draw_film(axes: Axes, record: Record) -> None:
     """Specific film along the path of contact, and that of the standard at its points."""
     roll = record["roll_angle"] * 180.0 / math.pi
     axes.plot(roll, record["specific_film"], color=PALETTE[0], label="simulated")
-    iso, own = record.summary.get("iso"), record.summary["point_angles"]
-    angles = [float(own[name]) * 180.0 / math.pi for name in POINTS]
+    iso, angle_of_point = record.summary.get("iso"), record.summary["point_angles"]
+    angles = [float(angle_of_point[name]) * 180.0 / math.pi for name in POINTS]
     if iso:
         axes.plot(
             angles,

@@ -50,18 +50,18 @@ def _of_part(summary: Mapping[str, Any], part: str, name: str) -> list[Judged]:
     if name in _OF_MESH:
         value = summary.get("margins", {}).get(part, {}).get(_OF_MESH[name])
         return [judged_cell(value, name, limits, span=2)]
-    found = summary.get(part, {})
-    return [_of_gear(found, side, name, limits) for side in SIDES]
+    values = summary.get(part, {})
+    return [_of_gear(values, side, name, limits) for side in SIDES]
 
 
-def _of_gear(found: Mapping[str, Any], side: str, name: str, limits: Mapping[str, Any]) -> Judged:
+def _of_gear(values: Mapping[str, Any], side: str, name: str, limits: Mapping[str, Any]) -> Judged:
     keys = _OF_GEARS[name]
     if isinstance(keys, str):
-        return judged_cell(found.get(keys, {}).get(side), name, limits)
+        return judged_cell(values.get(keys, {}).get(side), name, limits)
     lives = [
-        as_life(found[key][side], found.get(key.replace("life", "damage"), {}).get(side) == 0.0)
+        as_life(values[key][side], values.get(key.replace("life", "damage"), {}).get(side) == 0.0)
         for key in keys
-        if key in found
+        if key in values
     ]
     life = shorter_life(*lives)
     return judged_cell(life.get("life"), name, limits, unlimited=bool(life.get("life_unlimited")))

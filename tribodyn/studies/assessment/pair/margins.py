@@ -111,8 +111,8 @@ def load_factor(settings: AssessmentTable, quantities: Mapping[str, Any]) -> flo
     contain the simulation's K_Hβ, which a given one replaces.
     """
     dynamic = settings.dynamic_factor or max(quantities["dynamic_factor"], 1.0)
-    given = settings.face_load_factor
-    face = 1.0 if given is None else given / quantities["face_load_factor"]
+    face_load_factor = settings.face_load_factor
+    face = 1.0 if face_load_factor is None else face_load_factor / quantities["face_load_factor"]
     return settings.application_factor * (settings.mesh_load_factor or 1.0) * dynamic * face
 
 
@@ -124,8 +124,8 @@ def largest_stresses(
     raised, inner = load_factor(case.settings, quantities), sorted(local.points[[2, 4]])
     rated = (local.roll_angle >= inner[0]) & (local.roll_angle <= inner[1])
     pressed = local.films.pressure[rated]
-    known = pressed if np.any(np.isfinite(pressed)) else local.films.pressure
-    return float(np.nanmax(known)), raised * float(root)
+    pressures = pressed if np.any(np.isfinite(pressed)) else local.films.pressure
+    return float(np.nanmax(pressures)), raised * float(root)
 
 
 def simulated_part(
@@ -171,21 +171,21 @@ def simulated_part(
 
 def margins_and_limits(
     case: AssessmentCase,
-    found: Standard | None,
+    standard: Standard | None,
     capacity: Capacity | None,
     strength: Strength,
-    beside: Mapping[str, Any],
+    further: Mapping[str, Any],
     local: LocalValues,
     quantities: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return ``margins`` by ``iso`` and ``simulated``, ``load_factors`` and ``limits``; temperatures in °C.
 
-    The worse of both safeties is compared with a limit; `beside` are the simulation's against pitting and
+    The worse of both safeties is compared with a limit; `further` are the simulation's against pitting and
     bending, and its life. One whose load stage the oil lacks is left out.
     """
-    by_standard = margins_by_standard(found, strength, case.oil_temperature) if found else {}
+    by_standard = margins_by_standard(standard, strength, case.oil_temperature) if standard else {}
     rated = safeties(capacity)
-    simulated = _by_simulation(case, strength, local) | dict(beside)
+    simulated = _by_simulation(case, strength, local) | dict(further)
     values = {
         "scuffing_flash": worst(by_standard.get("S_B"), simulated.get("S_B")),
         "scuffing_integral": by_standard.get("S_intS", math.nan),
@@ -200,20 +200,20 @@ def margins_and_limits(
     }
     factors: dict[str, Any] = {"K_A": case.settings.application_factor}
     factors["K_Hbeta"] = case.settings.face_load_factor or quantities["face_load_factor"]
-    if found:
-        own = found.factors
+    if standard:
+        iso_factors = standard.factors
         computed = {
-            "K_v": own.dynamic.factor,
+            "K_v": iso_factors.dynamic.factor,
             "K_Hbeta": quantities["face_load_factor"],
-            "K_Halpha": own.transverse_b,
+            "K_Halpha": iso_factors.transverse_b,
         }
         factors |= {
-            **factors_by_name(own),
+            **factors_by_name(iso_factors),
             "computed": computed,
-            "N": own.dynamic.resonance_ratio,
-            "resonance_speed": own.dynamic.resonance_speed,
-            "range": own.dynamic.range,
-            "c_gamma_beta": own.stiffness.mesh_face,
+            "N": iso_factors.dynamic.resonance_ratio,
+            "resonance_speed": iso_factors.dynamic.resonance_speed,
+            "range": iso_factors.dynamic.range,
+            "c_gamma_beta": iso_factors.stiffness.mesh_face,
         }
     margins = {"simulated": simulated} | ({"iso": by_standard | rated} if by_standard else {})
     limits = with_unlimited(judged(case.limits, values), shorter_life(rated, simulated))

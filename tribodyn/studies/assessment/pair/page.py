@@ -129,7 +129,7 @@ def _asked(case: AssessmentCase) -> str:
 
 
 def _tiles(summary: Mapping[str, Any]) -> str:
-    own, margins = summary["simulated"], summary["margins"]["simulated"]
+    simulated, margins = summary["simulated"], summary["margins"]["simulated"]
     lost = summary.get("contact_loss_speed_from")
     spread = [f"{100.0 * summary[f'efficiency_{end}']:.2f}" for end in ("lowest", "highest")]
     highest = f"{summary['dynamic_factor_max']:.2f} at {summary['dynamic_factor_max_speed'] * _RPM:.0f} rpm"
@@ -148,18 +148,18 @@ def _tiles(summary: Mapping[str, Any]) -> str:
             over("efficiency", ".2f", 100.0),
         ),
         (
-            f"{own['K_v']:.2f}",
+            f"{simulated['K_v']:.2f}",
             f"dynamic factor at the duty; up to {highest}",
             over("dynamic_factor", ".2f"),
         ),
         (
-            f"{own['lambda_GF']['worst']:.2f}",
+            f"{simulated['lambda_GF']['worst']:.2f}",
             "minimum specific film λ_GF",
             over("specific_film_min", ".2f"),
         ),
         (
             f"{margins['theta_B']:.0f} °C",
-            f"contact temperature; bulk {own['theta_M']['worst']:.0f} °C",
+            f"contact temperature; bulk {simulated['theta_M']['worst']:.0f} °C",
             over("contact_temperature_max", ".0f", 1.0, -ZERO_CELSIUS),
         ),
         (
@@ -190,8 +190,8 @@ def _range(values: Any, digits: str, factor: float = 1.0, offset: float = 0.0) -
     """5 and 95 % of values over the samples, in another unit; nothing where none is known."""
     if values is None or not np.any(np.isfinite(np.asarray(values, dtype=float))):
         return ""
-    found = scatter(values)
-    return f"samples {' to '.join(format(factor * (found[end] + offset), digits) for end in _ENDS)}"
+    percentiles = scatter(values)
+    return f"samples {' to '.join(format(factor * (percentiles[end] + offset), digits) for end in _ENDS)}"
 
 
 def _by_standard(summary: Mapping[str, Any]) -> str:
@@ -219,18 +219,18 @@ def _by_standard(summary: Mapping[str, Any]) -> str:
     return numbers_table(f"Standard and simulation, both with K_A {application:g}", heads, rows, kind)
 
 
-def _between(found: Mapping[str, float] | None, quantity: Quantity) -> str:
+def _between(percentiles: Mapping[str, float] | None, quantity: Quantity) -> str:
     """A range; nothing of what does not scatter."""
-    if found is None:
+    if percentiles is None:
         return ""
-    ends = [quantity.written(float(found[end])) for end in _ENDS]
+    ends = [quantity.written(float(percentiles[end])) for end in _ENDS]
     return " to ".join(ends) if ends[0] != ends[1] else ""
 
 
 def _reasons(summary: Mapping[str, Any]) -> str:
     """Why both part, where they do."""
-    found = summary.get("reasons", {})
-    return listed("Where standard and simulation part by more than 5 %", found) if found else ""
+    reasons = summary.get("reasons", {})
+    return listed("Where standard and simulation part by more than 5 %", reasons) if reasons else ""
 
 
 def _scatter(summary: Mapping[str, Any]) -> str:
@@ -243,8 +243,8 @@ def _scatter(summary: Mapping[str, Any]) -> str:
     ]
     if not rows:
         return ""
-    known = min(int(found["samples"]) for found in spread.values())
-    heading = f"Scatter over {known} samples of what is not known"
+    samples = min(int(percentiles["samples"]) for percentiles in spread.values())
+    heading = f"Scatter over {samples} samples of what is not known"
     return numbers_table(heading, ("", "median", "5 %", "95 %", ""), rows, " scatter")
 
 

@@ -39,10 +39,10 @@ def request_of(case: AssessmentCase) -> Request:
         "temperature": data.get("temperature", {"model": "iso", "lubrication": settings.lubrication}),
         "damping_ratio": settings.damping_ratio,
     }
-    found = case.with_laws()
-    first = str(found.friction.law)
-    if found.film.law is not None:
-        tables["film"] = {"law": found.film.law}
+    lawful = case.with_laws()
+    first = str(lawful.friction.law)
+    if lawful.film.law is not None:
+        tables["film"] = {"law": lawful.film.law}
     assembly = Assembly(family(case.family), case.drive)
     speed = case.operating.pinion_speed * abs(float(reference_radius(case.drive, "pinion")))
     gears = running_in_of(case.materials, speed)
@@ -65,15 +65,15 @@ def request_of(case: AssessmentCase) -> Request:
 
 def other_torques(case: AssessmentCase) -> tuple[float, ...]:
     """Torques of the load spectrum that press these flanks, other than that of the duty, N m, increasing."""
-    own = case.operating.gear_torque
-    return tuple(sorted({torque for _, _, torque in case.spectrum if torque > 0.0 and torque != own}))
+    duty_torque = case.operating.gear_torque
+    return tuple(sorted({torque for _, _, torque in case.spectrum if torque > 0.0 and torque != duty_torque}))
 
 
 def faces_of(case: AssessmentCase, quantities: Mapping[str, Any]) -> list[float]:
     """K_Hβ of every duty of the load spectrum; the contact analysis has them over that of the case's duty."""
     ratios = zip(other_torques(case), quantities.get("face_load_ratios", ()), strict=False)
-    by_torque, own = dict(ratios), quantities["face_load_factor"]
-    return [max(own * by_torque.get(torque, 1.0), 1.0) for _, _, torque in case.spectrum]
+    by_torque, nominal = dict(ratios), quantities["face_load_factor"]
+    return [max(nominal * by_torque.get(torque, 1.0), 1.0) for _, _, torque in case.spectrum]
 
 
 def draws_of(case: AssessmentCase) -> list[Draw]:
@@ -84,10 +84,10 @@ def draws_of(case: AssessmentCase) -> list[Draw]:
 
 def parts(request: Request, of_teeth: bool = False) -> tuple[Part, ...]:
     """Studies of the registry that take part, in order, with their tasks; those `of_teeth` alone, or all."""
-    found = [(study, role) for _, study in STUDIES.items() if (role := study.role()) is not None]
+    roles = [(study, role) for _, study in STUDIES.items() if (role := study.role()) is not None]
     return tuple(
         Part(study, role, tuple(role.tasks(request)), request)
-        for study, role in sorted(found, key=lambda pair: pair[1].order)
+        for study, role in sorted(roles, key=lambda pair: pair[1].order)
         if role.of_teeth or not of_teeth
     )
 

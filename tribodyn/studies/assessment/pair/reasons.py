@@ -32,7 +32,7 @@ class Reason(NamedTuple):
 
 
 def bending_reasons(
-    gear: int, teeth: LoadedTeeth, given: GivenFactors, capacity: Capacity, factors: LoadFactors
+    gear: int, teeth: LoadedTeeth, prescribed: GivenFactors, capacity: Capacity, factors: LoadFactors
 ) -> list[Reason]:
     """Factors of simulated over standard S_F; their product is that ratio.
 
@@ -42,8 +42,8 @@ def bending_reasons(
     """
     rated, common = capacity.gears[gear].factors, capacity.common
     slow, moving = teeth.slow.root_peak[gear], teeth.moving.root_peak[gear]
-    share, along_face = teeth.pair_share[gear], slow.along_face * given.face
-    dynamic = moving.value / slow.value * given.dynamic
+    share, along_face = teeth.pair_share[gear], slow.along_face * prescribed.face
+    dynamic = moving.value / slow.value * prescribed.dynamic
     even = slow.value / (share * slow.along_face)
     shape = math.prod(rated[name] for name in ("Y_F", "Y_S", "Y_beta", "Y_B", "Y_DT"))
     return [
@@ -67,7 +67,7 @@ def bending_reasons(
 
 
 def pitting_reasons(
-    gear: int, teeth: LoadedTeeth, given: GivenFactors, capacity: Capacity, factors: LoadFactors
+    gear: int, teeth: LoadedTeeth, prescribed: GivenFactors, capacity: Capacity, factors: LoadFactors
 ) -> list[Reason]:
     """Factors of simulated over standard S_H; their product is that ratio. Stresses go with √load.
 
@@ -75,8 +75,8 @@ def pitting_reasons(
     """
     common, nominal = capacity.common, teeth.nominal
     slow, moving = teeth.flank_slow[gear], teeth.flank_moving[gear]
-    along_face = slow.along_face * math.sqrt(given.face)
-    dynamic = (moving.largest / slow.largest) ** 2 * given.dynamic
+    along_face = slow.along_face * math.sqrt(prescribed.face)
+    dynamic = (moving.largest / slow.largest) ** 2 * prescribed.dynamic
     single, shared = common[("Z_B", "Z_D")[gear]], common["Z_epsilon"]
     even = slow.largest / (math.sqrt(slow.carried) * slow.along_face)
     whole = common["sigma_H0"] * single / shared
@@ -104,33 +104,33 @@ def pitting_reasons(
 
 
 def _dynamic(factor: float, factors: LoadFactors, simulated: float) -> Reason:
-    said = f"K_v {factors.dynamic_factor:.2f}, simulated {simulated:.2f} at the maximum"
-    return Reason("dynamic factor", factor, said)
+    explanation = f"K_v {factors.dynamic_factor:.2f}, simulated {simulated:.2f} at the maximum"
+    return Reason("dynamic factor", factor, explanation)
 
 
 def reasons(
     teeth: LoadedTeeth,
     strength: SimulatedStrength,
-    given: GivenFactors,
+    prescribed: GivenFactors,
     capacity: Capacity,
     factors: LoadFactors,
 ) -> list[str]:
     """A sentence for every safety in which both part by more than `PARTED`."""
-    found = []
+    sentences = []
     for name, mode, taken_apart in _MODES:
         for gear, side in enumerate(SIDES):
             simulated = getattr(strength, mode)[gear].safety
             standard = getattr(capacity.gears[gear], mode).safety
             if simulated is None or abs(math.log(simulated / standard)) <= math.log1p(PARTED):
                 continue
-            parts = taken_apart(gear, teeth, given, capacity, factors)
+            parts = taken_apart(gear, teeth, prescribed, capacity, factors)
             written = "; ".join(f"{part.name} × {part.factor:.2f} ({part.said})" for part in parts)
-            found.append(
+            sentences.append(
                 f"{name} of the {side}: {simulated:.2f} simulated, {standard:.2f} by the standard, "
                 f"× {simulated / standard:.2f}, mostly by {_largest(parts).name}. "
                 f"{written[0].upper()}{written[1:]}."
             )
-    return [*found, *_elsewhere(teeth, given, strength)]
+    return [*sentences, *_elsewhere(teeth, prescribed, strength)]
 
 
 _MODES = (("S_H", "pitting", pitting_reasons), ("S_F", "bending", bending_reasons))
@@ -140,9 +140,9 @@ def _largest(parts: Sequence[Reason]) -> Reason:
     return max(parts, key=lambda part: abs(math.log(part.factor)))
 
 
-def _elsewhere(teeth: LoadedTeeth, given: GivenFactors, strength: SimulatedStrength) -> Iterator[str]:
+def _elsewhere(teeth: LoadedTeeth, prescribed: GivenFactors, strength: SimulatedStrength) -> Iterator[str]:
     """The largest pressure in motion where it is not where the standard rates the flanks."""
-    largest = teeth.moving.pressure_peak.value * math.sqrt(given.load)
+    largest = teeth.moving.pressure_peak.value * math.sqrt(prescribed.load)
     rated = max(one.stress for one in strength.pitting) / teeth.nominal.credit
     if largest > (1.0 + PARTED) * rated:
         where = "in a tip's corner" if teeth.in_corner else "on the path of contact"
@@ -157,33 +157,36 @@ def _elsewhere(teeth: LoadedTeeth, given: GivenFactors, strength: SimulatedStren
 def rests_on(
     teeth: LoadedTeeth,
     strength: SimulatedStrength,
-    given: GivenFactors,
+    prescribed: GivenFactors,
     capacity: Capacity,
     factors: LoadFactors,
 ) -> str:
     """Which figures the verdict rests on, and why the other ones differ."""
-    own, rated = strength.safeties(), safeties(capacity)
+    by_simulation, rated = strength.safeties(), safeties(capacity)
     parts = []
     for name, mode, taken_apart in _MODES:
         simulated = [one.safety or math.inf for one in getattr(strength, mode)]
         standard = [getattr(gear, mode).safety for gear in capacity.gears]
         smaller = min(simulated, standard, key=min)
-        reasoned = taken_apart(smaller.index(min(smaller)), teeth, given, capacity, factors)
+        reasoned = taken_apart(smaller.index(min(smaller)), teeth, prescribed, capacity, factors)
         both = sorted([(min(simulated), _SIMULATED), (min(standard), _STANDARD)])
-        said = ", ".join(f"{value:.2f} {by}" for value, by in both)
-        parts.append(f"{name} {said} (mostly {_largest(reasoned).name})")
+        values = ", ".join(f"{value:.2f} {by}" for value, by in both)
+        parts.append(f"{name} {values} (mostly {_largest(reasoned).name})")
     lives = sorted(
-        [(own["life"], own, _SIMULATED), (rated["life"], rated, _STANDARD)], key=lambda one: one[0]
+        [(by_simulation["life"], by_simulation, _SIMULATED), (rated["life"], rated, _STANDARD)],
+        key=lambda one: one[0],
     )
-    quantity, (left, unlimited) = (
+    quantity, (remaining, unlimited) = (
         QUANTITIES["life"],
         (capacity.shortest.left, "life_unlimited" in lives[0][1]),
     )
-    said = ", ".join(f"{quantity.written_of(found)} h {by}" for _, found, by in lives)
+    values = ", ".join(f"{quantity.written_of(life)} h {by}" for _, life, by in lives)
     steep = (
-        "" if unlimited or left == 1.0 else f" (1 % more stress leaves {100.0 * left:.0f} % of such a life)"
+        ""
+        if unlimited or remaining == 1.0
+        else f" (1 % more stress leaves {100.0 * remaining:.0f} % of such a life)"
     )
-    parts.append(f"life {said}{steep}")
+    parts.append(f"life {values}{steep}")
     return f"The verdict rests on the smaller of standard and simulation: {'; '.join(parts)}."
 
 
@@ -210,8 +213,8 @@ def compared(
     teeth = loaded_teeth(case, assembly, *motion)
     if teeth is None:
         return Compared(None, [], "")
-    found, parted, rests = strength_beside(case, teeth, capacity, quantities), list[str](), ""
+    strength, parted, rests = strength_beside(case, teeth, capacity, quantities), list[str](), ""
     if capacity is not None and factors is not None:
-        both = teeth, found, given_factors(case.settings, quantities), capacity, factors
+        both = teeth, strength, given_factors(case.settings, quantities), capacity, factors
         parted, rests = reasons(*both), rests_on(*both)
-    return Compared(found, parted, rests)
+    return Compared(strength, parted, rests)

@@ -56,9 +56,9 @@ PANELS = ("hertz_pressure", "contact_temperature", "specific_film")
 
 def verdict(record: Record) -> list[str]:
     """Say whether the limits hold, what moves and presses, what is lost, and how far to trust it."""
-    found = [sentence for _, sentence in on_limits(record.summary)]
+    sentences = [sentence for _, sentence in on_limits(record.summary)]
     texts = [str(record.summary[name]) for name in ("not_judged", "rests_on") if name in record.summary]
-    return [*found, *texts, *shown(record.summary), *outside(record.summary)]
+    return [*sentences, *texts, *shown(record.summary), *outside(record.summary)]
 
 
 def shown(summary: Mapping[str, Any]) -> Iterator[str]:

@@ -53,19 +53,21 @@ def check(case: AssessmentCase) -> CheckResult:
     every = parts.tasks_of(parts.parts(request))
     tasks.require_cases(every)
     data: dict[str, Any] = {"geometry": sheet, "tasks": [task.name for _, task in every]}
-    found = with_oil(CheckResult(data, sheet_tables(sheet)), case.lubricant)
+    result = with_oil(CheckResult(data, sheet_tables(sheet)), case.lubricant)
     if not assembly.family.involute:
-        return found
+        return result
     iso, standard, capacity = by_standard(case, assembly, face=1.0)
     american = _by_agma(case, standard, capacity)
     face = "given" if case.settings.face_load_factor else "1, until the contact is analysed"
     table = TextTable(f"ISO 6336, K_Hβ {face}", COLUMNS, rating_rows(iso))
     duties = _duties(case, capacity)
-    beside = [TextTable(f"AGMA 2101, K_H {face}", COLUMNS, rating_rows(american))] if american else []
-    tables = (*found.tables, table, *beside, *spectrum_tables(duties.get("spectrum", {})))
-    remarks = (*found.remarks, *metal_remarks(case), *_outside(capacity))
-    return found._replace(
-        data={**found.data, "iso": iso, **({"agma": american} if american else {}), **duties},
+    american_tables = (
+        [TextTable(f"AGMA 2101, K_H {face}", COLUMNS, rating_rows(american))] if american else []
+    )
+    tables = (*result.tables, table, *american_tables, *spectrum_tables(duties.get("spectrum", {})))
+    remarks = (*result.remarks, *metal_remarks(case), *_outside(capacity))
+    return result._replace(
+        data={**result.data, "iso": iso, **({"agma": american} if american else {}), **duties},
         tables=tables,
         remarks=remarks,
     )
@@ -121,16 +123,16 @@ def assessed(
     request = parts.request_of(case)
     taking_part = parts.parts(request)
     done = tasks.results(parts.tasks_of(taking_part), folder, progress, force=force)
-    found: dict[str, Any] = {}
+    quantities: dict[str, Any] = {}
     along: dict[str, Any] = {}
     motion: dict[str, Any] = {}
     rows: dict[str, np.ndarray] = {}
     for answer in parts.answers(taking_part, done):
-        found |= answer.quantities
+        quantities |= answer.quantities
         along |= answer.along
         motion |= answer.motion
         rows |= answer.spread
-    outcome = concluded(case, along, found, motion)
+    outcome = concluded(case, along, quantities, motion)
     local, standard = outcome.local, outcome.by_standard
     summary: dict[str, Any] = {
         "duty": {
@@ -138,7 +140,7 @@ def assessed(
             "gear_torque": case.operating.gear_torque,
             "oil_temperature": case.oil_temperature,
         },
-        **found,
+        **quantities,
         "contact_temperature_max": float(local.films.bulk_temperature + np.nanmax(local.films.flash_rise)),
         "specific_film_min": outcome.simulated["lambda_GF"]["worst"],
         **({"transverse_load_factor_method_b": standard.factors.transverse_b} if standard else {}),
@@ -156,7 +158,7 @@ def assessed(
     }
     if rows:
         like = partial(concluded, accurate=outcome)
-        samples = samples_of(case, parts.draws_of(case), rows, (along, found), like)
+        samples = samples_of(case, parts.draws_of(case), rows, (along, quantities), like)
         summary = put_in(summary, samples)
     summary |= {
         "assumed": numbered(assumed(case, standard is not None)),
@@ -177,16 +179,16 @@ def units_of(summary: Mapping[str, Any]) -> dict[str, str]:
 
     A value by points, a scatter and a table of values have the unit of the name that they stand under.
     """
-    found: dict[str, str] = {}
+    units: dict[str, str] = {}
     for name, value in summary.items():
         quantity = QUANTITIES.get(name.removesuffix(SPREAD_OF))
         if name in WITHOUT_UNIT:
             continue
         if quantity is None and isinstance(value, Mapping):
-            found |= units_of(value) if not _PARTS & set(value) else {name: "1"}
+            units |= units_of(value) if not _PARTS & set(value) else {name: "1"}
         elif not isinstance(value, str | bool):
-            found[name] = quantity.si if quantity else "1"
-    return dict(sorted(found.items()))
+            units[name] = quantity.si if quantity else "1"
+    return dict(sorted(units.items()))
 
 
 def _arrays(local: LocalValues) -> dict[str, Any]:
@@ -209,9 +211,9 @@ def _trust(done: dict[str, TaskResult], needed: Collection[str]) -> dict[str, An
     judged = {name: result.summary for name, result in done.items() if TRUST in result.summary}
     for verdict, parts_of in ((OUTSIDE, judged), (EXTRAPOLATED, needed)):
         reasons: dict[str, Any] = {}
-        found = [known for name, known in judged.items() if known[TRUST] == verdict and name in parts_of]
-        for known in found:
-            reasons |= known[REASONS]
-        if found:
+        judged_so = [part for name, part in judged.items() if part[TRUST] == verdict and name in parts_of]
+        for part in judged_so:
+            reasons |= part[REASONS]
+        if judged_so:
             return {TRUST: verdict, REASONS: reasons}
     return {TRUST: INSIDE} if judged else {}

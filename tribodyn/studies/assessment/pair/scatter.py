@@ -42,14 +42,14 @@ class Conclusion(NamedTuple):
     def least(self) -> dict[str, Any]:
         """The worse of the standard and the simulation: S_H, S_F, and the life, s."""
         both = safeties(self.capacity), self.strength.safeties() if self.strength else {}
-        names = [name for name in ("S_H", "S_F") if any(name in found for found in both)]
-        return {name: worst(*(found.get(name) for found in both)) for name in names} | shorter_life(*both)
+        names = [name for name in ("S_H", "S_F") if any(name in values for values in both)]
+        return {name: worst(*(values.get(name) for values in both)) for name in names} | shorter_life(*both)
 
     def strength_under(self, stresses: tuple[float, float]) -> SimulatedStrength | None:
         """The strength where the largest stresses are others."""
         if self.strength is None:
             return None
-        flank, root = (other / own for own, other in zip(self.stresses, stresses, strict=True))
+        flank, root = (other / stress for stress, other in zip(self.stresses, stresses, strict=True))
         return self.strength.times(flank, root)
 
 
@@ -83,23 +83,23 @@ def samples_of(
     along, quantities = accurate
     outcomes: list[Conclusion | None] = []
     for number, draw in enumerate(draws):
-        path, found = _of_one({name: values[number] for name, values in rows.items()})
+        path, sample = _of_one({name: values[number] for name, values in rows.items()})
         outcome = None
-        if np.all(np.isfinite(list(path.values()))) and not _missing(found) & set(quantities) - set(_PLACES):
-            known = {name: value for name, value in found.items() if name not in _missing(found)}
+        if np.all(np.isfinite(list(path.values()))) and not _missing(sample) & set(quantities) - set(_PLACES):
+            finite = {name: value for name, value in sample.items() if name not in _missing(sample)}
             with suppress(InputError, SimulationError):
-                outcome = evaluate(draw.of(case), {**along, **path}, {**quantities, **known})
+                outcome = evaluate(draw.of(case), {**along, **path}, {**quantities, **finite})
         outcomes.append(outcome)
-    known = {
+    finite = {
         name: values
         for name, values in rows.items()
         if np.ndim(values) == 1 and (name in _PLACES or np.any(np.isfinite(values)))
     }
     contact = [math.nan if one is None else _contact_temperature(one) for one in outcomes]
     simulated = _by_name([None if one is None else one.simulated for one in outcomes])
-    known |= {"contact_temperature_max": np.array(contact)}
+    finite |= {"contact_temperature_max": np.array(contact)}
     if "lambda_GF" in simulated:
-        known["specific_film_min"] = simulated["lambda_GF"]
+        finite["specific_film_min"] = simulated["lambda_GF"]
     margins = {
         by: _by_name([None if one is None else _margins(one, by) for one in outcomes])
         for by in ("simulated", "iso")
@@ -108,10 +108,10 @@ def samples_of(
         None if one is None else {name: limit["value"] for name, limit in one.judged["limits"].items()}
         for one in outcomes
     ]
-    named = {_NAMES.get(name, name): known[name] for name in (*_NAMES, *_ERRORS) if name in known}
+    named = {_NAMES.get(name, name): finite[name] for name in (*_NAMES, *_ERRORS) if name in finite}
     return SampleValues(
         _drawn(draws),
-        known,
+        finite,
         simulated | margins["simulated"] | named,
         _by_name([None if one is None else one.iso for one in outcomes]) | margins["iso"],
         _by_name(values),
@@ -121,15 +121,15 @@ def samples_of(
 _ERRORS = ("loaded_transmission_error_peak_to_peak", "transmission_error_peak_to_peak")
 
 
-def _of_one(own: Mapping[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+def _of_one(values: Mapping[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, float]]:
     """Arrays along the path, and numbers, of one sample."""
-    path = {name: value for name, value in own.items() if np.ndim(value)}
-    return path, {name: float(value) for name, value in own.items() if name not in path}
+    path = {name: value for name, value in values.items() if np.ndim(value)}
+    return path, {name: float(value) for name, value in values.items() if name not in path}
 
 
-def _missing(found: Mapping[str, float]) -> set[str]:
+def _missing(values: Mapping[str, float]) -> set[str]:
     """What is not known of a sample: nothing is missed that accurate teeth have neither."""
-    return {name for name, value in found.items() if not math.isfinite(value)}
+    return {name for name, value in values.items() if not math.isfinite(value)}
 
 
 def _contact_temperature(outcome: Conclusion) -> float:
@@ -137,9 +137,9 @@ def _contact_temperature(outcome: Conclusion) -> float:
     return float(films.bulk_temperature + np.nanmax(films.flash_rise))
 
 
-def _by_name(found: Sequence[Mapping[str, Any] | None]) -> dict[str, np.ndarray]:
+def _by_name(samples: Sequence[Mapping[str, Any] | None]) -> dict[str, np.ndarray]:
     """Numbers of every sample by name, of values by points the worst; none of what either gear has."""
-    numbers = [{} if one is None else _numbers(one) for one in found]
+    numbers = [{} if one is None else _numbers(one) for one in samples]
     names = dict.fromkeys(name for one in numbers for name in one)
     return {name: np.array([one.get(name, math.nan) for one in numbers]) for name in names}
 
@@ -150,42 +150,42 @@ def _margins(outcome: Conclusion, by: str) -> dict[str, Any]:
 
 
 def _numbers(values: Mapping[str, Any]) -> dict[str, float]:
-    found = {
+    numbers = {
         name: value.get("worst") if isinstance(value, Mapping) else value for name, value in values.items()
     }
     return {
         name: float(value)
-        for name, value in found.items()
+        for name, value in numbers.items()
         if isinstance(value, int | float) and not isinstance(value, bool)
     }
 
 
 def _drawn(draws: Sequence[Draw]) -> dict[str, np.ndarray]:
     pinion, gear = np.array([draw.bearings for draw in draws]).T
-    found = {
+    variables = {
         "bearing_stiffness_factor_pinion": pinion,
         "bearing_stiffness_factor_gear": gear,
         "damping_ratio": np.array([draw.damping_ratio for draw in draws]),
     }
     if draws[0].deviation is not None:
-        found["deviation_sample"] = np.array([draw.deviation for draw in draws], dtype=float)
+        variables["deviation_sample"] = np.array([draw.deviation for draw in draws], dtype=float)
     if draws[0].centre_distance is not None:
-        found["centre_distance"] = np.array([draw.centre_distance for draw in draws])
-    return found
+        variables["centre_distance"] = np.array([draw.centre_distance for draw in draws])
+    return variables
 
 
 def counts(samples: SampleValues) -> dict[str, Any]:
     """How many samples there are with a motion, and how many of them lose contact, at any speed looked at."""
     lost = samples.quantities.get("contact_loss_fraction_max", np.zeros(0))
-    known = int(np.sum(np.isfinite(lost)))
-    if not known:
+    moved = int(np.sum(np.isfinite(lost)))
+    if not moved:
         return {}
     begins = samples.quantities["contact_loss_speed_from"]
-    found = {"samples": known, "contact_lost": int(np.sum(np.nan_to_num(lost) > _LOST))}
-    found["contact_lost_at_duty"] = int(
+    number = {"samples": moved, "contact_lost": int(np.sum(np.nan_to_num(lost) > _LOST))}
+    number["contact_lost_at_duty"] = int(
         np.sum(np.nan_to_num(samples.quantities["contact_loss_fraction"]) > _LOST)
     )
-    return found | ({"contact_loss_speed_from": float(np.nanmin(begins))} if found["contact_lost"] else {})
+    return number | ({"contact_loss_speed_from": float(np.nanmin(begins))} if number["contact_lost"] else {})
 
 
 def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
@@ -200,9 +200,9 @@ def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
         for part, values in (("simulated", samples.simulated), ("iso", samples.iso))
         if summary.get(part)
     }
-    own = {name: samples.simulated[name] for name in ("S_B", "S_lambda") if name in samples.simulated}
-    own |= {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
-    by_sample = samples.drawn | samples.quantities | own
+    safeties = {name: samples.simulated[name] for name in ("S_B", "S_lambda") if name in samples.simulated}
+    safeties |= {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
+    by_sample = samples.drawn | samples.quantities | safeties
     return {
         **summary,
         **parts,
@@ -222,5 +222,5 @@ def _ranges(samples: Mapping[str, np.ndarray]) -> dict[str, dict[str, float]]:
 
 def _scatter(values: np.ndarray) -> dict[str, float]:
     """Median, 5 and 95 % over the samples, and how many of them are known."""
-    known = {name: float(value) for name, value in scatter(values).items()}
-    return known | {"samples": int(np.sum(np.isfinite(values)))}
+    percentiles = {name: float(value) for name, value in scatter(values).items()}
+    return percentiles | {"samples": int(np.sum(np.isfinite(values)))}

@@ -56,15 +56,15 @@ class Draw(NamedTuple):
 
     def keys(self, bearings: Mapping[str, Any]) -> dict[str, Any]:
         """What takes the place of a scenario's keys, whose table of bearings is given."""
-        found: dict[str, Any] = {"mesh.damping_ratio": self.damping_ratio}
+        overrides: dict[str, Any] = {"mesh.damping_ratio": self.damping_ratio}
         if self.deviation is not None:
-            found["mesh.deviation_sample"] = self.deviation
+            overrides["mesh.deviation_sample"] = self.deviation
         if self.centre_distance is not None:
-            found["drive.centre_distance"] = f"{1e3 * self.centre_distance:.12f} mm"
+            overrides["drive.centre_distance"] = f"{1e3 * self.centre_distance:.12f} mm"
         for side, factor in zip(SIDES, self.bearings, strict=True):
             if factor != 1.0:
-                found[f"bearings.{side}"] = stiffened(bearings[side], factor)
-        return found
+                overrides[f"bearings.{side}"] = stiffened(bearings[side], factor)
+        return overrides
 
     def of(self, case: AnyCase) -> AnyCase:
         """The case with its centre distance."""

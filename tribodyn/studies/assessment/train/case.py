@@ -50,8 +50,8 @@ class TrainRatingTable(AssessedTable):
 
     def face_of(self, mesh: str) -> float | None:
         """K_Hβ of a mesh: by the longest name that it has or begins with, else that of all, where given."""
-        known = [name for name in self.face_load_factors if of_mesh(name, mesh)]
-        return self.face_load_factors[max(known, key=len)] if known else self.face_load_factor
+        matching = [name for name in self.face_load_factors if of_mesh(name, mesh)]
+        return self.face_load_factors[max(matching, key=len)] if matching else self.face_load_factor
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -72,7 +72,7 @@ def _safeties(axes: Axes, record: Record) -> None:
             required = float(limits[limit]["limit"])
             axes.axvline(required, color=PALETTE[number], linewidth=0.9, linestyle="--")
         for part, fill in (("iso", PALETTE[number]), ("simulated", "none")):
-            found = [
+            points = [
                 (min(values), place)
                 for place, (_, members) in enumerate(groups)
                 if (
@@ -83,9 +83,9 @@ def _safeties(axes: Axes, record: Record) -> None:
                     ]
                 )
             ]
-            if found:
+            if points:
                 label = f"{literal(name)}, {'standard' if part == 'iso' else 'simulated'}"
-                values, places = zip(*found, strict=True)
+                values, places = zip(*points, strict=True)
                 axes.scatter(values, places, s=18, facecolors=fill, edgecolors=PALETTE[number], label=label)
     axes.set_yticks(range(len(groups)), [literal(group) for group, _ in groups])
     axes.set_xscale("log")

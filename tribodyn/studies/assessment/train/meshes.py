@@ -173,12 +173,12 @@ def parts_of(pairs: Mapping[str, MeshPair]) -> dict[str, tuple[Part, ...]]:
 
 def spectra_of(case: TrainAssessmentCase) -> dict[str, list[tuple[float, float, float]]]:
     """Of every mesh the duties of the load spectrum: share, driver's speed rad/s, torque N m; empty: none."""
-    whole, found = case.whole, dict[str, list[tuple[float, float, float]]]()
+    whole, spectra = case.whole, dict[str, list[tuple[float, float, float]]]()
     for share, at_duty in whole.duties(case.subject.case):
         for mesh in whole.meshes(at_duty):
             duty = mesh.pair.operating
-            found.setdefault(mesh.name, []).append((share, duty.pinion_speed, duty.gear_torque))
-    return found
+            spectra.setdefault(mesh.name, []).append((share, duty.pinion_speed, duty.gear_torque))
+    return spectra
 
 
 def mesh_load_factor(case: TrainAssessmentCase, mesh: MeshAtDuty, own: Mapping[str, Any]) -> float:
@@ -323,14 +323,14 @@ def _margin(mesh: Mapping[str, Any], name: str) -> float:
 
 def worst_margins(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """Smallest safeties of all meshes, and which mesh has them."""
-    found: dict[str, Any] = {}
+    worst: dict[str, Any] = {}
     for name in (*SAFETIES.values(), "life"):
-        known = {mesh: _margin(each, name) for mesh, each in meshes.items()}
-        known = {mesh: value for mesh, value in known.items() if math.isfinite(value)}
-        if known:
-            place = min(known, key=lambda mesh: known[mesh])
-            found[name] = known[place]
-            found.setdefault("worst_of", {})[name] = place
-    return found | shorter_life(
+        margins = {mesh: _margin(each, name) for mesh, each in meshes.items()}
+        margins = {mesh: value for mesh, value in margins.items() if math.isfinite(value)}
+        if margins:
+            place = min(margins, key=lambda mesh: margins[mesh])
+            worst[name] = margins[place]
+            worst.setdefault("worst_of", {})[name] = place
+    return worst | shorter_life(
         *(mesh.get(part, {}) for mesh in meshes.values() for part in ("iso", "simulated"))
     )

@@ -188,8 +188,8 @@ def _cell(meshes: Sequence[Mapping[str, Any]], limit: str, limits: Mapping[str, 
     """The worst of some meshes."""
     parts = [mesh.get(part, {}) for mesh in meshes for part in ("iso", "simulated")]
     life = shorter_life(*parts) if limit == "life" else {}
-    known = [value for mesh in meshes if (value := _worst(mesh, limit)) is not None]
-    return judged_cell(min(known, default=None), limit, limits, unlimited=bool(life.get("life_unlimited")))
+    values = [value for mesh in meshes if (value := _worst(mesh, limit)) is not None]
+    return judged_cell(min(values, default=None), limit, limits, unlimited=bool(life.get("life_unlimited")))
 
 
 def _room(meshes: Sequence[Mapping[str, Any]], limits: Mapping[str, Any]) -> float:
@@ -204,8 +204,8 @@ def _room(meshes: Sequence[Mapping[str, Any]], limits: Mapping[str, Any]) -> flo
 
 
 def _worst(mesh: Mapping[str, Any], limit: str) -> float | None:
-    found = worst(*(least(mesh.get(part, {}).get(_HOLDS[limit])) for part in ("iso", "simulated")))
-    return found if math.isfinite(found) else None
+    smallest = worst(*(least(mesh.get(part, {}).get(_HOLDS[limit])) for part in ("iso", "simulated")))
+    return smallest if math.isfinite(smallest) else None
 
 
 def _short(limit: str) -> str:

@@ -52,10 +52,10 @@ OF_A_STAGE = quantities(
 
 def groups_of(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, list[str]]:
     """Meshes by a name for each table column: those of a set's planets with one member together."""
-    found: dict[str, list[str]] = {}
+    groups: dict[str, list[str]] = {}
     for name, mesh in meshes.items():
-        found.setdefault(str(mesh.get("alike") or name), []).append(name)
-    return found
+        groups.setdefault(str(mesh.get("alike") or name), []).append(name)
+    return groups
 
 
 def worst_in(quantity: Quantity, part: str, names: list[str], meshes: Mapping[str, Mapping[str, Any]]) -> str:
@@ -66,8 +66,8 @@ def worst_in(quantity: Quantity, part: str, names: list[str], meshes: Mapping[st
     if quantity.name == "life":
         life = shorter_life(*(meshes[name].get(part, {}) for name in names))
         return quantity.written_of(life) if life else "–"
-    known = [_of_table(value, extreme) for value in values if value is not None]
-    return quantity.written(float(extreme(known))) if known else "–"
+    numbers = [_of_table(value, extreme) for value in values if value is not None]
+    return quantity.written(float(extreme(numbers))) if numbers else "–"
 
 
 def _of_table(value: Any, extreme: Callable[[Any], float]) -> float:
@@ -106,7 +106,7 @@ def stage_rows(summary: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     """Columns and rows of the table of planetary stages."""
     stages = summary.get("stages", {})
     rows = [
-        [quantity.title, *(quantity.written(own[quantity.name]) for own in stages.values()), quantity.unit]
+        [quantity.title, *(quantity.written(one[quantity.name]) for one in stages.values()), quantity.unit]
         for quantity in OF_A_STAGE
     ]
     return ["", *stages, ""], rows if stages else []
@@ -114,27 +114,27 @@ def stage_rows(summary: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
 
 def tables(record: Record) -> list[TextTable]:
     """Every mesh simulated and by the standards, every planetary stage, Miner's sums, bearings."""
-    found = []
+    text_tables = []
     for title, (columns, rows) in (
         ("Each planetary stage", stage_rows(record.summary)),
         (heading("simulated", record.summary), mesh_rows(record.summary, "simulated")),
         (heading("iso", record.summary), mesh_rows(record.summary, "iso")),
     ):
         if rows:
-            found.append(TextTable(title, tuple(columns), rows))
-    found += spectrum_tables_of(record.summary)
+            text_tables.append(TextTable(title, tuple(columns), rows))
+    text_tables += spectrum_tables_of(record.summary)
     if bearings := record.summary.get("bearings"):
-        found.append(TextTable("Bearings", *bearing_rows(bearings)))
-    return found
+        text_tables.append(TextTable("Bearings", *bearing_rows(bearings)))
+    return text_tables
 
 
 def spectrum_tables_of(summary: Mapping[str, Any]) -> list[TextTable]:
     """Miner's sums of both gears of every mesh, duty by duty; those of alike planets once."""
-    found = []
+    tables = []
     for group, names in groups_of(summary.get(MESHES, {})).items():
         spectrum = summary[MESHES][names[0]].get("iso", {}).get("spectrum", {})
-        found += [table._replace(title=f"{table.title}, {group}") for table in spectrum_tables(spectrum)]
-    return found
+        tables += [table._replace(title=f"{table.title}, {group}") for table in spectrum_tables(spectrum)]
+    return tables
 
 
 def verdict(record: Record) -> list[str]:
@@ -147,29 +147,29 @@ def verdict(record: Record) -> list[str]:
 
 
 def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
-    found = numbers(summary)
-    if "efficiency" in found:
-        lost = with_unit("power_friction_mean", found["power_friction_mean"])
+    values = numbers(summary)
+    if "efficiency" in values:
+        lost = with_unit("power_friction_mean", values["power_friction_mean"])
         yield (
             f"The teeth lose {lost}; by tooth friction alone, without bearings, seals and churning, the "
-            f"train is {100.0 * found['efficiency']:.2f} % efficient."
+            f"train is {100.0 * values['efficiency']:.2f} % efficient."
         )
-    if "dynamic_factor" in found:
-        text = f"Vibration raises the tooth forces to at most {found['dynamic_factor']:.2f} times their mean"
-        if (highest := found.get("dynamic_factor_max", 0.0)) > found["dynamic_factor"]:
-            at = with_unit("dynamic_factor_max_input_speed", found["dynamic_factor_max_input_speed"])
+    if "dynamic_factor" in values:
+        text = f"Vibration raises the tooth forces to at most {values['dynamic_factor']:.2f} times their mean"
+        if (highest := values.get("dynamic_factor_max", 0.0)) > values["dynamic_factor"]:
+            at = with_unit("dynamic_factor_max_input_speed", values["dynamic_factor_max_input_speed"])
             text += f", to {highest:.2f} times at {at} of the input"
-        lost = found.get("contact_loss_input_speed_from")
+        lost = values.get("contact_loss_input_speed_from")
         apart = (
             "the teeth stay in contact at every speed that was run"
             if lost is None
             else f"teeth separate from {with_unit('contact_loss_input_speed_from', lost)} of the input"
         )
         yield f"{text}; {apart}."
-    if (share := found.get("mesh_load_factor")) is not None:
+    if (share := values.get("mesh_load_factor")) is not None:
         yield f"The planet with most carries {share:.3f} times its share (K_γ)."
     least = summary.get("worst_of", {})
-    names = [name for name in ("S_H", "S_F", "S_B", "S_intS", "S_lambda") if name in found and name in least]
+    names = [name for name in ("S_H", "S_F", "S_B", "S_intS", "S_lambda") if name in values and name in least]
     if names:
-        parts = [f"{QUANTITIES[name].symbol} {found[name]:.2f} in {least[name]}" for name in names]
+        parts = [f"{QUANTITIES[name].symbol} {values[name]:.2f} in {least[name]}" for name in names]
         yield f"Smallest safeties: {', '.join(parts)}."

@@ -75,24 +75,24 @@ def tasks_of(case: TrainAssessmentCase) -> list[tuple[Study, Task]]:
     """The train's run at the duty, those at other speeds, and those with other friction laws."""
     subject, settings = case.subject, case.settings
     scenario = tomllib.loads(subject.case.toml)
-    found = [Task(DUTY, "motion at the duty", scenario)]
+    tasks = [Task(DUTY, "motion at the duty", scenario)]
     for factor in factors_of(case):
         about = f"motion at {factor:.12g} of the speed"
         other = case.whole.at_speed(subject.case, scenario, factor)
-        found.append(Task(name_at(factor), about, other, needed=False))
+        tasks.append(Task(name_at(factor), about, other, needed=False))
     for law in settings.friction_laws:
         about, other = f"motion with friction by {law}", {**scenario, "friction": {"law": law}}
-        found.append(Task(f"friction-{law}", about, other, needed=False))
+        tasks.append(Task(f"friction-{law}", about, other, needed=False))
     every = [part for of_mesh in parts_of(pairs_of(case)).values() for part in of_mesh]
-    return [*((subject.study, task) for task in found), *parts.tasks_of(every)]
+    return [*((subject.study, task) for task in tasks), *parts.tasks_of(every)]
 
 
 def factors_of(case: TrainAssessmentCase) -> list[float]:
     """Speeds of the further runs over that of the duty."""
     if not case.settings.speeds:
         return []
-    found = np.linspace(*case.settings.speed_range, case.settings.speeds)
-    return [float(f"{factor:.6g}") for factor in found if abs(factor - 1.0) > 1e-6]
+    factors = np.linspace(*case.settings.speed_range, case.settings.speeds)
+    return [float(f"{factor:.6g}") for factor in factors if abs(factor - 1.0) > 1e-6]
 
 
 def assessed(
@@ -105,7 +105,7 @@ def assessed(
     begun = perf_counter()
     every = tasks_of(case)
     done = tasks.results(every, folder, progress, force=force)
-    own = done[DUTY].summary
+    duty_summary = done[DUTY].summary
     along = _over_speed(case, done)
     subject, whole = case.subject.case, case.whole
     pairs = pairs_of(case)
@@ -114,29 +114,34 @@ def assessed(
     with Record(done[DUTY].path) as record:
         meshes = {
             mesh.name: assessed_mesh(
-                case, mesh, pairs.get(mesh.name), own, (asked.get(mesh.alike or mesh.name, ()), done), record
+                case,
+                mesh,
+                pairs.get(mesh.name),
+                duty_summary,
+                (asked.get(mesh.alike or mesh.name, ()), done),
+                record,
             )
             for mesh in whole.meshes(subject)
         }
     oil = whole.meshes(subject)[0].pair.lubricant
     summary: dict[str, Any] = {
         "input_speed": case.whole.speed(case.subject.case),
-        **{name: own[name] for name in _OF_TRAIN if own.get(name) is not None},
+        **{name: duty_summary[name] for name in _OF_TRAIN if duty_summary.get(name) is not None},
         **_extremes(along),
         **_losses(case, done),
         **worst_margins(meshes),
         **bearing_part(whole.shafts(subject), oil),
-        STAGES: own.get(STAGES, {}),
+        STAGES: duty_summary.get(STAGES, {}),
         MESHES: meshes,
         "limits": with_unlimited(
-            judged(case.limits, _values(own, meshes, case.settings.application_factor)),
+            judged(case.limits, _values(duty_summary, meshes, case.settings.application_factor)),
             worst_margins(meshes),
         ),
         "not_judged": _not_judged(case),
-        "in_doubt": numbered(_in_doubt(own)),
+        "in_doubt": numbered(_in_doubt(duty_summary)),
         "assumed": numbered(list(_assumed(case, meshes, duties))),
         "extrapolated": numbered([*_extrapolated(every, done), *_outside(meshes)]),
-        **{name: own[name] for name in (TRUST, REASONS) if own.get(name)},
+        **{name: duty_summary[name] for name in (TRUST, REASONS) if duty_summary.get(name)},
         "wall_time": perf_counter() - begun,
     }
     return along, {name: value for name, value in summary.items() if value not in ({}, [], "")}
@@ -148,14 +153,14 @@ def _not_judged(case: TrainAssessmentCase) -> str:
     return not_judged(case.limits, first.pair.lubricant.fzg)
 
 
-def _in_doubt(own: Mapping[str, Any]) -> list[str]:
+def _in_doubt(duty_summary: Mapping[str, Any]) -> list[str]:
     """Which meshes have film or friction that the solved contact puts in doubt, as the run says."""
-    found: dict[str, list[str]] = {}
-    for name, mesh in own[MESHES].items():
+    meshes_by_line: dict[str, list[str]] = {}
+    for name, mesh in duty_summary[MESHES].items():
         for line in outside(mesh):
             if "in doubt" in line:
-                found.setdefault(line, []).append(name)
-    return [f"Mesh {', '.join(names)}: {line[0].lower()}{line[1:]}" for line, names in found.items()]
+                meshes_by_line.setdefault(line, []).append(name)
+    return [f"Mesh {', '.join(names)}: {line[0].lower()}{line[1:]}" for line, names in meshes_by_line.items()]
 
 
 def _over_speed(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[str, np.ndarray]:
@@ -163,33 +168,33 @@ def _over_speed(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> di
     speed = case.whole.speed(case.subject.case)
     runs = {factor: done[name_at(factor)].summary for factor in factors_of(case)} | {1.0: done[DUTY].summary}
     factors = sorted(factor for factor, summary in runs.items() if summary)
-    found = {"input_speed": speed * np.array(factors)}
+    curves = {"input_speed": speed * np.array(factors)}
     for name in SAMPLES:
         values = [runs[factor].get(name) for factor in factors]
-        found[name] = np.array([math.nan if value is None else float(value) for value in values])
-    return found
+        curves[name] = np.array([math.nan if value is None else float(value) for value in values])
+    return curves
 
 
 def _extremes(along: Mapping[str, np.ndarray]) -> dict[str, Any]:
     """Largest factors over the speed, and where contact is lost."""
-    speed, found = along["input_speed"], dict[str, Any]()
+    speed, largest = along["input_speed"], dict[str, Any]()
     if np.any(np.isfinite(along["dynamic_factor"])):
         place = int(np.nanargmax(along["dynamic_factor"]))
-        found["dynamic_factor_max"] = float(along["dynamic_factor"][place])
-        found["dynamic_factor_max_input_speed"] = float(speed[place])
+        largest["dynamic_factor_max"] = float(along["dynamic_factor"][place])
+        largest["dynamic_factor_max_input_speed"] = float(speed[place])
     if np.any(np.isfinite(along["mesh_load_factor"])):
-        found["mesh_load_factor_max"] = float(np.nanmax(along["mesh_load_factor"]))
+        largest["mesh_load_factor_max"] = float(np.nanmax(along["mesh_load_factor"]))
     lost = np.nan_to_num(along["contact_loss_fraction"]) > _LOST
     if np.any(lost):
-        found["contact_loss_input_speed_from"] = float(speed[lost][0])
-    return found
+        largest["contact_loss_input_speed_from"] = float(speed[lost][0])
+    return largest
 
 
 def _losses(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[str, Any]:
     """Losses by the train's own friction law and by the others that were asked for."""
-    own = done[DUTY].summary
-    first = str(next(iter(own[MESHES].values())).get("friction_law", "own"))
-    runs = {first: own} | {law: done[f"friction-{law}"].summary for law in case.settings.friction_laws}
+    at_duty = done[DUTY].summary
+    first = str(next(iter(at_duty[MESHES].values())).get("friction_law", "own"))
+    runs = {first: at_duty} | {law: done[f"friction-{law}"].summary for law in case.settings.friction_laws}
     runs = {law: summary for law, summary in runs.items() if summary}
     if len(runs) < 2:
         return {}
@@ -202,18 +207,18 @@ def _losses(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[s
 
 
 def _values(
-    own: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]], application: float
+    duty_summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]], application: float
 ) -> dict[str, float]:
     """What the limits are compared with, pressures with K_A."""
     margins = worst_margins(meshes)
     names = SAFETIES | {"life": "life"}
-    found = {limit: margins.get(name, math.nan) for limit, name in names.items()}
+    values = {limit: margins.get(name, math.nan) for limit, name in names.items()}
     of_run = {"hertz_pressure": "hertz_pressure_max"}
     for limit in ("dynamic_factor", "hertz_pressure", "mesh_load_factor"):
-        value = own.get(of_run.get(limit, limit))
-        found[limit] = math.nan if value is None else float(value)
-    found["hertz_pressure"] *= math.sqrt(application)
-    return found
+        value = duty_summary.get(of_run.get(limit, limit))
+        values[limit] = math.nan if value is None else float(value)
+    values["hertz_pressure"] *= math.sqrt(application)
+    return values
 
 
 def _assumed(
@@ -255,17 +260,17 @@ def _assumed(
 
 def _outside(meshes: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """What of the meshes lies outside the limits of the standards."""
-    found = [(name, text) for name, mesh in meshes.items() for text in mesh.get("outside", {}).values()]
-    return [f"Mesh {name}: {text}" for name, text in found]
+    remarks = [(name, text) for name, mesh in meshes.items() for text in mesh.get("outside", {}).values()]
+    return [f"Mesh {name}: {text}" for name, text in remarks]
 
 
 def _extrapolated(every: Sequence[tuple[Study, Task]], done: Mapping[str, TaskResult]) -> list[str]:
     """Where laws are used outside their range at the duty, and what could not be computed."""
-    found = []
+    remarks = []
     for study, task in every:
         result = done[task.name]
-        found += result.failures
+        remarks += result.failures
         if task.name == DUTY:
             with Record(result.path) as record:
-                found += [line for line in study.sentences(record) if line.startswith(EXCEEDED)]
-    return list(dict.fromkeys(found))
+                remarks += [line for line in study.sentences(record) if line.startswith(EXCEEDED)]
+    return list(dict.fromkeys(remarks))

@@ -77,9 +77,9 @@ class Archive:
         self._keep = keep
         self._shaped = study_of(case.base).has_gears and shapes_gears(case)
         self._requested: dict[str, Candidate] = {}
-        known = before.known.get(factor, ())
+        evaluated = before.known.get(factor, ())
         #: candidates that were evaluated before, by their identities, in their order
-        self.recorded = {identity(values): self._candidate(values, found) for values, found in known}
+        self.recorded = {identity(values): self._candidate(values, results) for values, results in evaluated}
 
     @property
     def evaluations(self) -> list[Candidate]:
@@ -97,9 +97,9 @@ class Archive:
         new = [name for name in values if name not in self._requested]
         room = self.case.search.evaluations - len(self._requested)
         waiting = {name: self.found_of(values[name]) for name in new[:room]}
-        for name, found in waiting.items():
+        for name, future in waiting.items():
             recorded = self.recorded.get(name)
-            self._requested[name] = recorded or self._candidate(values[name], found.result())
+            self._requested[name] = recorded or self._candidate(values[name], future.result())
             if not recorded:
                 self._keep(self._requested[name])
         if len(new) > room:
@@ -109,9 +109,9 @@ class Archive:
     def found_of(self, values: Overrides) -> Answer:
         """Quantities of the cases of any candidate, evaluated if they are not known."""
         name = identity(values)
-        if known := self._requested.get(name) or self.recorded.get(name):
+        if candidate := self._requested.get(name) or self.recorded.get(name):
             ready: Future[Results] = Future()
-            ready.set_result(known.found)
+            ready.set_result(candidate.found)
             return ready
         return self._pool.submit(cases_of(self.case, values, self.more))
 
@@ -134,34 +134,34 @@ class Archive:
 
     def front(self) -> list[Candidate]:
         """The feasible candidates that no other is better than in both objectives, by the first objective."""
-        found: list[Candidate] = []
+        nondominated: list[Candidate] = []
         for candidate in self.feasible():
-            if not found or candidate.score.objectives[1] < found[-1].score.objectives[1]:
-                found.append(candidate)
-        return found
+            if not nondominated or candidate.score.objectives[1] < nondominated[-1].score.objectives[1]:
+                nondominated.append(candidate)
+        return nondominated
 
     def nearest(self) -> Candidate | None:
         """The candidate that misses the constraints by least, of those that have quantities."""
         some = [candidate for candidate in self.evaluations if not candidate.score.message]
         return min(some, key=lambda candidate: candidate.score.violation, default=None)
 
-    def _candidate(self, values: Overrides, found: Results) -> Candidate:
+    def _candidate(self, values: Overrides, results: Results) -> Candidate:
         numbers = tuple(number_of(free, values[free.keys[0]]) for free in self.case.free)
-        score = self.scoring.score(found, self.shape_of(values))
-        return Candidate(values, numbers, found, score, self.factor)
+        score = self.scoring.score(results, self.shape_of(values))
+        return Candidate(values, numbers, results, score, self.factor)
 
 
 def resolutions(case: DesignCase, factor: int) -> Overrides:
     """Resolutions of the scenarios times a factor, by key; of parts with their names before it."""
-    found: Overrides = {}
+    scaled: Overrides = {}
     for name, data in case.scenarios.items():
         key = study_of(data).resolution
         table, _, number = key.rpartition(".")
         if number:
             loaded = loaded_source(case.scenarios, name, {}).case
             holder = loaded if hasattr(loaded, number) else getattr(loaded, table)
-            found[f"{name}.{key}" if name else key] = factor * getattr(holder, number)
-    return found
+            scaled[f"{name}.{key}" if name else key] = factor * getattr(holder, number)
+    return scaled
 
 
 def identity(values: Mapping[str, Any]) -> str:

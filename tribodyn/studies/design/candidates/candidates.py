@@ -90,7 +90,7 @@ def cases_of(
     `free` are values of free keys, none: the base scenario as it stands; `more` are further keys, for all;
     `alone` is number and deviation of the one tolerance that deviates, in place of all samples.
     """
-    found = []
+    cases = []
     if alone is None:
         rows = samples_of(case)
     else:
@@ -101,8 +101,8 @@ def cases_of(
             deviated = dict(nominal.keys)
             for tolerance, deviation in zip(case.tolerances, row, strict=True):
                 deviated |= deviating(tolerance, float(deviation), nominal)
-            found.append(deviated)
-    return found
+            cases.append(deviated)
+    return cases
 
 
 def samples_of(case: DesignCase) -> list[Float[Array, "..."]]:
@@ -198,9 +198,9 @@ def _profile(tolerance: Tolerance, draw: np.random.Generator, nominal: Nominal) 
     start, end = (float(limit) for limit in gears.roll_limits)
     roll = np.linspace(start - BEYOND * (end - start), end + BEYOND * (end - start), POINTS)
     error = draw.uniform(-tolerance.plus_minus, tolerance.plus_minus, POINTS)
-    if isinstance(given := nominal.at(tolerance.key), Mapping):
-        known, errors = (given[name] for name in ("roll_angle", "error"))
-        at = np.array(known["values"], dtype=float) * base_units(f"1 {known['unit']}")[0]  # pyright: ignore
+    if isinstance(nominal_profile := nominal.at(tolerance.key), Mapping):
+        error_table, errors = (nominal_profile[name] for name in ("roll_angle", "error"))
+        at = np.array(error_table["values"], dtype=float) * base_units(f"1 {error_table['unit']}")[0]  # pyright: ignore
         every = np.union1d(roll, at)
         factor = base_units(f"1 {errors['unit']}")[0] / base_units(f"1 {tolerance.unit}")[0]  # pyright: ignore
         error = np.interp(every, roll, error) + np.interp(every, at, np.array(errors["values"])) * factor

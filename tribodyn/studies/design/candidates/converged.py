@@ -58,18 +58,18 @@ def counts(case: DesignCase, method: str) -> dict[int, int]:
     The start of every resolution and what is evaluated about the best are among them.
     """
     most = case.search.evaluations
-    beside = 2 * (len(case.free) + len(case.tolerances)) * case.sensitivities + 2 * bool(case.confirm)
+    further = 2 * (len(case.free) + len(case.tolerances)) * case.sensitivities + 2 * bool(case.confirm)
     finer = FACTORS[1:] if resolutions(case, 1) else ()
     if len(case.objectives) > 1:
         each = min(2 * max(KEPT, case.search.points), most)
-        found = {1: most} | dict.fromkeys(finer, each)
+        evaluations = {1: most} | dict.fromkeys(finer, each)
     else:
         about = int(SHARE * most) if method in SMOOTH else 0
-        found = {1: most} | {factor: KEPT + about * (factor == SEARCHED) for factor in finer}
-        found |= dict.fromkeys(finer[:1], 1)
-    found = {factor: count + 1 for factor, count in found.items()}
+        evaluations = {1: most} | {factor: KEPT + about * (factor == SEARCHED) for factor in finer}
+        evaluations |= dict.fromkeys(finer[:1], 1)
+    evaluations = {factor: count + 1 for factor, count in evaluations.items()}
     last = SEARCHED if finer else 1
-    return found | {last: found[last] + beside}
+    return evaluations | {last: evaluations[last] + further}
 
 
 def _of_best(at: At, smooth: bool) -> tuple[int, bool]:
@@ -110,12 +110,12 @@ def _near(coarse: Archive, fine: Archive, members: list[Candidate]) -> list[Cand
 
     The nearest of them, at most as many as there are members, or `KEPT`.
     """
-    known = {candidate.numbers: candidate.score for candidate in fine.evaluations}
-    both = [member for member in members if member.numbers in known]
-    moved = [np.subtract(known[same.numbers].objectives, same.score.objectives) for same in both]
+    scores = {candidate.numbers: candidate.score for candidate in fine.evaluations}
+    both = [member for member in members if member.numbers in scores]
+    moved = [np.subtract(scores[same.numbers].objectives, same.score.objectives) for same in both]
     # what is left of errors of first order is as much again
     changes = 2.0 * np.nanmax(np.abs(moved), axis=0, initial=TINY)
-    some = [other for other in coarse.evaluations if other.score.feasible and other.numbers not in known]
+    some = [other for other in coarse.evaluations if other.score.feasible and other.numbers not in scores]
     if not some:
         return []
     better = np.array([member.score.objectives for member in members])

@@ -69,25 +69,25 @@ def evaluate(
 
     `scenarios` are by their names as sources; `workers` are threads of a study that evaluates cases together.
     """
-    found: Results = [{} for _ in several]
+    results: Results = [{} for _ in several]
     for number, (name, data) in enumerate(scenarios.items()):
         schema = study_of(data).table(data)
         requests = [own(name, schema, overrides, scenarios) for overrides in several]
         keys = [json.dumps(request, sort_keys=True) for request in requests]
         once = dict(zip(keys, requests, strict=True))
         with within(number):
-            known = dict(zip(once, _found(data, list(once.values()), workers), strict=True))
-        found = [_with(whole, name, known[key]) for whole, key in zip(found, keys, strict=True)]
-    return found
+            by_key = dict(zip(once, _found(data, list(once.values()), workers), strict=True))
+        results = [_with(whole, name, by_key[key]) for whole, key in zip(results, keys, strict=True)]
+    return results
 
 
-def _with(known: dict[str, Any] | str, name: str, more: dict[str, Any] | str) -> dict[str, Any] | str:
+def _with(quantities: dict[str, Any] | str, name: str, more: dict[str, Any] | str) -> dict[str, Any] | str:
     """Quantities of a case with those of one more scenario."""
-    if isinstance(known, str):
-        return known
+    if isinstance(quantities, str):
+        return quantities
     if isinstance(more, str):
         return f"{name}: {more}" if name else more
-    return known | {f"{name}.{key}" if name else key: value for key, value in more.items()}
+    return quantities | {f"{name}.{key}" if name else key: value for key, value in more.items()}
 
 
 def _found(data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None) -> Results:
@@ -99,10 +99,10 @@ def _found(data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], worker
         except InputError as error:
             cases.append(str(error))
     try:
-        found = evaluated(study_of(data), cases, workers)
+        results = evaluated(study_of(data), cases, workers)
     except InputError as error:  # of all cases together
-        found = [str(error)] * len(cases)
-    return [value if isinstance(value, str) else numbers(value) for value in found]
+        results = [str(error)] * len(cases)
+    return [value if isinstance(value, str) else numbers(value) for value in results]
 
 
 def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> float:
@@ -114,8 +114,8 @@ def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) 
         case = loaded_case(base, overrides).case
     except InputError:
         return -1.0
-    found, module = plain_distances(assemble(family(case.family), case.drive)), case.drive.module
-    return min(value / (module if LIMITS[name] == "m" else 1.0) for name, value in found.items())
+    distances, module = plain_distances(assemble(family(case.family), case.drive)), case.drive.module
+    return min(value / (module if LIMITS[name] == "m" else 1.0) for name, value in distances.items())
 
 
 def numbers(quantities: Mapping[str, Any]) -> dict[str, float]:
@@ -133,8 +133,8 @@ def serve() -> None:
     scenarios, folder = json.loads(sys.stdin.readline())
     for line in sys.stdin:
         with kept_in(Path(folder)):
-            found = evaluate(scenarios, json.loads(line), workers=1)
-        answers.write(json.dumps(found) + "\n")
+            results = evaluate(scenarios, json.loads(line), workers=1)
+        answers.write(json.dumps(results) + "\n")
         answers.flush()
 
 

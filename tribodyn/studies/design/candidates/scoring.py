@@ -77,12 +77,12 @@ class Scoring:
             return constraint.sign * math.inf
         return constraint.sign * self._worst(constraint, self._start)
 
-    def score(self, found: Results, shape: float | None = None) -> Score:
+    def score(self, results: Results, shape: float | None = None) -> Score:
         """Score the quantities of a candidate's cases, in the order of `candidates.cases_of`."""
-        case, rows = self.case, self.rows(found)
+        case, rows = self.case, self.rows(results)
         missing = sorted(set(case.quantities) - set(rows[0][0])) if rows else []
         if rows is None or missing:
-            message = next((value for value in found if isinstance(value, str)), "")
+            message = next((value for value in results if isinstance(value, str)), "")
             message = message or f"it has no {missing[0]}"
             none, missed = (math.nan,), (-NO_QUANTITIES,)
             sizes = len(case.objectives), len(case.constraints), len(case.duties)
@@ -92,10 +92,10 @@ class Scoring:
         margins = tuple(self._margin(constraint, rows) for constraint in case.constraints)
         return Score(objectives, margins, by_duty, self._over_all_duties(rows), shape=shape)
 
-    def rows(self, found: Results) -> list[list[Mapping[str, float]]] | None:
+    def rows(self, results: Results) -> list[list[Mapping[str, float]]] | None:
         """Quantities by duty and sample, those that all cases have; None where a case has none."""
-        some = [quantities for quantities in found if not isinstance(quantities, str)]
-        if len(some) < len(found):
+        some = [quantities for quantities in results if not isinstance(quantities, str)]
+        if len(some) < len(results):
             return None
         shared = set(some[0]).intersection(*some[1:])
         plain: list[Mapping[str, float]] = [
@@ -104,20 +104,20 @@ class Scoring:
         count = len(some) // len(self.case.duties)
         return [plain[i : i + count] for i in range(0, len(plain), count)]
 
-    def constrained(self, found: Results) -> dict[str, float]:
+    def constrained(self, results: Results) -> dict[str, float]:
         """The quantity of every constraint at its worst duty and sample, by the constraint's text."""
-        rows = self.rows(found)
+        rows = self.rows(results)
         if rows is None:
             return {}
-        known = (constraint for constraint in self.case.constraints if constraint.quantity in rows[0][0])
-        return {each.text: each.sign * self._worst(each, rows) for each in known}
+        evaluated = (constraint for constraint in self.case.constraints if constraint.quantity in rows[0][0])
+        return {each.text: each.sign * self._worst(each, rows) for each in evaluated}
 
-    def objective_slope(self, objective: Objective, found: Results, slopes: Slopes) -> Float[Array, " key"]:
+    def objective_slope(self, objective: Objective, results: Results, slopes: Slopes) -> Float[Array, " key"]:
         """Slope of an objective by the shares of the free keys."""
         case, total = self.case, np.zeros(())
         for name, factor in objective.terms:
             sign = math.copysign(1.0, factor)
-            by_duty = self._by_duty(found, slopes, name, sign, case.robust.over)
+            by_duty = self._by_duty(results, slopes, name, sign, case.robust.over)
             if case.over_duties == "worst":
                 slope = max(by_duty, key=lambda pair: sign * pair[0])[1]
             else:
@@ -126,10 +126,10 @@ class Scoring:
             total = total + factor / self._reference(objective, name) * slope
         return total
 
-    def margin_slope(self, constraint: Constraint, found: Results, slopes: Slopes) -> Float[Array, " key"]:
+    def margin_slope(self, constraint: Constraint, results: Results, slopes: Slopes) -> Float[Array, " key"]:
         """Slope of the margin of a constraint by the shares of the free keys."""
         sign = constraint.sign
-        by_duty = self._by_duty(found, slopes, constraint.quantity, sign, self.over)
+        by_duty = self._by_duty(results, slopes, constraint.quantity, sign, self.over)
         _, slope = max(by_duty, key=lambda pair: sign * pair[0])
         return -sign * slope / self.scales[constraint.text]
 
@@ -176,11 +176,11 @@ class Scoring:
         return max(self._over_samples([case[name] * sign for case in row], self.over) for row in rows)
 
     def _by_duty(
-        self, found: Results, slopes: Slopes, name: str, sign: float, over: str
+        self, results: Results, slopes: Slopes, name: str, sign: float, over: str
     ) -> list[tuple[float, Any]]:
         """Value and slope of a quantity at each duty; of a quantile those of the sample nearest to it."""
         pairs = []
-        for row, of_row in zip(self.rows(found) or [], slopes, strict=True):
+        for row, of_row in zip(self.rows(results) or [], slopes, strict=True):
             values, of_values = [case[name] for case in row], [case[name] for case in of_row]
             if over == "mean":
                 pairs.append((float(np.mean(values)), np.mean(of_values, axis=0)))
@@ -200,12 +200,12 @@ def derivatives_of(case: DesignCase) -> "Derivatives | None":
     smooth = all(free.continuous for free in case.free)
     if case.parts or study.batch() or not study.has_gears or not smooth:
         return None
-    found = Derivatives(case)
+    derivatives = Derivatives(case)
     try:
-        found.function(cases_of(case, chosen(case, start_of(case)))[0])
+        derivatives.function(cases_of(case, chosen(case, start_of(case)))[0])
     except InputError:
         return None
-    return found
+    return derivatives
 
 
 class Derivatives:

@@ -62,11 +62,11 @@ def quantity_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
         remedy = f"there is: {', '.join(names)}" if names else "add [design.part]"
         raise InputError(place, quoted(name), f"there is no part {quoted(part)}", remedy)
     study = studies[part]
-    known = evaluated_quantities(study)
+    quantities = evaluated_quantities(study)
     full = study.short_names().get(plain, plain)
-    if full not in known:
+    if full not in quantities:
         what = f"quantity of studies of kind {study.kind}"
-        raise unknown_name(place, plain, [*study.short_names(), *known], what)
+        raise unknown_name(place, plain, [*study.short_names(), *quantities], what)
     return _joined(part, full)
 
 
@@ -88,9 +88,9 @@ def own(name: str, schema: type[Table], overrides: Mapping[str, Any], names: Any
     common = {key: value for key, value in overrides.items() if split(key, names)[0] == BASE}
     if name == BASE:
         return common
-    found = {key: value for key, value in common.items() if unknown_part(key, schema) is None}
+    unambiguous = {key: value for key, value in common.items() if unknown_part(key, schema) is None}
     named = ((split(key, names), value) for key, value in overrides.items())
-    return found | {rest: value for (part, rest), value in named if part == name}
+    return unambiguous | {rest: value for (part, rest), value in named if part == name}
 
 
 def require_key(place: str, key: str, sources: Sources) -> tuple[Source, str]:
@@ -170,8 +170,8 @@ def in_unit(value: Any, unit: str, si: float) -> float | None:
         return float(value)
     if not isinstance(value, str):
         return None
-    number, _, own = value.strip().partition(" ")
-    if own.strip() == unit:
+    number, _, value_unit = value.strip().partition(" ")
+    if value_unit.strip() == unit:
         return float(number)
     base = base_units(value)
     return base[0] / si if base else None

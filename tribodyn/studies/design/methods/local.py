@@ -202,9 +202,9 @@ def slopes_of(view: Scalar) -> Callable[[tuple[float, ...]], tuple[np.ndarray, n
             value = np.array([view.value(other) - view.value(middle) for other in others]) / steps
             at_middle = np.array(view.margins(middle))
             return value, np.array([np.array(view.margins(other)) - at_middle for other in others]).T / steps
-        found, by_case = archive.found_of(chosen(case, shares)).result(), derivatives.at(shares)
-        value = scoring.objective_slope(case.objectives[0], found, by_case) / view.scales[0]
-        margins = [scoring.margin_slope(limit, found, by_case) for limit in case.constraints]
+        results, by_case = archive.found_of(chosen(case, shares)).result(), derivatives.at(shares)
+        value = scoring.objective_slope(case.objectives[0], results, by_case) / view.scales[0]
+        margins = [scoring.margin_slope(limit, results, by_case) for limit in case.constraints]
         if middle.shape is not None:
             shapes = [archive.shape_of(chosen(case, share)) or 0.0 for share in around]
             margins.append(np.array([shape - middle.shape for shape in shapes]) / steps)

@@ -120,7 +120,7 @@ class MotionBatch:
         cycles = max(STEADY_CYCLES, 4 * settings.common) if settings.steady else settings.cycles
         marched = () if settings.steady else (cost.CostKey("--transient", cycles, STEADY_CYCLES),)
         samples = float(case.output.samples_per_cycle)
-        taken = cost.total(
+        one = cost.total(
             (*cost_keys(case.gearbox()), *marched),
             *marching_of(case.gearbox(), float(cycles)),
             cost.in_memory(3.0 * together * settings.window * samples, len(settings.states) * 8.0),
@@ -129,7 +129,7 @@ class MotionBatch:
         )
         # sizes without the scales: as many samples may be asked for as no memory holds
         small = self.layout(settings._replace(samples=1, points=1))
-        return taken._replace(record=row_bytes(small, settings))
+        return one._replace(record=row_bytes(small, settings))
 
     def check(self, case: Any, settings: SweepSettings) -> None:
         """Prepare a case; a steady state needs a load that does not change with time."""

@@ -80,8 +80,8 @@ def window_quantities(
         judge_tribology(judge, each)
     swept = swept_of(named=prepared.case.named)
     values = ((quantity.name, quantities.get(quantity.name)) for quantity in swept)
-    known = {name: float("nan") if value is None else value for name, value in values}
-    return known, of_meshes, judge.summary()
+    by_name = {name: float("nan") if value is None else value for name, value in values}
+    return by_name, of_meshes, judge.summary()
 
 
 def fill_unstable(
@@ -141,15 +141,15 @@ def _at_own_temperature(chunk: Chunk, rows: dict[str, np.ndarray], settings: Swe
 
     Those that follow a branch stay at the temperature of the quasi-static loss, which their neighbours have.
     """
-    found: dict[int, Any] = {}
+    again_at: dict[int, Any] = {}
     for i, case in enumerate(chunk.cases):
         followed = chunk.ways is not None and chunk.ways[i] is not None
         if isinstance(case, str) or followed or rows["status"][i] != DONE:
             continue
         again = warmer(case, {name: values[i] for name, values in rows.items()}, settings)
         if again is not None:
-            found[i] = again
-    return found
+            again_at[i] = again
+    return again_at
 
 
 def _evaluate(
@@ -167,11 +167,17 @@ def _evaluate(
                 refuse_steady(case)
             prepared = prepare(at_length(case, settings))
             places = places_of(prepared, settings)
-            given = None if chunk.states is None else chunk.states[i][places]
+            start_state = None if chunk.states is None else chunk.states[i][places]
             # a neighbour of another structure lacks states
-            start = _start(prepared, settings) if given is None or np.isnan(given).any() else given
+            start = (
+                _start(prepared, settings)
+                if start_state is None or np.isnan(start_state).any()
+                else start_state
+            )
             ready[i] = prepared, start
-            frequencies = natural_frequencies(prepared.model, [made.cycle for made in prepared.made])
+            frequencies = natural_frequencies(
+                prepared.model, [tabulated.cycle for tabulated in prepared.made]
+            )
             rows["mode_frequency"][i, : len(frequencies)] = frequencies
         except (InputError, SimulationError) as error:
             _fail(rows, i, str(error))
@@ -288,8 +294,8 @@ def _start(prepared: Any, settings: SweepSettings) -> np.ndarray:
     still = frictionless(model._replace(operation=creeping))
     # of a mesh where it is and how it is damped: laws of its contacts have no part in this
     places = (mesh._replace(table=(), surfaces=(), film=(), friction=(), teeth=()) for mesh in model.meshes)
-    own = (mesh.teeth for mesh in model.meshes)
-    teeth = (number for each in own for number in (*each.driver, *each.driven, *each[2:]))
+    tooth_tables = (mesh.teeth for mesh in model.meshes)
+    teeth = (number for each in tooth_tables for number in (*each.driver, *each.driven, *each[2:]))
     meshes = (*(number for mesh in places for number in mesh), *teeth)
     links = (*model.links._replace(own=()), *numbers_of(model.links.own))
     numbers = (*creeping, *model.bodies, *links, *meshes, *model.schedule)

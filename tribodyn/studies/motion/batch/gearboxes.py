@@ -127,14 +127,14 @@ def quantities_over(
 ) -> tuple[dict[str, Any], dict[str, np.ndarray], Sequence[Mapping[str, Any]]]:
     """Quantities over a window: of the case, of each mesh for `OF_MESHES`, and of each mesh to judge."""
     whole, each = steady_quantities(inside.meshes, work, prepared, meshes_of_run(prepared), samples, extremes)
-    found = {}
+    of_meshes = {}
     if prepared.case.named:
-        found = {
+        of_meshes = {
             name + OF_MESH: np.array([mesh.get(name, np.nan) for mesh in each], dtype=float) for name in KEPT
         }
     if prepared.case.sets:
         whole |= worst_stage(stage_quantities(prepared, inside.meshes, each))
-    return concluded(prepared, whole, each), found, each
+    return concluded(prepared, whole, each), of_meshes, each
 
 
 def warmer(case: AnyCase, row: Mapping[str, Any], settings: SweepSettings) -> Gearbox | None:

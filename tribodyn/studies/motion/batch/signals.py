@@ -140,10 +140,10 @@ class SignalBatch:
             scales[time] = (Variable((time,), "s", about), steps)
             rotation = f"rotation of the reference body since the first sample, at {rate:.12g} Hz"
             variables[_angle_name(settings, rate)] = Variable((time,), "rad", rotation, "<f4")
-            for name, units, text, own in zip(
+            for name, units, text, signal_rate in zip(
                 settings.names, settings.units, settings.about, settings.rates, strict=True
             ):
-                if own == rate:
+                if signal_rate == rate:
                     variables[name] = Variable((time,), units, text, "<f4")
         scales["line"] = _LINE, settings.lines
         attributes = {"run_in": settings.run_in, "sensors": " ".join(settings.names)}
@@ -159,14 +159,14 @@ class SignalBatch:
         """What one of so many cases takes."""
         together = min(total, TOGETHER)
         signal = sum(samples_of(settings, rate) for rate in settings.rates)
-        taken = cost.total(
+        one = cost.total(
             (*cost_keys(case.gearbox()), cost.CostKey("--signals", settings.cycles, 1000.0)),
             *marching_of(case.gearbox(), float(settings.cycles)),
             cost.in_memory(together * BLOCK * settings.samples, 8.0 * MOST_STATES),
             cost.in_memory(together * signal, 3 * 8.0),
             cost.Estimate(seconds=_FILTERED * signal),
         )
-        return taken._replace(record=8.0 * signal)
+        return one._replace(record=8.0 * signal)
 
     def sharing(self, case: Any) -> Hashable:
         """Cases for which this is equal have the same tables."""
@@ -182,8 +182,8 @@ class SignalBatch:
         ready: dict[int, Heard] = {}
         stretches: dict[int, ListenedStretch] = {}
         asked = SignalRequest(settings.duration, settings.run_in, settings.seed)
-        made = {i: case for i, case in enumerate(chunk.cases) if not isinstance(case, str)}
-        for i, case in made.items():
+        valid = {i: case for i, case in enumerate(chunk.cases) if not isinstance(case, str)}
+        for i, case in valid.items():
             stretches[i] = stretch_of(case, int(chunk.numbers[i]), asked, settings.rates)
         # of one length, so that the tables of their teeth's numbers have one shape
         ends = [stretch.first + BLOCK * stretch.blocks for stretch in stretches.values()]
@@ -194,8 +194,8 @@ class SignalBatch:
             stretch = stretches[i]
             try:
                 finer = self._finer(case, settings)
-                own = settings._replace(cycles=max(ends), samples=finer)
-                prepared = self._prepared(case, own, stretch.noise_seed)
+                extended = settings._replace(cycles=max(ends), samples=finer)
+                prepared = self._prepared(case, extended, stretch.noise_seed)
                 listener = listener_of(prepared)
                 if tuple(one.sensor.name for one in listener.sensors) != settings.names:
                     rule = "the sensors are not those of the first case"
@@ -207,8 +207,10 @@ class SignalBatch:
         alike: dict[Any, list[int]] = {}  # by structure
         for i in ready:
             alike.setdefault(states_of(chunk.cases[i].gearbox()), []).append(i)
-        heard = (zip(some, listen([ready[i] for i in some], workers), strict=True) for some in alike.values())
-        for i, sensed in chain.from_iterable(heard):
+        listened = (
+            zip(some, listen([ready[i] for i in some], workers), strict=True) for some in alike.values()
+        )
+        for i, sensed in chain.from_iterable(listened):
             if isinstance(sensed, str):
                 _fail(rows, i, sensed)
                 continue
@@ -228,7 +230,7 @@ class SignalBatch:
 
         The motion is sampled as a case's `output` says or finer, for its sensors at its speed.
         """
-        found: list[Sensed | str] = [""] * len(cases)
+        signals: list[Sensed | str] = [""] * len(cases)
         stretches = [between(case, earliest, last) for case in cases]
         cycles = max(stretch.cycles for stretch in stretches)
         for part in range(0, len(cases), TOGETHER):
@@ -237,10 +239,10 @@ class SignalBatch:
                 try:
                     ready[i] = self._ready(cases[i], stretches[i], cycles)
                 except (InputError, SimulationError) as error:
-                    found[i] = str(error)
+                    signals[i] = str(error)
             for i, sensed in zip(ready, listen(list(ready.values()), workers), strict=True):
-                found[i] = sensed
-        return found
+                signals[i] = sensed
+        return signals
 
     def taken(self, case: Any, earliest: float, last: float, total: int) -> Estimate:
         """What so many cases take of which `heard` gives the signals; InputError for one that is too slow."""
@@ -259,11 +261,11 @@ class SignalBatch:
         """Prepare a case to be listened to, its schedule so many cycles long."""
         samples = few_enough(stretch)
         plain = SignalSettings(0.0, 0.0, 0, samples, *_NOBODY, cycles)
-        own = self._prepared(case, plain)
+        prepared = self._prepared(case, plain)
         return Heard(
-            own.model,
-            listener_of(own),
-            own.case.solver,
+            prepared.model,
+            listener_of(prepared),
+            prepared.case.solver,
             stretch.first,
             stretch.blocks,
             samples,
@@ -284,8 +286,8 @@ class SignalBatch:
             sensors = tuple(dataclasses.replace(sensor, seed=noise_seed) for sensor in sensors)
         output = dataclasses.replace(case.output, samples_per_cycle=settings.samples)
         solver = dataclasses.replace(case.solver, cycles=settings.cycles)
-        own = dataclasses.replace(case, sensors=sensors, output=output, solver=solver)
-        return prepare(own)
+        sampled_case = dataclasses.replace(case, sensors=sensors, output=output, solver=solver)
+        return prepare(sampled_case)
 
 
 #: Sensors and lines of settings that need none.

@@ -250,12 +250,12 @@ def _periodic(motion: SteadyMotion, samples: int, common: int, layout: TrainLayo
 def _described(outcome: Outcome, motion: SteadyMotion, common: int) -> Outcome:
     if outcome.window is None:
         return outcome
-    known = np.abs(motion.multipliers[np.isfinite(motion.multipliers)])
+    moduli = np.abs(motion.multipliers[np.isfinite(motion.multipliers)])
     return outcome._replace(
         solution=motion.kind,
         cycles=outcome.cycles + common * motion.cycles,
         message=motion.message,
         stable=int(motion.stable) if motion.period else UNKNOWN,
-        multiplier_max=float(known.max()) if known.size else float("nan"),
+        multiplier_max=float(moduli.max()) if moduli.size else float("nan"),
         residual=float(motion.residual),
     )

@@ -31,8 +31,8 @@ def by_mesh(record: Record, name: str) -> Float[Array, "sample mesh *pair"]:
 
 def carriers(record: Record) -> Int[Array, " body"]:
     """Number of the body with which each body is carried about its axis; -1: none."""
-    known = record.geometry.get("carrier")
-    return np.full(len(record["body"]), -1) if known is None else np.asarray(known, int)
+    carrier_of = record.geometry.get("carrier")
+    return np.full(len(record["body"]), -1) if carrier_of is None else np.asarray(carrier_of, int)
 
 
 def driver_of(record: Record, m: int, end: str = "driver") -> int:
@@ -45,18 +45,18 @@ def sets_of(record: Record) -> list[CarriedSet]:
     if "mesh" not in record:
         return []
     carried, centre = carriers(record), record.geometry["centre"]
-    found: dict[int, dict[int, dict[int, int]]] = {}
+    by_carrier: dict[int, dict[int, dict[int, int]]] = {}
     for m in range(len(record["mesh"])):
         ends = driver_of(record, m), driver_of(record, m, "driven")
         carrier = int(carried[ends[0]])
         if carrier < 0:
             continue
         central, planet = sorted(ends, key=lambda body: np.hypot(*(centre[body] - centre[carrier])))
-        found.setdefault(carrier, {}).setdefault(central, {})[planet] = m
+        by_carrier.setdefault(carrier, {}).setdefault(central, {})[planet] = m
     sets = []
-    for carrier, meshes in found.items():
+    for carrier, meshes in by_carrier.items():
         planets = tuple(next(iter(meshes.values())))
-        each = {body: tuple(own[planet] for planet in planets) for body, own in meshes.items()}
+        each = {body: tuple(mesh_of[planet] for planet in planets) for body, mesh_of in meshes.items()}
         name = str(record["mesh"][next(iter(each.values()))[0]]).rsplit("-", 2)[0]
         sets.append(CarriedSet(name, carrier, planets, each))
     return sets
@@ -64,17 +64,17 @@ def sets_of(record: Record) -> list[CarriedSet]:
 
 def mesh_labels(record: Record) -> list[str]:
     """Names of the meshes, one for all that a member of a set has with its planets."""
-    return _labels(mesh_names(record), [own for each in sets_of(record) for own in each.meshes.values()])
+    return _labels(mesh_names(record), [group for each in sets_of(record) for group in each.meshes.values()])
 
 
 def body_labels(record: Record) -> list[str]:
     """Names of the bodies, one for all planets of a set."""
-    return _labels(list(map(str, record["body"])), [own.planets for own in sets_of(record)])
+    return _labels(list(map(str, record["body"])), [carried.planets for carried in sets_of(record)])
 
 
 def _labels(names: list[str], groups: Sequence[Sequence[int]]) -> list[str]:
-    found = list(names)
+    labels = list(names)
     for group in groups:
         for number in group:
-            found[number] = together(names[one] for one in group)
-    return found
+            labels[number] = together(names[one] for one in group)
+    return labels

@@ -102,8 +102,8 @@ def _output_torque(
         return operating.output_torque
     put_in = operating.input_torque if operating.power is None else operating.power / speed
     ratio = train.motion.ratio
-    taken = sum(load.torque * float(ratio[load.body]) for load in others)
-    return ((put_in or 0.0) - taken) / float(ratio[at])
+    drawn_off = sum(load.torque * float(ratio[load.body]) for load in others)
+    return ((put_in or 0.0) - drawn_off) / float(ratio[at])
 
 
 def _load(load: LoadTable, body: int) -> LoadData:

@@ -55,7 +55,7 @@ class GearOutline(NamedTuple):
 def gear_outlines(record: Record) -> list[GearOutline]:
     """The gears of a train, the largest first, so that a small one beside it stays in sight."""
     places, names = record.geometry, record["gear"]
-    found: dict[int, GearOutline] = {}
+    outlines: dict[int, GearOutline] = {}
     for m, mesh in enumerate(record["mesh"]):
         shape, cycle = record.of_mesh(mesh, "geometry"), record.of_mesh(mesh, "mesh_cycle")
         frame = np.array(_frame(record, m))
@@ -63,12 +63,12 @@ def gear_outlines(record: Record) -> list[GearOutline]:
         roll = cycle["roll_start"] + places["phase"][m] * pitch
         for end, side, way in _ENDS:
             gear = int(places[end][m])
-            if gear in found:
+            if gear in outlines:
                 continue
             radius = float(shape[f"{side}_pitch_radius"])
             turned = way * roll * float(shape["pinion_pitch_radius"]) / radius
             about = np.array([[np.cos(turned), np.sin(turned)], [-np.sin(turned), np.cos(turned)]])
-            found[gear] = GearOutline(
+            outlines[gear] = GearOutline(
                 str(names[gear]),
                 gear,
                 int(places["gear_body"][gear]),
@@ -77,7 +77,7 @@ def gear_outlines(record: Record) -> list[GearOutline]:
                 radius,
                 float(shape[f"{side}_bore_radius"]),
             )
-    return sorted(found.values(), key=lambda gear: -gear.outside)
+    return sorted(outlines.values(), key=lambda gear: -gear.outside)
 
 
 def poses(record: Record) -> Float[Array, "body time 3"]:
@@ -95,9 +95,9 @@ def poses(record: Record) -> Float[Array, "body time 3"]:
 def gear_poses(record: Record) -> Float[Array, "gear time 3"]:
     """The same of every gear, the planes of a train with planetary sets beside each other."""
     bodies = np.asarray(record.geometry["gear_body"], int)
-    found = poses(record)[bodies]
-    found[..., :2] += shifts(record)[:, None]
-    return found
+    gear_pose = poses(record)[bodies]
+    gear_pose[..., :2] += shifts(record)[:, None]
+    return gear_pose
 
 
 def shifts(record: Record) -> Float[Array, "gear 2"]:
@@ -106,49 +106,49 @@ def shifts(record: Record) -> Float[Array, "gear 2"]:
     Sets on one axis would cover each other. The planes stand in x, in the order of the meshes.
     """
     places = record.geometry
-    found = np.zeros((len(places["gear_body"]), 2))
+    shift = np.zeros((len(places["gear_body"]), 2))
     planes, right = np.asarray(places.get("plane", [0]), int), None
     if not np.any(carriers(record) >= 0) or len(set(planes.tolist())) == 1:
-        return found
+        return shift
     x, _, radius = reaches(record).T
     for plane in dict.fromkeys(int(planes[int(gear)]) for gear in places["driver_gear"]):
         of_plane = planes == plane
         low, high = np.min((x - radius)[of_plane]), np.max((x + radius)[of_plane])
         right = low if right is None else right
-        found[of_plane, 0] = right - low
+        shift[of_plane, 0] = right - low
         right += (1.0 + _GAP) * (high - low)
-    return found
+    return shift
 
 
 def reaches(record: Record) -> Float[Array, "gear 3"]:
     """Centre and radius (m) of the circle that every gear stays in, of one that is carried about its axis."""
     carried, centre = carriers(record), record.geometry["centre"]
-    found = np.zeros((len(record["gear"]), 3))
+    circles = np.zeros((len(record["gear"]), 3))
     for gear in gear_outlines(record):
         axis = centre[carried[gear.body] if carried[gear.body] >= 0 else gear.body]
-        found[gear.number] = *axis, gear.outside + float(np.hypot(*(centre[gear.body] - axis)))
-    return found
+        circles[gear.number] = *axis, gear.outside + float(np.hypot(*(centre[gear.body] - axis)))
+    return circles
 
 
 def axes_of(record: Record, sample: int) -> Float[Array, "body 2"]:
     """Axis of every body without load, m, the planes beside each other as `gear_poses` has them."""
-    places, beside = record.geometry, shifts(record)
-    found, turned = np.array(places["centre"]), record["reference_angle"][sample]
-    shift = np.zeros_like(found)
-    for gear in reversed(range(len(beside))):
-        shift[int(places["gear_body"][gear])] = beside[gear]
-    for own in sets_of(record):
-        shift[own.carrier] = shift[own.planets[0]]
+    places, shift_of = record.geometry, shifts(record)
+    axes, turned = np.array(places["centre"]), record["reference_angle"][sample]
+    shift = np.zeros_like(axes)
+    for gear in reversed(range(len(shift_of))):
+        shift[int(places["gear_body"][gear])] = shift_of[gear]
+    for gearset in sets_of(record):
+        shift[gearset.carrier] = shift[gearset.planets[0]]
     for body, carrier in enumerate(carriers(record)):
         if carrier >= 0:
-            found[body] = _carried(found[body], places["centre"][carrier], places["carried"][body] * turned)
-    return found + shift
+            axes[body] = _carried(axes[body], places["centre"][carrier], places["carried"][body] * turned)
+    return axes + shift
 
 
 def mesh_turns(record: Record, m: int) -> Float[Array, " time"]:
     """By how much the frame of a mesh has turned with its carrier, rad, counter-clockwise."""
-    known, driver = record.geometry.get("carried"), driver_of(record, m)
-    return (0.0 if known is None else float(known[driver])) * record["reference_angle"]
+    carried, driver = record.geometry.get("carried"), driver_of(record, m)
+    return (0.0 if carried is None else float(carried[driver])) * record["reference_angle"]
 
 
 def _axis(record: Record, m: int) -> Float[Array, "2"]:
@@ -174,8 +174,8 @@ def contacts(record: Record, displaced: bool = True) -> Float[Array, "time mesh 
     """
     places = record.geometry
     mirrored = np.where(np.array(record.pairs) > 1, -1.0, 1.0)  # of back flanks, about the line of centres
-    found = np.full((*record["normal_load"].shape, 3), np.nan)
-    beside, stand = shifts(record), poses(record)
+    points = np.full((*record["normal_load"].shape, 3), np.nan)
+    shift_of, stand = shifts(record), poses(record)
     for m, mesh in enumerate(record["mesh"]):
         along, across = (np.array(direction) for direction in _frame(record, m))
         body = driver_of(record, m)
@@ -190,10 +190,10 @@ def contacts(record: Record, displaced: bool = True) -> Float[Array, "time mesh 
             centre = stand[body, :, :2]
         turned = turned[:, None]
         contact = pitch_point + record["signed_distance"][:, m, :, None] * normal
-        found[:, m, :, :2] = _carried(contact, np.zeros(2), turned) + centre[:, None]
-        found[:, m, :, :2] += beside[int(places["driver_gear"][m])]
-        found[:, m, :, 2] = np.arctan2(normal[..., 1], normal[..., 0]) + turned
-    return np.where(record["normal_load"][..., None] > 0.0, found, np.nan)
+        points[:, m, :, :2] = _carried(contact, np.zeros(2), turned) + centre[:, None]
+        points[:, m, :, :2] += shift_of[int(places["driver_gear"][m])]
+        points[:, m, :, 2] = np.arctan2(normal[..., 1], normal[..., 0]) + turned
+    return np.where(record["normal_load"][..., None] > 0.0, points, np.nan)
 
 
 def _frame(record: Record, m: int) -> tuple[tuple[float, float], tuple[float, float]]:

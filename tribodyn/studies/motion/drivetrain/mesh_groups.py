@@ -12,22 +12,22 @@ ALIKE = "alike"
 
 def alike_of(case: Gearbox) -> tuple[str, ...]:
     """What every mesh shares with those of the other planets, set and member; "" of a mesh outside sets."""
-    found = [""] * len(case.meshes)
-    for own in case.sets:
-        of_body = {body: member for member, body in own.members.items() if member != CARRIER}
+    groups = [""] * len(case.meshes)
+    for gearset in case.sets:
+        of_body = {body: member for member, body in gearset.members.items() if member != CARRIER}
         for m, mesh in enumerate(case.meshes):
-            if mesh.carrier == own.members[CARRIER]:
+            if mesh.carrier == gearset.members[CARRIER]:
                 body = mesh.driver if mesh.driver in of_body else mesh.driven
-                found[m] = f"{own.name}-{of_body[body]}"
-    return tuple(found)
+                groups[m] = f"{gearset.name}-{of_body[body]}"
+    return tuple(groups)
 
 
 def groups_of(meshes: Mapping[str, Mapping[str, Any]]) -> list[list[str]]:
     """Names of the meshes of a summary, those of all planets with one member in a list of their own."""
-    found: dict[str, list[str]] = {}
+    groups: dict[str, list[str]] = {}
     for name, mesh in meshes.items():
-        found.setdefault(f"set {mesh[ALIKE]}" if mesh.get(ALIKE) else f"mesh {name}", []).append(name)
-    return list(found.values())
+        groups.setdefault(f"set {mesh[ALIKE]}" if mesh.get(ALIKE) else f"mesh {name}", []).append(name)
+    return list(groups.values())
 
 
 def together(names: Iterable[str]) -> str:

@@ -16,9 +16,9 @@ _PLACE = "gear, shaft or body"
 def broken_names(scenario: Any) -> Iterator[InputError]:
     """Go through what is wrong with the names of a scenario that is of one sort, see `broken_sort`."""
     gears: list[str] = list(scenario.gear) if scenario.drive is None else list(OF_DRIVE)
-    known = list(_declared(scenario, gears))
-    names = [name for name, _ in known]
-    for place, (name, key) in enumerate(known):
+    declared = list(_declared(scenario, gears))
+    names = [name for name, _ in declared]
+    for place, (name, key) in enumerate(declared):
         if name in (GROUND, DEFAULT):
             yield InputError(key, quoted(name), "has a meaning of its own", "use another name")
         elif name in names[:place]:
@@ -43,13 +43,13 @@ def broken_names(scenario: Any) -> Iterator[InputError]:
 def broken_sort(scenario: Any) -> Iterator[InputError]:
     """Refuse a drive, stages and a bare model in one scenario, and none of them."""
     bare = isinstance(scenario.mesh, tuple)
-    given = [name for name in ("drive", "gear", "stage", "shaft") if getattr(scenario, name)]
-    if bare and given:
+    gear_tables = [name for name in ("drive", "gear", "stage", "shaft") if getattr(scenario, name)]
+    if bare and gear_tables:
         rule = "contradicts [[mesh]], a bare model: only [[body]] and [[link]] stand beside it"
-        yield InputError(given[0], None, rule, "leave it out, or write one table [mesh]")
-    elif scenario.drive is not None and {"gear", "stage"} & set(given):
+        yield InputError(gear_tables[0], None, rule, "leave it out, or write one table [mesh]")
+    elif scenario.drive is not None and {"gear", "stage"} & set(gear_tables):
         rule, remedy = "contradicts drive, which is a train of one stage", "leave the one or the other out"
-        yield InputError(given[1], None, rule, remedy)
+        yield InputError(gear_tables[1], None, rule, remedy)
     elif not bare and scenario.drive is None and not scenario.stage:
         remedy = 'add a [[stage]] with gears = ["pinion", "wheel"]'
         yield InputError("stage", None, "missing: a train has a mesh at least", remedy)

@@ -88,9 +88,9 @@ def resolve_kinematics(scenario: Any) -> TrainKinematics:
 
 def ends_of(scenario: Any) -> tuple[str, str | None]:
     """Names of what the power enters at and leaves at, beside [[load]]."""
-    operating, usual = scenario.operating, OF_DRIVE if scenario.drive is not None else ("", None)
+    operating, default = scenario.operating, OF_DRIVE if scenario.drive is not None else ("", None)
     loads = [load.at for load in scenario.load]
-    return operating.input or usual[0], operating.output or (None if loads else usual[1])
+    return operating.input or default[0], operating.output or (None if loads else default[1])
 
 
 def place_train(train: TrainKinematics) -> PlacedTrain:
@@ -183,12 +183,12 @@ def _placed(train: TrainKinematics, assemblies: tuple[Assembly, ...]) -> Centres
         distances.append(Distance(mesh.key, (one, two), apart, mesh.azimuth, tolerance))
         turned.append(mesh.gears != motion.gears[motion.meshes.index(number)])
     on_one_axis = [(new[one], new[two]) for one, two in coaxial(parts.sets)]
-    found = places(len(parts.bodies), distances, [*train.couplings, *on_one_axis])
+    positions = places(len(parts.bodies), distances, [*train.couplings, *on_one_axis])
     azimuths = tuple(
         remainder(azimuth + pi * reverse, 2.0 * pi)
-        for azimuth, reverse in zip(found.azimuths, turned, strict=True)
+        for azimuth, reverse in zip(positions.azimuths, turned, strict=True)
     )
-    return found._replace(azimuths=azimuths)
+    return positions._replace(azimuths=azimuths)
 
 
 def _tip(train: TrainKinematics, assemblies: tuple[Assembly, ...], gear: int) -> float:
@@ -199,29 +199,29 @@ def _tip(train: TrainKinematics, assemblies: tuple[Assembly, ...], gear: int) ->
 def _planes(parts: Structure) -> tuple[int, ...]:
     """Axial plane of every gear; gears that stages join stand in one, by default in one of their own."""
     groups = joined(len(parts.gears), [mesh.gears for mesh in parts.meshes])
-    given: dict[int, int] = {}
+    stated: dict[int, int] = {}
     for gear, group in zip(parts.gears, groups, strict=True):
         if gear.plane is None:
             continue
-        if given.setdefault(group, gear.plane) != gear.plane:
-            rule = f"gears that mesh stand in one plane, and another of these is in plane {given[group]}"
+        if stated.setdefault(group, gear.plane) != gear.plane:
+            rule = f"gears that mesh stand in one plane, and another of these is in plane {stated[group]}"
             raise InputError(f"{gear.key}.plane", gear.plane, rule, "give both the same")
-    free = (plane for plane in count(1) if plane not in set(given.values()))
-    own = {group: given[group] if group in given else next(free) for group in dict.fromkeys(groups)}
-    return tuple(own[group] for group in groups)
+    free = (plane for plane in count(1) if plane not in set(stated.values()))
+    plane_of = {group: stated[group] if group in stated else next(free) for group in dict.fromkeys(groups)}
+    return tuple(plane_of[group] for group in groups)
 
 
-def _check_phases(train: TrainKinematics, found: PlacedTrain) -> None:
+def _check_phases(train: TrainKinematics, placed: PlacedTrain) -> None:
     """Raise InputError where the teeth of a loop do not meet."""
     parts, motion, new = train.parts, train.motion, train.numbers
     shafts = [
         ToothedShaft(gear.name, shaft, gear.teeth, motion.sense[new[gear.body]], gear.tooth_angle)
-        for gear, shaft in zip(parts.gears, found.shafts, strict=True)
+        for gear, shaft in zip(parts.gears, placed.shafts, strict=True)
     ]
     nominal_phases(
         shafts,
         [
-            engagement(parts.meshes[mesh].key, motion.gears[number], found.places.azimuths[number], assembly)
-            for number, (mesh, assembly) in enumerate(zip(motion.meshes, found.assemblies, strict=True))
+            engagement(parts.meshes[mesh].key, motion.gears[number], placed.places.azimuths[number], assembly)
+            for number, (mesh, assembly) in enumerate(zip(motion.meshes, placed.assemblies, strict=True))
         ],
     )

@@ -160,8 +160,8 @@ def structure(scenario: Any) -> Structure:
 
 
 def _gear(name: str, key: str, body: int, table: Gear) -> GearPart:
-    own = getattr(table, "plane", None), getattr(table, "tooth_angle", 0.0)
-    return GearPart(name, key, body, table, *own, getattr(table, "axial_position", 0.0))
+    placement = getattr(table, "plane", None), getattr(table, "tooth_angle", 0.0)
+    return GearPart(name, key, body, table, *placement, getattr(table, "axial_position", 0.0))
 
 
 def _gear_key(scenario: Any, name: str) -> str:
@@ -226,18 +226,18 @@ def _bare(scenario: Any) -> Structure:
     places: dict[str, tuple[int, ...]] = {}
     _own_bodies(scenario, bodies, places)
     gears: list[GearPart] = []
-    known: dict[tuple, int] = {}
+    gear_of: dict[tuple, int] = {}
     meshes = []
     for number, mesh in enumerate(scenario.mesh):
         key, ends = f"mesh.{number}", []
         for name, teeth, shift in zip(mesh.bodies, mesh.teeth, mesh.profile_shift, strict=True):
             which = (name, teeth, shift, mesh.module, mesh.pressure_angle, mesh.face_width)
-            if which not in known:
-                known[which] = len(gears)
+            if which not in gear_of:
+                gear_of[which] = len(gears)
                 table = Gear.model_validate({"teeth": teeth, "face_width": "1 mm", "profile_shift": shift})
                 table = table.model_copy(update={"face_width": mesh.face_width})
                 gears.append(GearPart(name, key, places[name][0], table, None, 0.0))
-            ends.append(known[which])
+            ends.append(gear_of[which])
         name = mesh.name or "-".join(mesh.bodies)
         meshes.append(MeshPart(name, key, (ends[0], ends[1]), mesh.azimuth, mesh))
     return Structure(
@@ -264,7 +264,10 @@ def motion_of(parts: Structure, source: int, sense: int) -> TrainSpeeds:
         [Joint(link.key, ends) for link, ends in parts.couplings()],
         source,
         sense,
-        [SetMembers(own.key, own.members, own.planets, own.teeth, own.table.held) for own in parts.sets],
+        [
+            SetMembers(gearset.key, gearset.members, gearset.planets, gearset.teeth, gearset.table.held)
+            for gearset in parts.sets
+        ],
     )
 
 
@@ -287,12 +290,12 @@ def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, dr
     if isinstance(table, BareMesh):
         return DriveTable.model_construct(family="involute", **common)
     flanks = "roughness", "finish", "asperity_density", "asperity_slope"
-    own = {name: getattr(table, name) for name in ("family", "rack", "shape", "helix_angle", *flanks)}
+    gear_keys = {name: getattr(table, name) for name in ("family", "rack", "shape", "helix_angle", *flanks)}
     distance: Printed | None = table.centre_distance
     at_ring = isinstance(table, PlanetaryStage) and (pinion.internal or gear.internal)
     if distance is None and at_ring and family(table.family).involute:
         distance = _distance_of_set(scenario, parts, mesh)
-    return DriveTable.model_construct(**common, **own, centre_distance=distance)
+    return DriveTable.model_construct(**common, **gear_keys, centre_distance=distance)
 
 
 def _distance_of_set(scenario: Any, parts: Structure, mesh: MeshPart) -> Printed:
@@ -316,23 +319,23 @@ def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
     table = mesh.table
     if isinstance(table, BareMesh):
         plain = Mesh.model_validate({"damping_ratio": 0.0})
-        own = {name: getattr(table, name) for name in ("stiffness", "table", "damping_ratio", "backlash")}
+        keys = {name: getattr(table, name) for name in ("stiffness", "table", "damping_ratio", "backlash")}
         compliance = "constant" if table.table is None else "table"
-        return plain.model_copy(update=own | {"compliance": compliance})
-    given = {}
+        return plain.model_copy(update=keys | {"compliance": compliance})
+    values = {}
     if isinstance(table, (Stage, PlanetaryStage)):
-        given = {name: getattr(table, name) for name in ("damping_ratio", "backlash")}
+        values = {name: getattr(table, name) for name in ("damping_ratio", "backlash")}
         planetary = table.name if isinstance(table, PlanetaryStage) else ""
-        given["stiffness"] = getattr(table, stiffness_key(mesh.name, planetary))
-    return scenario.mesh.model_copy(update={name: own for name, own in given.items() if own is not None})
+        values["stiffness"] = getattr(table, stiffness_key(mesh.name, planetary))
+    return scenario.mesh.model_copy(update={name: keys for name, keys in values.items() if keys is not None})
 
 
 def bearings_by_body(scenario: Any, parts: Structure) -> list[Bearing | None]:
     """The bearings of every body: its own, else "default", else the gear's of a bearings file; None: none."""
     by_name = scenario.bearings.by_name
-    usual = by_name.get(DEFAULT, by_name.get(OF_DRIVE[1]))
-    found: list[Bearing | None] = [usual] * len(parts.bodies)
+    default = by_name.get(DEFAULT, by_name.get(OF_DRIVE[1]))
+    bearings: list[Bearing | None] = [default] * len(parts.bodies)
     for name, bearing in by_name.items():
         for body in parts.places.get(name, ()):
-            found[body] = bearing
-    return found
+            bearings[body] = bearing
+    return bearings

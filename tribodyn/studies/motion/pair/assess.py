@@ -45,10 +45,10 @@ def tasks(request: Request) -> tuple[Task, ...]:
         **{name: tables[name] for name in ("shaft", "film") if name in tables},
     }
     speeds = [{_SPEED: f"{speed!r} rad/s"} for speed in request.speeds]
-    found = [Task(_TASK, "steady states over the speed", scenario, speeds)]
+    requested = [Task(_TASK, "steady states over the speed", scenario, speeds)]
     over_time = {"solver": {"cycles": _CYCLES}, "output": {"samples_per_cycle": _RESOLVED}}
     about = "loads of the teeth over time at the duty"
-    found.append(Task(_AT_DUTY, about, scenario | over_time, needed=False))
+    requested.append(Task(_AT_DUTY, about, scenario | over_time, needed=False))
     if request.samples:
         sliced = scenario | {"mesh": {"slices": _SLICES, **scenario["mesh"]}}
         span = request.speeds[0], request.speeds[-1]
@@ -56,13 +56,13 @@ def tasks(request: Request) -> tuple[Task, ...]:
         def at_resonances(case: Any) -> list[dict[str, str]]:
             from tribodyn.studies.motion.pair.resonances import resonance_speeds  # the dynamics
 
-            found = resonance_speeds(case, span, _RESONANCES)
-            speeds = [max(share * speed, span[0]) for speed in found for share in _AT]
+            resonances = resonance_speeds(case, span, _RESONANCES)
+            speeds = [max(share * speed, span[0]) for speed in resonances for share in _AT]
             return [{_SPEED: f"{speed!r} rad/s"} for speed in speeds]
 
         about = "steady states, samples"
-        found.append(Task(_SAMPLES, about, sliced, request.samples, at_resonances, needed=False))
-    return tuple(found)
+        requested.append(Task(_SAMPLES, about, sliced, request.samples, at_resonances, needed=False))
+    return tuple(requested)
 
 
 def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
@@ -110,30 +110,30 @@ def _of_samples(request: Request, done: TaskResult | None) -> dict[str, np.ndarr
         return {}
     places = _places(request.samples, done.cases)
     names = ("dynamic_factor", "transmission_error_peak_to_peak", "contact_loss_fraction")
-    found = {name: np.array([done.rows[name][own[0]] for own in places]) for name in names}
+    at_duty = {name: np.array([done.rows[name][rows[0]] for rows in places]) for name in names}
     speeds = np.array([_speed(case, request.pinion_speed) for case in done.cases])
     ends = ("dynamic_factor_max", "dynamic_factor_max_speed", "contact_loss_fraction_max")
     worst = np.full((len(ends), len(places)), np.nan)
     begins = np.full(len(places), np.nan)
-    for sample, own in enumerate(places):
-        factor, lost = done.rows["dynamic_factor"][own], done.rows["contact_loss_fraction"][own]
+    for sample, rows in enumerate(places):
+        factor, lost = done.rows["dynamic_factor"][rows], done.rows["contact_loss_fraction"][rows]
         if np.any(np.isfinite(factor)):
             most = int(np.nanargmax(factor))
-            worst[:, sample] = factor[most], speeds[own][most], np.nanmax(lost)
+            worst[:, sample] = factor[most], speeds[rows][most], np.nanmax(lost)
         parted = np.nan_to_num(lost) > _LOST
-        begins[sample] = np.min(speeds[own][parted]) if np.any(parted) else np.nan
-    return found | dict(zip(ends, worst, strict=True)) | {"contact_loss_speed_from": begins}
+        begins[sample] = np.min(speeds[rows][parted]) if np.any(parted) else np.nan
+    return at_duty | dict(zip(ends, worst, strict=True)) | {"contact_loss_speed_from": begins}
 
 
 def _places(samples: Sequence[Mapping[str, Any]], cases: Sequence[Mapping[str, Any]]) -> list[list[int]]:
     """Rows of every sample, that at the duty first: its further ones follow it."""
-    found: list[list[int]] = []
+    places: list[list[int]] = []
     for place, case in enumerate(cases):
         if _SPEED not in case:
-            found.append([])
-        found[-1].append(place)
-    assert len(found) == len(samples)
-    return found
+            places.append([])
+        places[-1].append(place)
+    assert len(places) == len(samples)
+    return places
 
 
 def _speed(case: Mapping[str, Any], duty: float) -> float:
@@ -152,7 +152,7 @@ def _loads(run: TaskResult) -> dict[str, np.ndarray]:
 
 def maxima(values: np.ndarray) -> list[int]:
     """Places of local maxima that stand out on both sides, the highest first."""
-    found = []
+    places = []
     for i in range(1, len(values) - 1):
         here = values[i]
         if not (here >= values[i - 1] and here > values[i + 1]):
@@ -161,8 +161,8 @@ def maxima(values: np.ndarray) -> list[int]:
         left = max((j for j in higher if j < i), default=0)
         right = min((j for j in higher if j > i), default=len(values) - 1)
         if here - max(np.nanmin(values[left : i + 1]), np.nanmin(values[i : right + 1])) > _RISE:
-            found.append(i)
-    return sorted(found, key=lambda i: -values[i])
+            places.append(i)
+    return sorted(places, key=lambda i: -values[i])
 
 
 ROLE = Contribution(2, "Steady states over the speed", tasks, answer)

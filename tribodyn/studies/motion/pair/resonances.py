@@ -29,10 +29,10 @@ def resonance_speeds(case: Case, span: tuple[float, float], most: int) -> list[f
     SimulationError where the case cannot be prepared.
     """
     prepared = prepare(case)
-    found = modes(prepared.model, [prepared.cycle])
+    mode_set = modes(prepared.model, [prepared.cycle])
     _, of_links = linearised(prepared.model, [])
-    angular = 2.0 * math.pi * found.frequency
-    borne = np.einsum("jc,cd,jd->j", found.shape, of_links, found.shape)
+    angular = 2.0 * math.pi * mode_set.frequency
+    borne = np.einsum("jc,cd,jd->j", mode_set.shape, of_links, mode_set.shape)
     with np.errstate(invalid="ignore", divide="ignore"):
         in_mesh = np.clip(1.0 - borne / angular**2, 0.0, 1.0)
     error = error_harmonics(prepared.cycle, case.operating.gear_torque)

@@ -76,13 +76,13 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         for each, side in zip(teeth, SIDES, strict=True)
     )
     teeth = one, two
-    own: dict[str, Any] = {
+    pair_fields: dict[str, Any] = {
         "operating": _operating(scenario),
         "mesh": with_own_teeth(moving_mesh_of(scenario), teeth),
         "teeth": teeth,
     }
     case = Case(
-        **gear_fields(scenario, toml, sha256) | own,
+        **gear_fields(scenario, toml, sha256) | pair_fields,
         **oil_fields(scenario),
         bearings=bearings_of(scenario),
         shafts={shaft.gears[0]: (shaft.mass, shaft.inertia) for shaft in listed(scenario.shaft)},

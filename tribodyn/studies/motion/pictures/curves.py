@@ -28,11 +28,11 @@ def draw_curves(
     Curves of one name have one colour.
     """
     window = last_cycles(record, view.cycles)
-    x, shown, known = abscissa(window, view), [], list(dict.fromkeys(names))
+    x, shown, distinct = abscissa(window, view), [], list(dict.fromkeys(names))
     named: set[str] = set()
     for number, name in enumerate(names):
         curve = values[:, number] * trace.factor
-        color = style.PALETTE[known.index(name) % len(style.PALETTE)]
+        color = style.PALETTE[distinct.index(name) % len(style.PALETTE)]
         if not np.any(np.isfinite(curve)):
             continue
         label = "_again" if name in named else style.literal(name)

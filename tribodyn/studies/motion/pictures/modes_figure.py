@@ -40,14 +40,17 @@ def _draw_campbell(axes: Axes, record: Record, modes: np.ndarray) -> None:
     mesh = last_cycles(record, None).mesh_frequency
     speed = _reference_speed(record) * 30.0 / np.pi
     rates = mesh_rates(record)
-    passes = [found for found in _passes(record) if found[1] > 0.0]
+    passes = [one for one in _passes(record) if one[1] > 0.0]
     lowest = min([mesh * rates.min(), *(frequency for _, frequency in passes)])
     ends = np.array([*modes, SPEEDS[0] * lowest, mesh * rates.max()]) * 1e-3
     low, high = ROOM[0] * float(ends.min()), ROOM[1] * float(ends.max())
     at = np.array(SPEEDS)
     alike: dict[float, list[str]] = {}
     sets = {
-        mesh_names(record)[m]: own.name for own in sets_of(record) for of in own.meshes.values() for m in of
+        mesh_names(record)[m]: gearset.name
+        for gearset in sets_of(record)
+        for of in gearset.meshes.values()
+        for m in of
     }
     for name, rate in zip(mesh_names(record), rates, strict=True):
         alike.setdefault(round(float(rate), 6), []).append(literal(sets.get(str(name), str(name))))
@@ -102,11 +105,11 @@ def _passes(record: Record) -> list[tuple[str, float]]:
     turning = record.geometry["sense"] * np.mean(record["speed"], axis=0) / (2.0 * np.pi)
     return [
         (
-            literal(f"{own.name}: planets pass {record['body'][body]}"),
-            len(own.planets) * abs(float(turning[own.carrier] - turning[body])),
+            literal(f"{gearset.name}: planets pass {record['body'][body]}"),
+            len(gearset.planets) * abs(float(turning[gearset.carrier] - turning[body])),
         )
-        for own in sets_of(record)
-        for body in own.meshes
+        for gearset in sets_of(record)
+        for body in gearset.meshes
     ]
 
 

@@ -31,13 +31,15 @@ def planet_loads(record: Record, meshes: Sequence[int]) -> np.ndarray:
 def planet_load_figure(records: Sequence[Record], view: View) -> Figure:
     """Draw of the first record the loads of all planets of every set, at sun and ring in a panel each."""
     record = records[0]
-    panels = [(own, body, meshes) for own in sets_of(record) for body, meshes in own.meshes.items()]
+    panels = [
+        (gearset, body, meshes) for gearset in sets_of(record) for body, meshes in gearset.meshes.items()
+    ]
     figure = new_figure(WIDTH, (PANEL_HEIGHT + 0.15) * len(panels) + 0.6)
     rows = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
-    for letter, axes, (own, body, meshes) in zip(_LETTERS, rows, panels, strict=False):
-        names = [str(record["body"][planet]) for planet in own.planets]
+    for letter, axes, (gearset, body, meshes) in zip(_LETTERS, rows, panels, strict=False):
+        names = [str(record["body"][planet]) for planet in gearset.planets]
         draw_curves(axes, record, planet_loads(record, meshes), names, LOAD, view)
-        mark_panel(axes, letter, f"{_named(record, own, body)}: load of the teeth of every planet")
+        mark_panel(axes, letter, f"{_named(record, gearset, body)}: load of the teeth of every planet")
         axes.legend(loc="upper right", ncols=len(names), fontsize=6.5)
     for axes in rows[:-1]:
         axes.set_xlabel("")
@@ -75,14 +77,14 @@ def has_orbits(record: Record) -> bool:
 
 def _orbits(record: Record) -> list[tuple[CarriedSet, int]]:
     """Sets and bodies on their axes that move in the plane, by more than rounding if any does."""
-    found = [
-        (own, body)
-        for own in sets_of(record)
-        for body in own.meshes
+    central = [
+        (gearset, body)
+        for gearset in sets_of(record)
+        for body in gearset.meshes
         if np.any(np.isfinite(record["x"][:, body]))
     ]
-    moved = [float(np.max(np.hypot(record["x"][:, body], record["y"][:, body]))) for _, body in found]
-    return [one for one, far in zip(found, moved, strict=True) if far > _RESTS * max(moved)] or found
+    moved = [float(np.max(np.hypot(record["x"][:, body], record["y"][:, body]))) for _, body in central]
+    return [one for one, far in zip(central, moved, strict=True) if far > _RESTS * max(moved)] or central
 
 
 def orbit_figure(records: Sequence[Record], view: View) -> Figure:
@@ -92,13 +94,13 @@ def orbit_figure(records: Sequence[Record], view: View) -> Figure:
     part, panels = last_cycles(record, cycles).part, _orbits(record)
     figure = new_figure(WIDTH, 2.9 * len(panels) + 0.4)
     rows = figure.subplots(len(panels), 2, squeeze=False)
-    for number, (own, body) in enumerate(panels):
+    for number, (gearset, body) in enumerate(panels):
         place = np.stack([record["x"][part, body], record["y"][part, body]], axis=-1) / MICROMETRE
         turned = record.geometry["carried"][body] * record["reference_angle"][part]
         x, y = place.T
         cosine, sine = np.cos(turned), np.sin(turned)
         from_housing = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
-        name = _named(record, own, body)
+        name = _named(record, gearset, body)
         for axes, path, seen in zip(rows[number], (place, from_housing), ("carrier", "housing"), strict=True):
             _draw_orbit(axes, path, PALETTE[number % len(PALETTE)])
             letter = _LETTERS[(2 * number + (seen == "housing")) % len(_LETTERS)]
@@ -121,5 +123,5 @@ def _draw_orbit(axes: Axes, path: np.ndarray, color: str) -> None:
     axes.set_ylabel("y (µm)")
 
 
-def _named(record: Record, own: CarriedSet, body: int) -> str:
-    return literal(f"{own.name}, {record['body'][body]}")
+def _named(record: Record, gearset: CarriedSet, body: int) -> str:
+    return literal(f"{gearset.name}, {record['body'][body]}")

@@ -31,8 +31,8 @@ def rolling_train(record: Record) -> Mechanism:
     """All gears, the largest behind; contacts without load, mesh after mesh, the newest pair first."""
     gears, stand, sense = gear_outlines(record), gear_poses(record), record.geometry["sense"]
     sets, axes = sets_of(record), axes_of(record, 0)
-    frames = {own.carrier: number for number, own in enumerate(sets)}
-    bodies = [_carrier(record, own, axes) for own in sets]
+    frames = {gearset.carrier: number for number, gearset in enumerate(sets)}
+    bodies = [_carrier(record, gearset, axes) for gearset in sets]
     of_gear: dict[int, int] = {}
     for gear in gears:
         of_gear[gear.number] = len(bodies)
@@ -42,12 +42,12 @@ def rolling_train(record: Record) -> Mechanism:
     where[:, :2] += shifts(record)
     whole = _sight("the whole train", where)
     sights = [whole]
-    for own in sets:
+    for gearset in sets:
         around = _sight(
-            f"the set {own.name}", where[[gear.number for gear in gears if gear.body in own.meshes]]
+            f"the set {gearset.name}", where[[gear.number for gear in gears if gear.body in gearset.meshes]]
         )
         sights += [around] if len(set(record.geometry["plane"].tolist())) > 1 else []
-        turns = (float(axes[own.carrier, 0]), float(axes[own.carrier, 1]), frames[own.carrier])
+        turns = (float(axes[gearset.carrier, 0]), float(axes[gearset.carrier, 1]), frames[gearset.carrier])
         sights.append(around._replace(label=f"{around.label} from its carrier", turns=turns))
     for m, mesh in enumerate(record["mesh"]):
         ends = [of_gear[int(record.geometry[f"{end}_gear"][m])] for end in ("driver", "driven")]
@@ -83,11 +83,11 @@ def _sight(label: str, where: np.ndarray) -> Sight:
     return Sight(label, float(x), float(y), _ROOM * max(height, width / _WIDE))
 
 
-def _carrier(record: Record, own: CarriedSet, axes: np.ndarray) -> Body:
+def _carrier(record: Record, gearset: CarriedSet, axes: np.ndarray) -> Body:
     """The frame of a set as lines from its axis to its planets."""
     centre = record.geometry["centre"]
-    pins = [centre[planet] - centre[own.carrier] for planet in own.planets]
+    pins = [centre[planet] - centre[gearset.carrier] for planet in gearset.planets]
     outline = np.concatenate([[[0.0, 0.0], pin] for pin in pins])
-    turned = record.geometry["carried"][own.carrier] * record["reference_angle"]
-    pose = np.column_stack([np.broadcast_to(axes[own.carrier], (len(turned), 2)), turned])
+    turned = record.geometry["carried"][gearset.carrier] * record["reference_angle"]
+    pose = np.column_stack([np.broadcast_to(axes[gearset.carrier], (len(turned), 2)), turned])
     return Body(outline, pose, "ring", width=_CARRIER * float(np.hypot(*pins[0])))

@@ -36,16 +36,16 @@ def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
             rule = f"{record.path} has no whole cycles of a mesh in its last {_averaged(record)}"
             remedy = f"run more: solver.cycles = {2 * int(record.summary.get('common_period', 1))}"
             raise InputError("plot", "spectrum", rule, remedy)
-    drawn = [
+    panels = [
         (record, name, mesh)
         for record in records
         for name, mesh in _meshes(record).items()
         if "spectrum_amplitudes" in mesh
     ]
-    figure = new_figure(WIDTH, len(drawn) * (PANEL_HEIGHT + 0.1) + 0.5)
-    rows = figure.subplots(len(drawn), 1, squeeze=False, sharex=True, sharey=True)[:, 0]
+    figure = new_figure(WIDTH, len(panels) * (PANEL_HEIGHT + 0.1) + 0.5)
+    rows = figure.subplots(len(panels), 1, squeeze=False, sharex=True, sharey=True)[:, 0]
     highest = width = 0.0
-    for number, (axes, (record, name, mesh)) in enumerate(zip(rows, drawn, strict=True)):
+    for number, (axes, (record, name, mesh)) in enumerate(zip(rows, panels, strict=True)):
         frequency = float(mesh["mesh_frequency"])
         orders = np.asarray(mesh["spectrum_frequencies"]) / frequency
         # whole orders are whole but for rounding
@@ -56,9 +56,9 @@ def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
         highest, width = max(highest, top), max(width, right)
         named = "" if len(records) == 1 else f"{record_label(record)}, "
         title = f"{named}{literal(name)}: transmission error, mesh frequency $f_m$ = {frequency:.4g} Hz"
-        mark_panel(axes, "abcdefgh"[number] if 1 < len(drawn) <= 8 else "", title, 2)
+        mark_panel(axes, "abcdefgh"[number] if 1 < len(panels) <= 8 else "", title, 2)
         axes.set_ylabel("Amplitude (µm)")
-    for axes, (record, _, _) in zip(rows, drawn, strict=True):
+    for axes, (record, _, _) in zip(rows, panels, strict=True):
         draw_modes(axes, mode_frequencies(record), width)
     rows[-1].set_yscale("log")
     if highest > 0:

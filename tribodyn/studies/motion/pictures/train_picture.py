@@ -92,16 +92,18 @@ def _area(line: np.ndarray) -> float:
 def _draw_carriers(axes: Axes, record: Record, sample: int) -> None:
     """Draw the carrier of every planetary set as lines from its axis to its planets."""
     places = axes_of(record, sample) / MILLIMETRE
-    for own in sets_of(record):
-        for planet in own.planets:
-            line = places[[own.carrier, planet]]
+    for gearset in sets_of(record):
+        for planet in gearset.planets:
+            line = places[[gearset.carrier, planet]]
             axes.plot(*line.T, color=QUIET, linewidth=2.2, solid_capstyle="round")
 
 
 def _name_axes(axes: Axes, record: Record, sample: int) -> None:
     """Write the names of the bodies at their axes, those of one axis in one plane on lines of their own."""
     of_axis: dict[tuple[float, ...], list[str]] = {}
-    planets = {planet: number for own in sets_of(record) for number, planet in enumerate(own.planets, 1)}
+    planets = {
+        planet: number for gearset in sets_of(record) for number, planet in enumerate(gearset.planets, 1)
+    }
     for body, centre in enumerate(axes_of(record, sample)):
         name = str(planets.get(body, record["body"][body]))
         of_axis.setdefault(tuple(np.round(centre, 6)), []).append(literal(name))
@@ -140,9 +142,9 @@ def train_figure(records: Sequence[Record], view: View) -> Figure:
     sample = last_cycles(record, view.cycles).part.start
     rows = ceil(len(meshes) / _ACROSS)
     columns = min(len(meshes), _ACROSS)
-    beside = WIDTH / columns
-    figure = new_figure(WIDTH, 3.2 + rows * min(beside, 3.0))
-    grid = figure.add_gridspec(1 + rows, columns, height_ratios=[3.2, *[min(beside, 3.0)] * rows])
+    panel_width = WIDTH / columns
+    figure = new_figure(WIDTH, 3.2 + rows * min(panel_width, 3.0))
+    grid = figure.add_gridspec(1 + rows, columns, height_ratios=[3.2, *[min(panel_width, 3.0)] * rows])
     whole = figure.add_subplot(grid[0, :])
     draw_train(whole, record, sample)
     mark_panel(whole, "a", "Train, drawn to scale; colours: sense of rotation; below: teeth and loads")

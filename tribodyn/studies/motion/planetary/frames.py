@@ -48,15 +48,15 @@ def frames_of(
     speed = case.source.speed / float(case.bodies[case.source.body].ratio)
     carried, frame_speed, hoop = np.zeros((3, len(bodies)))
     place = np.zeros((len(bodies), 2))
-    for own in case.sets:
-        carrier = case.bodies[own.members[CARRIER]]
-        for row in (row for row, body in enumerate(bodies) if body in own.bodies):
+    for gearset in case.sets:
+        carrier = case.bodies[gearset.members[CARRIER]]
+        for row in (row for row, body in enumerate(bodies) if body in gearset.bodies):
             carried[row] = float(carrier.ratio) * carrier.sense
-            frame_speed[row] = carried[row] * speed if own.frame_forces else 0.0
+            frame_speed[row] = carried[row] * speed if gearset.frame_forces else 0.0
             place[row] = np.subtract(case.bodies[bodies[row]].centre, carrier.centre)
-        rows = [bodies.index(planet) for planet in own.planets]
+        rows = [bodies.index(planet) for planet in gearset.planets]
         pulled = mass[rows] * frame_speed[rows] ** 2 * np.sum(place[rows] ** 2, axis=1)
-        hoop[bodies.index(own.members[CARRIER])] = np.sum(pulled)
+        hoop[bodies.index(gearset.members[CARRIER])] = np.sum(pulled)
     return {"carried": carried, "frame_speed": frame_speed, "place": place, "hoop": hoop}
 
 

@@ -25,15 +25,15 @@ def jams(prepared: PreparedGearbox) -> list[str]:
         for m, mesh in enumerate(case.meshes)
         if mesh.pair.mesh.backlash is not None and mesh.pair.mesh.backlash <= NONE and _closes_a_loop(case, m)
     ]
-    found = []
+    sentences = []
     if none:
         gear = case.gears[case.meshes[none[0]].gears[1]].name
-        found.append(
+        sentences.append(
             f"no backlash where meshes close a loop, {together(case.meshes[m].name for m in none)}: both "
             "flanks touch and the gears jam, make teeth thinner "
             f'(gear.{gear}.thickness_allowance = "-40 um") or give mesh.backlash'
         )
-    return [*found, *filter(None, (_by_pins(prepared, own, none) for own in case.sets))]
+    return [*sentences, *filter(None, (_by_pins(prepared, gearset, none) for gearset in case.sets))]
 
 
 def _closes_a_loop(case: Gearbox, m: int) -> bool:
@@ -46,7 +46,7 @@ def _closes_a_loop(case: Gearbox, m: int) -> bool:
     return case.meshes[m].driven in reached
 
 
-def _by_pins(prepared: PreparedGearbox, own: SetData, none: Sequence[int]) -> str:
+def _by_pins(prepared: PreparedGearbox, gearset: SetData, none: Sequence[int]) -> str:
     """Say of a set where the errors of its pins leave no backlash, on the normal; "": everywhere is some.
 
     A pin that is e too far out opens its mesh with the sun by 2 e sin α and closes that with the ring. One
@@ -55,8 +55,8 @@ def _by_pins(prepared: PreparedGearbox, own: SetData, none: Sequence[int]) -> st
     """
     case = prepared.case
     offsets = {link.ends[0]: link.offset for link in case.links if link.lever}
-    ahead, room = np.zeros((2, len(own.planets)))
-    for k, (planet, angle) in enumerate(zip(own.planets, own.angles, strict=True)):
+    ahead, room = np.zeros((2, len(gearset.planets)))
+    for k, (planet, angle) in enumerate(zip(gearset.planets, gearset.angles, strict=True)):
         x, y = offsets.get(planet, (0.0, 0.0))
         outwards, onwards = x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)
         for m, mesh in enumerate(case.meshes):
@@ -69,21 +69,21 @@ def _by_pins(prepared: PreparedGearbox, own: SetData, none: Sequence[int]) -> st
             angle_there = float(assembly.path.pressure_angle(0.0))
             lean = 1.0 / np.hypot(1.0, float(pitch_slope(assembly)) * np.cos(angle_there))
             internal = min(case.gears[gear].teeth for gear in mesh.gears) < 0
-            taken = 2.0 * outwards * np.sin(angle_there) * lean * (1.0 if internal else -1.0)
-            if backlash - taken <= NONE:
-                return _said(own, taken, backlash, f"of the mesh {mesh.name}")
-            room[k] += backlash - taken
+            used = 2.0 * outwards * np.sin(angle_there) * lean * (1.0 if internal else -1.0)
+            if backlash - used <= NONE:
+                return _said(gearset, used, backlash, f"of the mesh {mesh.name}")
+            room[k] += backlash - used
             ahead[k] += onwards * np.cos(angle_there) * lean
     first = int(np.argmax(ahead - room))
-    taken = float(ahead[first] - np.min(ahead))
-    if taken < room[first] or any(case.bodies[body].floating for body in own.bodies):
+    used = float(ahead[first] - np.min(ahead))
+    if used < room[first] or any(case.bodies[body].floating for body in gearset.bodies):
         return ""
-    return _said(own, taken, float(room[first]), "of both meshes of a planet")
+    return _said(gearset, used, float(room[first]), "of both meshes of a planet")
 
 
-def _said(own: SetData, taken: float, backlash: float, of: str) -> str:
+def _said(gearset: SetData, used: float, backlash: float, of: str) -> str:
     return (
-        f"pin errors of the stage {own.name} take {1e6 * taken:.3g} um, where the backlash {of} is "
+        f"pin errors of the stage {gearset.name} take {1e6 * used:.3g} um, where the backlash {of} is "
         f"{1e6 * backlash:.3g} um: the gears jam, tighten the pins' tolerances or make teeth thinner "
         "(thickness_allowance)"
     )

@@ -16,13 +16,13 @@ USUAL_SUPPORT = 1e9
 
 
 def links_of_set(
-    own: SetPart, train: TrainKinematics, figure: PlacedTrain, bearings: Sequence[Any]
+    gearset: SetPart, train: TrainKinematics, placed: PlacedTrain, bearings: Sequence[Any]
 ) -> Iterator[LinkData]:
     """Pins of the planets, and what holds a member against rotation."""
-    stage, new = own.table, train.numbers
-    carrier = new[own.members[CARRIER]]
-    sense, centre = train.motion.sense[carrier], figure.places.centres
-    for number, body in enumerate(own.planets):
+    stage, new = gearset.table, train.numbers
+    carrier = new[gearset.members[CARRIER]]
+    sense, centre = train.motion.sense[carrier], placed.places.centres
+    for number, body in enumerate(gearset.planets):
         bearing = bearings[body]
         if bearing is None:
             continue
@@ -30,7 +30,7 @@ def links_of_set(
         x, y = centre[new[body]] - centre[carrier]
         yield LinkData(
             f"pin-{train.parts.bodies[body].name}",
-            own.key,
+            gearset.key,
             (new[body], carrier),
             (data.stiffness_x, data.stiffness_y, 0.0),
             (0.0, 0.0, 0.0),
@@ -40,11 +40,11 @@ def links_of_set(
         )
     stiffness = stage.support_stiffness
     if stiffness is None:
-        stiffness = USUAL_SUPPORT * _held_radius(own, train, figure) ** 2
+        stiffness = USUAL_SUPPORT * _held_radius(gearset, train, placed) ** 2
     yield LinkData(
-        f"support-{train.parts.bodies[own.held].name}",
-        own.key,
-        (new[own.held], HOUSING),
+        f"support-{train.parts.bodies[gearset.held].name}",
+        gearset.key,
+        (new[gearset.held], HOUSING),
         (0.0, 0.0, stiffness),
         (0.0, 0.0, 0.0),
         (0.0, 0.0, stage.support_damping_ratio),
@@ -52,22 +52,22 @@ def links_of_set(
     )
 
 
-def _held_radius(own: SetPart, train: TrainKinematics, figure: PlacedTrain) -> float:
+def _held_radius(gearset: SetPart, train: TrainKinematics, placed: PlacedTrain) -> float:
     """Radius (m) of the pitch circle of the held member; of a carrier that on which the pins are."""
     for mesh, gears in enumerate(train.motion.gears):
-        path = figure.assemblies[mesh].path
+        path = placed.assemblies[mesh].path
         for gear, radius in zip(gears, (path.pinion_pitch_radius, path.gear_pitch_radius), strict=True):
-            if train.parts.gears[gear].body == own.held:
+            if train.parts.gears[gear].body == gearset.held:
                 return abs(float(radius))
-    centre, new = figure.places.centres, train.numbers
-    return float(np.hypot(*(centre[new[own.planets[0]]] - centre[new[own.held]])))
+    centre, new = placed.places.centres, train.numbers
+    return float(np.hypot(*(centre[new[gearset.planets[0]]] - centre[new[gearset.held]])))
 
 
-def set_data(own: SetPart, train: TrainKinematics) -> SetData:
+def set_data(gearset: SetPart, train: TrainKinematics) -> SetData:
     """The set in the numbers of the train's order."""
-    new, stage = train.numbers, own.table
-    members = {name: new[body] for name, body in own.members.items()}
-    planets = tuple(new[body] for body in own.planets)
+    new, stage = train.numbers, gearset.table
+    members = {name: new[body] for name, body in gearset.members.items()}
+    planets = tuple(new[body] for body in gearset.planets)
     return SetData(
-        stage.name, own.key, members, planets, stage.placed, own.teeth, stage.held, stage.frame_forces
+        stage.name, gearset.key, members, planets, stage.placed, gearset.teeth, stage.held, stage.frame_forces
     )

@@ -14,16 +14,16 @@ from tribodyn.train.planetary import RING, SUN
 STAGES = "stages"
 
 
-def meshes_of_member(case: Gearbox, own: SetData, member: str) -> list[int]:
+def meshes_of_member(case: Gearbox, gearset: SetData, member: str) -> list[int]:
     """Meshes of the sun or the ring of a set, in the order of the planets."""
-    body = own.members[member]
-    found = {
+    body = gearset.members[member]
+    mesh_of_planet = {
         other: m
         for m, mesh in enumerate(case.meshes)
         for one, other in ((mesh.driver, mesh.driven), (mesh.driven, mesh.driver))
-        if one == body and other in own.planets
+        if one == body and other in gearset.planets
     }
-    return [found[planet] for planet in own.planets]
+    return [mesh_of_planet[planet] for planet in gearset.planets]
 
 
 def stage_quantities(
@@ -33,46 +33,46 @@ def stage_quantities(
 
     `windows` and `each` have the datasets and the quantities of every mesh over them.
     """
-    return {own.name: _of_stage(prepared, own, windows, each) for own in prepared.case.sets}
+    return {gearset.name: _of_stage(prepared, gearset, windows, each) for gearset in prepared.case.sets}
 
 
 def worst_stage(stages: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:
     """Largest load factors of all stages."""
     names = ("mesh_load_factor", "planet_load_factor_max")
-    return {name: max(float(own[name]) for own in stages.values()) for name in names}
+    return {name: max(float(stage[name]) for stage in stages.values()) for name in names}
 
 
 def _of_stage(
     prepared: PreparedGearbox,
-    own: SetData,
+    gearset: SetData,
     windows: Sequence[Mapping[str, np.ndarray]],
     each: Sequence[Mapping[str, Any]],
 ) -> dict[str, Any]:
     case = prepared.case
-    at = {member: meshes_of_member(case, own, member) for member in (SUN, RING)}
-    torque = np.array([_on_planet(case, own, m, windows[m]) for m in at[SUN]])
+    at = {member: meshes_of_member(case, gearset, member) for member in (SUN, RING)}
+    torque = np.array([_on_planet(case, gearset, m, windows[m]) for m in at[SUN]])
     mean = np.mean(torque, axis=1)
     whole = float(np.mean(mean))
     lost = sum(float(each[m]["power_friction_mean"]) for meshes in at.values() for m in meshes)
-    put_in = sum(max(power, 0.0) for power in _powers(prepared, own, at, windows))
-    found = {
+    put_in = sum(max(power, 0.0) for power in _powers(prepared, gearset, at, windows))
+    quantities = {
         "mesh_load_factor": float(np.max(mean)) / whole if whole else np.nan,
         "planet_load_factor_max": float(np.max(torque)) / whole if whole else np.nan,
         "power_in_mean": put_in,
         "power_friction_mean": lost,
         "efficiency": 1.0 - lost / put_in if put_in > 0.0 else np.nan,
     }
-    return found | {"planet_shares": mean / whole / len(mean) if whole else np.full(len(mean), np.nan)}
+    return quantities | {"planet_shares": mean / whole / len(mean) if whole else np.full(len(mean), np.nan)}
 
 
-def _on_planet(case: Gearbox, own: SetData, m: int, window: Mapping[str, np.ndarray]) -> np.ndarray:
+def _on_planet(case: Gearbox, gearset: SetData, m: int, window: Mapping[str, np.ndarray]) -> np.ndarray:
     """Torque between sun and planet, on the planet, N m."""
-    return window["driven_torque" if case.meshes[m].driven in own.planets else "driver_torque"]
+    return window["driven_torque" if case.meshes[m].driven in gearset.planets else "driver_torque"]
 
 
 def _powers(
     prepared: PreparedGearbox,
-    own: SetData,
+    gearset: SetData,
     at: Mapping[str, list[int]],
     windows: Sequence[Mapping[str, np.ndarray]],
 ) -> list[float]:
@@ -80,9 +80,9 @@ def _powers(
     case = prepared.case
     reference = float(prepared.model.operation.nominal_speed)
     powers, on_carrier = [], 0.0
-    carrier = case.bodies[own.members["carrier"]]
+    carrier = case.bodies[gearset.members["carrier"]]
     for member in (SUN, RING):
-        body = own.members[member]
+        body = gearset.members[member]
         turning = case.bodies[body]
         on_body = 0.0  # in its own sense
         for m in at[member]:
@@ -95,23 +95,23 @@ def _powers(
     return [*powers, -on_carrier * float(carrier.ratio) * reference]
 
 
-def kinds_of(prepared: PreparedGearbox, found: Modes) -> tuple[str, ...]:
+def kinds_of(prepared: PreparedGearbox, mode_set: Modes) -> tuple[str, ...]:
     """Kind of every mode of a train by the motion of its suns, rings and carriers; nothing without sets."""
     case = prepared.case
     if not case.sets:
         return ()
     number = {body: place for place, body in enumerate(prepared.order)}
-    central = [number[body] for own in case.sets for body in own.members.values()]
-    return mode_kinds(found, prepared.model, central)
+    central = [number[body] for gearset in case.sets for body in gearset.members.values()]
+    return mode_kinds(mode_set, prepared.model, central)
 
 
 def planet_pass(prepared: PreparedGearbox) -> dict[str, float]:
     """Frequency at which the planets of every set pass a place in the housing, Hz."""
     reference = float(prepared.model.operation.nominal_speed)
     return {
-        own.name: len(own.planets)
-        * float(prepared.case.bodies[own.members["carrier"]].ratio)
+        gearset.name: len(gearset.planets)
+        * float(prepared.case.bodies[gearset.members["carrier"]].ratio)
         * reference
         / (2.0 * np.pi)
-        for own in prepared.case.sets
+        for gearset in prepared.case.sets
     }

@@ -53,7 +53,7 @@ def teeth_of_set(scenario: Any, stage: PlanetaryStage) -> SetTeeth:
 
 def set_of(scenario: Any, key: str, stage: PlanetaryStage, places: dict[str, tuple[int, ...]]) -> SetPart:
     """The set of a stage; `places` are the bodies of names."""
-    members = {name: places[own][0] for name, own in stage.members.items()}
+    members = {name: places[gear_name][0] for name, gear_name in stage.members.items()}
     return SetPart(key, stage, members, places[stage.planet], teeth_of_set(scenario, stage))
 
 
@@ -75,25 +75,25 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
     bodies = [body.name for body in scenario.body]
     for key, stage in planetary_stages(scenario):
         for name in ("sun", "planet", "ring"):
-            given = getattr(stage, name)
-            if given not in gears:
-                yield unknown_name(f"{key}.{name}", given, gears, "gear")
+            gear = getattr(stage, name)
+            if gear not in gears:
+                yield unknown_name(f"{key}.{name}", gear, gears, "gear")
                 continue
-            internal = scenario.gear[given].internal
+            internal = scenario.gear[gear].internal
             if internal is not (name == "ring"):
                 kind = "an internal" if name == "ring" else "an external"
-                remedy = f"add internal = true to [gear.{given}]" if name == "ring" else "name another gear"
-                yield InputError(f"{key}.{name}", quoted(given), f"must be {kind} gear", remedy)
+                remedy = f"add internal = true to [gear.{gear}]" if name == "ring" else "name another gear"
+                yield InputError(f"{key}.{name}", quoted(gear), f"must be {kind} gear", remedy)
         if stage.carrier not in bodies:
             yield unknown_name(f"{key}.carrier", stage.carrier, bodies, "[[body]]")
         for name in ("sun", "planet", "ring", "carrier"):
-            given = getattr(stage, name)
+            gear = getattr(stage, name)
             if (
-                of_sets.setdefault(given, key) != key
-                or [*stage.members.values(), stage.planet].count(given) > 1
+                of_sets.setdefault(gear, key) != key
+                or [*stage.members.values(), stage.planet].count(gear) > 1
             ):
-                rule = f"{given} is named twice in planetary stages"
-                yield InputError(f"{key}.{name}", quoted(given), rule, "use a gear of its own for each")
+                rule = f"{gear} is named twice in planetary stages"
+                yield InputError(f"{key}.{name}", quoted(gear), rule, "use a gear of its own for each")
         if stage.helix_angle:
             rule, remedy = "helical planetary stages are not modelled", "leave helix_angle out"
             yield InputError(f"{key}.helix_angle", f"{stage.helix_angle:g} rad", rule, remedy)
@@ -107,9 +107,9 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
 
 def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
     for name in ("angles", "radial_pin_errors", "tangential_pin_errors"):
-        given = getattr(stage, name)
-        if given and len(given) != stage.planets:
-            rule = f"has {len(given)} values for {stage.planets} planets"
+        values = getattr(stage, name)
+        if values and len(values) != stage.planets:
+            rule = f"has {len(values)} values for {stage.planets} planets"
             yield InputError(f"{key}.{name}", None, rule, "give one for every planet, or leave it out")
     for number, name in enumerate(stage.floating):
         if name in stage.floating[:number]:
@@ -146,18 +146,18 @@ def _held(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError
     named += [(f"load.{number}.at", load.at) for number, load in enumerate(scenario.load)]
     for place, name in named:
         if name == held:
-            turning = " or ".join(own for member, own in stage.members.items() if member != stage.held)
+            turning = " or ".join(gear for member, gear in stage.members.items() if member != stage.held)
             rule = f"is held in the planetary stage {stage.name}, and does not turn"
             yield InputError(place, quoted(name), rule, f"name {turning}, or hold another member: {key}.held")
 
 
 def _bearings(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
     """Bearings of members are the same in all directions, for their frame turns; and none is missing."""
-    known = scenario.bearings.by_name
+    by_name = scenario.bearings.by_name
     for _, stage in planetary_stages(scenario):
         floating = {stage.members[name] for name in stage.floating}
         for name in {*stage.members.values(), stage.planet} - floating:
-            if not {name, "default", "gear"} & set(known):
+            if not {name, "default", "gear"} & set(by_name):
                 rule = f"missing: {name} of the planetary stage {stage.name} moves in x and y"
                 remedy = f"add [bearings.{name}], or [bearings.default]"
                 yield InputError(f"bearings.{name}", None, rule, remedy)
@@ -188,9 +188,9 @@ def _joined_rigidly(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputErr
 def coaxial(sets: tuple[SetPart, ...]) -> list[tuple[int, int]]:
     """Bodies on one axis, in pairs."""
     return [
-        (own.members["carrier"], body)
-        for own in sets
-        for name, body in own.members.items()
+        (gearset.members["carrier"], body)
+        for gearset in sets
+        for name, body in gearset.members.items()
         if name != "carrier"
     ]
 
@@ -203,7 +203,7 @@ def pin_offset(stage: PlanetaryStage, planet: int) -> tuple[float, float]:
     return outwards * cos(angle) - onwards * sin(angle), outwards * sin(angle) + onwards * cos(angle)
 
 
-def refuse_overlap(own: SetPart, tip_radius: float, centres: Float[Array, "planet 2"]) -> None:
+def refuse_overlap(gearset: SetPart, tip_radius: float, centres: Float[Array, "planet 2"]) -> None:
     """Raise InputError where the tip circles of planets overlap; centres, m."""
     apart = np.hypot(*np.moveaxis(centres[:, None] - centres[None], -1, 0))
     apart[np.diag_indices(len(centres))] = np.inf
@@ -214,7 +214,9 @@ def refuse_overlap(own: SetPart, tip_radius: float, centres: Float[Array, "plane
     radius = float(np.hypot(*(centres[0] - centres.mean(axis=0))))
     rule = f"the tip circles of planets {one} and {two} overlap by {1e3 * overlap:.3g} mm"
     remedy = "stand them further apart"
-    if not own.table.angles:
+    if not gearset.table.angles:
         remedy = f"use at most {int(np.pi / np.arcsin(tip_radius / radius))}, or planets with fewer teeth"
-    key = "angles" if own.table.angles else "planets"
-    raise InputError(f"{own.key}.{key}", None if own.table.angles else own.table.planets, rule, remedy)
+    key = "angles" if gearset.table.angles else "planets"
+    raise InputError(
+        f"{gearset.key}.{key}", None if gearset.table.angles else gearset.table.planets, rule, remedy
+    )

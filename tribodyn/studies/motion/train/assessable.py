@@ -23,10 +23,10 @@ from tribodyn.train.planetary import RING, SUN
 def meshes(case: Gearbox) -> list[MeshAtDuty]:
     """Every mesh with its pair; those of a planetary set with its name."""
     stages = {
-        m: own.name
-        for own in case.sets
+        m: gearset.name
+        for gearset in case.sets
         for member in (SUN, RING)
-        for m in meshes_of_member(case, own, member)
+        for m in meshes_of_member(case, gearset, member)
     }
     return [
         MeshAtDuty(mesh.name, mesh.pair, alike, stages.get(m, ""), _meshing(case, mesh))
@@ -39,11 +39,11 @@ def _meshing(case: Gearbox, mesh: TrainMesh) -> tuple[Meshing, Meshing]:
 
     Teeth that drive are loaded on one flank, those that are driven on the other.
     """
-    found = []
-    for number, own in zip(mesh.gears, SIDES, strict=True):
+    meshings = []
+    for number, role in zip(mesh.gears, SIDES, strict=True):
         roles = [side for _, side in case.gears[number].meshes]
-        found.append(Meshing(roles.count(own), len(set(roles)) > 1))
-    return found[0], found[1]
+        meshings.append(Meshing(roles.count(role), len(set(roles)) > 1))
+    return meshings[0], meshings[1]
 
 
 def at_speed(case: Gearbox, scenario: Mapping[str, Any], factor: float) -> dict[str, Any]:
@@ -79,13 +79,13 @@ def pair_of(case: Gearbox, name: str) -> dict[str, Any]:
     if mesh.key.startswith("mesh."):
         rule = "is of a bare model, without teeth"
         raise InputError("mesh", quoted(mesh.name), rule, "name a mesh of a [[stage]]")
-    operating, found = table["operating"], pair_tables(case, mesh, table)
+    operating, tables = table["operating"], pair_tables(case, mesh, table)
     if mesh.key != "drive":
-        found["drive"] |= {"title": f"mesh {mesh.name} of {case.title}", "source": "its scenario"}
-    drive = found["drive"]
+        tables["drive"] |= {"title": f"mesh {mesh.name} of {case.title}", "source": "its scenario"}
+    drive = tables["drive"]
     speed, torque = pair.operating.pinion_speed, pair.operating.gear_torque
     if drive["pinion"].get("internal"):  # of a pair the gear is internal: with a negative torque it drives
-        found["drive"] = {
+        tables["drive"] = {
             **drive,
             "pinion": _on_both_flanks(drive["gear"]),
             "gear": _on_both_flanks(drive["pinion"]),
@@ -94,7 +94,7 @@ def pair_of(case: Gearbox, name: str) -> dict[str, Any]:
         speed, torque = speed * ratio, -torque * ratio
     duty = {"pinion_speed": f"{speed!r} rad/s", "gear_torque": f"{torque!r} N*m"}
     duty |= {key: operating[key] for key in ("oil_temperature",) if key in operating}
-    return found | {"operating": duty}
+    return tables | {"operating": duty}
 
 
 def _on_both_flanks(gear: Mapping[str, Any]) -> dict[str, Any]:

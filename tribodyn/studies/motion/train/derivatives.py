@@ -76,30 +76,34 @@ class DifferentiableTrain:
         self.of, self.wrt = tuple(of), tuple(wrt)
         self._wanted = [_mesh_and_name(case, name) for name in of]
         self._duty = _Duty(case, scenario, train)
-        known = {key: (value, unit_at(schema, key)) for key, value in self._duty.numbers.items()}
+        value_of = {key: (value, unit_at(schema, key)) for key, value in self._duty.numbers.items()}
         pairs = [_pair(case, table, mesh) for mesh in range(len(case.meshes))]
         names: list[dict[str, str]] = []  # keys of every pair -> those of the train
         for mesh, pair in enumerate(pairs):
             numbers = numbers_of(pair, schema, lambda key, mesh=mesh: _key(key, train, mesh) in self.wrt)
-            names.append({key: own for key in numbers if (own := _key(key, train, mesh))})
-            known |= {own: (float(numbers[key].value), numbers[key].unit) for key, own in names[-1].items()}
-        asked = self._keys = known_keys(self.wrt, known, schema)
+            names.append({key: key_of for key in numbers if (key_of := _key(key, train, mesh))})
+            value_of |= {
+                key_of: (float(numbers[key].value), numbers[key].unit) for key, key_of in names[-1].items()
+            }
+        asked = self._keys = known_keys(self.wrt, value_of, schema)
         if twice := [key for key in asked if asked.count(key) > 1]:
             raise InputError("wrt", quoted(twice[0]), "is named twice", "name every key once")
-        self.at = np.array([known[key][0] for key in asked])
-        self.key_units = tuple(known[key][1] for key in asked)
+        self.at = np.array([value_of[key][0] for key in asked])
+        self.key_units = tuple(value_of[key][1] for key in asked)
         self._parts = []
         # numbers of a mesh that follow from others: its duty, and at a ring the distance of the sun's mesh
         after = len(wrt) + len(_OF_DUTY) * len(pairs)
         suns = {mesh: sun for mesh in range(len(pairs)) if (sun := _distance_from(train, mesh)) is not None}
         self._distances: dict[int, tuple[Differentiable, list[int]]] = {}  # by the sun's mesh
         for mesh, pair in enumerate(pairs):
-            places = {key: asked.index(own) for key, own in names[mesh].items() if own in asked}
-            if mesh in suns and (keys := {k: own for k, own in names[suns[mesh]].items() if own in asked}):
+            places = {key: asked.index(key_of) for key, key_of in names[mesh].items() if key_of in asked}
+            if mesh in suns and (
+                keys := {k: key_of for k, key_of in names[suns[mesh]].items() if key_of in asked}
+            ):
                 sun = suns[mesh]
                 if sun not in self._distances:
                     distance = Differentiable(pairs[sun], schema, ["centre_distance"], list(keys))
-                    self._distances[sun] = distance, [asked.index(own) for own in keys.values()]
+                    self._distances[sun] = distance, [asked.index(key_of) for key_of in keys.values()]
                 places["drive.centre_distance"] = after + list(self._distances).index(sun)
             if not places or not self._duty.numbers.keys().isdisjoint(asked):
                 places |= {key: len(wrt) + i * len(pairs) + mesh for i, key in enumerate(_OF_DUTY)}
@@ -150,22 +154,22 @@ class DifferentiableTrain:
             distance, by = function.jacobian(numbers[places])
             numbers = np.concatenate([numbers, distance])
             by_numbers = np.vstack([by_numbers, by @ by_numbers[places]])
-        found: dict[tuple[int, str], tuple[Any, Any]] = {}
+        evaluated: dict[tuple[int, str], tuple[Any, Any]] = {}
         for mesh, function, places in self._parts:
             at = numbers[places]
             values, by = function.jacobian(at) if slopes else (function.values(at), np.zeros((1, len(at))))
             by = np.broadcast_to(by @ by_numbers[places], (len(values), len(x)))
-            found |= {(mesh, name): each for name, *each in zip(function.of, values, by, strict=True)}
+            evaluated |= {(mesh, name): each for name, *each in zip(function.of, values, by, strict=True)}
         if any(mesh < 0 for mesh, _ in self._wanted):
-            lost = [each for (_, name), each in found.items() if name == "friction_power"]
+            lost = [each for (_, name), each in evaluated.items() if name == "friction_power"]
             loss, by_loss = (sum(parts) for parts in zip(*lost, strict=True))
             # what drives, the input or a load, puts in what loads take, and the loss unless the input brakes
             put_in, by_put_in = power[0][0] + loss, power[1][0] + by_loss
             if put_in < power[0][1]:
                 put_in, by_put_in = power[0][1], power[1][1]
-            found[-1, "friction_power"] = loss, by_loss
-            found[-1, "efficiency"] = 1.0 - loss / put_in, (loss * by_put_in / put_in - by_loss) / put_in
-        values, by = zip(*(found[wanted] for wanted in self._wanted), strict=True)
+            evaluated[-1, "friction_power"] = loss, by_loss
+            evaluated[-1, "efficiency"] = 1.0 - loss / put_in, (loss * by_put_in / put_in - by_loss) / put_in
+        values, by = zip(*(evaluated[wanted] for wanted in self._wanted), strict=True)
         return np.array(values), np.array(by)
 
 
@@ -177,14 +181,14 @@ class _Duty:
 
     def __init__(self, case: Gearbox, scenario: Any, train: TrainKinematics) -> None:
         operating, ratio = scenario.operating, np.array(train.motion.ratio, dtype=float)
-        given = [
+        duty_names = [
             name
             for name in ("input_speed", "output_speed", "output_torque", "power", "input_torque")
             if getattr(operating, name) is not None
         ][: 1 if ends_of(scenario)[1] is None else 2]  # an input torque beside a load is the motor's
-        self.numbers = {f"operating.{name}": float(getattr(operating, name)) for name in given}
+        self.numbers = {f"operating.{name}": float(getattr(operating, name)) for name in duty_names}
         self.numbers |= {f"load.{place}.torque": load.torque for place, load in enumerate(scenario.load)}
-        self._given = given
+        self._given = duty_names
         bodies = [load.body for load in case.loads]
         units = np.eye(len(case.bodies))[bodies]
         self._torques = np.array([torques_of(train, list(unit)).driven for unit in units]).T
@@ -222,10 +226,10 @@ def _mesh_and_name(case: Gearbox, asked: str) -> tuple[int, str]:
     mesh, _, name = asked.rpartition(".")
     if mesh and mesh not in meshes:
         raise unknown_name("of", mesh, meshes, "mesh")
-    known = ALSO.get(name, name)
-    if mesh or known in TOTALS:
-        return (meshes.index(mesh), name) if mesh else (-1, known)
-    if known not in QUANTITIES:
+    quantity = ALSO.get(name, name)
+    if mesh or quantity in TOTALS:
+        return (meshes.index(mesh), name) if mesh else (-1, quantity)
+    if quantity not in QUANTITIES:
         raise unknown_name("of", name, QUANTITIES, "quantity that can be differentiated")
     remedy = f'name one: "{meshes[0]}.{name}"; the whole train has: {", ".join(TOTALS)}'
     raise InputError("of", quoted(asked), "is a quantity of a mesh", remedy)
@@ -233,10 +237,10 @@ def _mesh_and_name(case: Gearbox, asked: str) -> tuple[int, str]:
 
 def _key(key: str, train: TrainKinematics, mesh: int) -> str:
     """Where the train's scenario has a number of a mesh's pair; "" where it does not have it as such."""
-    own = key_in_train(key, train, mesh)
-    of_bare_gear = own.startswith("mesh.") and key.split(".")[1] in SIDES  # both gears are in one table
+    key_here = key_in_train(key, train, mesh)
+    of_bare_gear = key_here.startswith("mesh.") and key.split(".")[1] in SIDES  # both gears are in one table
     follows = key == "drive.centre_distance" and _distance_from(train, mesh) is not None
-    return "" if of_bare_gear or follows or key in _OF_DUTY else own
+    return "" if of_bare_gear or follows or key in _OF_DUTY else key_here
 
 
 def _distance_from(train: TrainKinematics, mesh: int) -> int | None:

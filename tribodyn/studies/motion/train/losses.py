@@ -39,22 +39,22 @@ def losses_of_meshes(
     if table is None or not table.any:
         return [None] * len(motion.meshes)
     formulas = {name: getattr(table, name) for name in LossFormulas.model_fields}
-    drags = [(drag_of(own), parts.body(name)) for name, own in table.shaft_bearings.items()]
+    drags = [(drag_of(bearing), parts.body(name)) for name, bearing in table.shaft_bearings.items()]
     speeds = {body: speed * abs(float(motion.ratio[number])) for body, number in train.numbers.items()}
     turning = [(drag, speeds[body]) for drag, body in drags if drag is not None]
-    found, known = [], set[int]()
+    losses, counted_gears = [], set[int]()
     for mesh, gears in enumerate(motion.gears):
-        counted = [gear not in known and motion.carrier[mesh] < 0 for gear in gears]
-        known |= set(gears)
+        counted = [gear not in counted_gears and motion.carrier[mesh] < 0 for gear in gears]
+        counted_gears |= set(gears)
         depths = [
-            table.immersion.get(parts.gears[gear].name, 0.0) if own else 0.0
-            for gear, own in zip(gears, counted, strict=True)
+            table.immersion.get(parts.gears[gear].name, 0.0) if bearing else 0.0
+            for gear, bearing in zip(gears, counted, strict=True)
         ]
-        found.append(LossData(**formulas, pinion_immersion=depths[0], gear_immersion=depths[1]))
-        found[-1] = replace(found[-1], counted=(counted[0], counted[1]))
+        losses.append(LossData(**formulas, pinion_immersion=depths[0], gear_immersion=depths[1]))
+        losses[-1] = replace(losses[-1], counted=(counted[0], counted[1]))
     # a shaft that stands loses nothing
-    found[0] = replace(found[0], further=tuple(one for one in turning if one[1] > 0.0))
-    return list(found)
+    losses[0] = replace(losses[0], further=tuple(one for one in turning if one[1] > 0.0))
+    return list(losses)
 
 
 def broken_losses(table: TrainLossesTable | None, train: TrainKinematics) -> Iterator[InputError]:

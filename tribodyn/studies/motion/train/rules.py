@@ -111,7 +111,7 @@ def _hands(train: TrainKinematics) -> Iterator[InputError]:
 
 def _pairs(scenario: Scenario, train: TrainKinematics) -> Iterator[InputError]:
     """Rules of every mesh as a pair of gears, and of its load; what all meshes share is said once."""
-    said: set[str] = set()
+    reported: set[str] = set()
     yield from broken_output_rules(scenario.output, scenario.solver, reference_teeth(train))
     unloaded: set[str] = set()
     duty = duty_of(scenario, train)
@@ -121,8 +121,8 @@ def _pairs(scenario: Scenario, train: TrainKinematics) -> Iterator[InputError]:
         back = view.mesh.backlash is not None or gives_backlash(view.drive)
         for error in broken_gear_rules(view, every_duty=True, every_tooth=True):
             error = in_terms_of_train(error, train, mesh)
-            if str(error) not in said:
-                said.add(str(error))
+            if str(error) not in reported:
+                reported.add(str(error))
                 yield error
         for error in broken_flank_rules(part.key, torque, back, view.mesh):
             if error.rule not in unloaded:  # of all stages that are driven backwards the first
@@ -148,11 +148,11 @@ def _of_all_gears(scenario: Scenario) -> Iterator[InputError]:
 def _stiffness_of_stages(stages: Any, compliance: str) -> Iterator[InputError]:
     for number, stage in enumerate(stages):
         for name in ("stiffness", "sun_stiffness", "ring_stiffness"):
-            given = getattr(stage, name, None)
-            if given is not None and compliance != "constant":
+            stiffness = getattr(stage, name, None)
+            if stiffness is not None and compliance != "constant":
                 rule = f'contradicts mesh.compliance = "{compliance}"'
                 remedy = 'leave it out, or write compliance = "constant" with a stiffness for other meshes'
-                yield InputError(f"stage.{number}.{name}", f"{given:g} N/m", rule, remedy)
+                yield InputError(f"stage.{number}.{name}", f"{stiffness:g} N/m", rule, remedy)
 
 
 def _bearings(scenario: Scenario) -> Iterator[InputError]:

@@ -122,18 +122,18 @@ Scenario = GearTrainScenario
 def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
     """Return the case of a scenario that has passed schema and rules."""
     train = resolve_kinematics(scenario)
-    figure = place_train(train)
+    placed = place_train(train)
     duty = duty_of(scenario, train)
     head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
-    gears = _gears(train, figure)
+    gears = _gears(train, placed)
     teeth = reference_teeth(train)
-    held = supports_of_bodies(scenario, train, figure, duty.torques.driven)
-    meshes = _meshes(scenario, train, figure, duty, head, held)
+    held = supports_of_bodies(scenario, train, placed, duty.torques.driven)
+    meshes = _meshes(scenario, train, placed, duty, head, held)
     return Gearbox(
         **head,
         gears=gears,
-        bodies=_bodies(scenario, train, figure, duty),
-        links=_links(scenario, train, figure, held),
+        bodies=_bodies(scenario, train, placed, duty),
+        links=_links(scenario, train, placed, held),
         supports=held,
         meshes=meshes,
         source=_source(scenario, train, duty),
@@ -146,24 +146,24 @@ def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
         ),
         sensors=sensors_of(scenario.sensor),
         housing=housing_of(scenario.housing),
-        sets=tuple(set_data(own, train) for own in train.parts.sets),
+        sets=tuple(set_data(gearset, train) for gearset in train.parts.sets),
     )
 
 
-def _gears(train: TrainKinematics, figure: PlacedTrain) -> tuple[GearData, ...]:
-    new, found = train.numbers, []
+def _gears(train: TrainKinematics, placed: PlacedTrain) -> tuple[GearData, ...]:
+    new, gears = train.numbers, []
     for number, gear in enumerate(train.parts.gears):
         meshes = train.meshes_of(number)
         mesh, side = meshes[0]
         material = materials_of(train.drives[mesh])[SIDES.index(side)]
-        found.append(
+        gears.append(
             GearData(
                 gear.name,
                 gear.key,
                 new[gear.body],
-                figure.shafts[number],
+                placed.shafts[number],
                 gear.teeth,
-                figure.planes[number],
+                placed.planes[number],
                 gear.tooth_angle,
                 _given_mass(train, number),
                 material.density,
@@ -172,7 +172,7 @@ def _gears(train: TrainKinematics, figure: PlacedTrain) -> tuple[GearData, ...]:
                 gear.axial_position,
             )
         )
-    return tuple(found)
+    return tuple(gears)
 
 
 def _given_mass(train: TrainKinematics, number: int) -> BodyMass:
@@ -184,18 +184,18 @@ def _given_mass(train: TrainKinematics, number: int) -> BodyMass:
 
 
 def _bodies(
-    scenario: Any, train: TrainKinematics, figure: PlacedTrain, duty: TrainDuty
+    scenario: Any, train: TrainKinematics, placed: PlacedTrain, duty: TrainDuty
 ) -> tuple[BodyData, ...]:
-    motion, operating, found = train.motion, scenario.operating, []
-    floating = {body for own in train.parts.sets for body in own.floating}
+    motion, operating, bodies = train.motion, scenario.operating, []
+    floating = {body for inertia in train.parts.sets for body in inertia.floating}
     for number, body in enumerate(motion.bodies):
         part = train.parts.bodies[body]
-        attached = sum(own for at, own in duty.inertias if at == number)
+        attached = sum(inertia for at, inertia in duty.inertias if at == number)
         if number == motion.input and operating.shaft_stiffness is None:
             attached += operating.drive_inertia
-        x, y = figure.places.centres[number]
+        x, y = placed.places.centres[number]
         gears = tuple(place for place, gear in enumerate(train.parts.gears) if gear.body == body)
-        found.append(
+        bodies.append(
             BodyData(
                 part.name,
                 part.key,
@@ -209,20 +209,20 @@ def _bodies(
                 body in floating,
             )
         )
-    return tuple(found)
+    return tuple(bodies)
 
 
 def _links(
-    scenario: Any, train: TrainKinematics, figure: PlacedTrain, held: Mapping[int, GearSupport]
+    scenario: Any, train: TrainKinematics, placed: PlacedTrain, held: Mapping[int, GearSupport]
 ) -> tuple[LinkData, ...]:
-    new, found = train.numbers, []
+    new, links = train.numbers, []
     bearings = bearings_by_body(scenario, train.parts)
-    without = {body for own in train.parts.sets for body in (*own.planets, *own.floating)}
+    without = {body for gearset in train.parts.sets for body in (*gearset.planets, *gearset.floating)}
     for number, body in enumerate(train.motion.bodies):
         bearing = bearings[body]
         if (bearing is not None or number in held) and body not in without:
             data = held[number].data if number in held else bearing_of(cast(Bearing, bearing))
-            found.append(
+            links.append(
                 LinkData(
                     f"bearing-{train.parts.bodies[body].name}",
                     "bearings",
@@ -233,31 +233,31 @@ def _links(
                     bearing=data,
                 )
             )
-    for own in train.parts.sets:
-        found += links_of_set(own, train, figure, bearings)
+    for gearset in train.parts.sets:
+        links += links_of_set(gearset, train, placed, bearings)
     for link in train.parts.links:
         one, two = (HOUSING if end < 0 else new[end] for end in link.ends)
         ends = (two, one) if one == HOUSING else (one, two)
         law, values = LINK_LAWS[link.table.law], law_values(link.table)
-        found.append(
+        links.append(
             LinkData(link.name, link.key, ends, link.stiffness, link.damping, link.damping_ratio, law, values)
         )
-    return tuple(found)
+    return tuple(links)
 
 
 def _meshes(
     scenario: Any,
     train: TrainKinematics,
-    figure: PlacedTrain,
+    placed: PlacedTrain,
     duty: TrainDuty,
     head: dict[str, Any],
     held: Mapping[int, GearSupport],
 ) -> tuple[TrainMesh, ...]:
-    motion, found = train.motion, []
+    motion, meshes = train.motion, []
     losses = losses_of_meshes(scenario.losses, train, duty.speed)
     first: LubricatedCase | None = None
     for mesh, place in enumerate(motion.meshes):
-        supports = supports_of_mesh(held, train, figure, mesh)
+        supports = supports_of_mesh(held, train, placed, mesh)
         view = pair_view(scenario, train, mesh)._replace(supports=supports)
         driver, carrier = motion.driver[mesh], motion.carrier[mesh]
         teeth = own_teeth(scenario, train, mesh, view)
@@ -282,29 +282,29 @@ def _meshes(
         pair = with_chosen_laws(pair) if first is None else with_chosen(pair, first)
         first = first or pair
         part = train.parts.meshes[place]
-        found.append(
+        meshes.append(
             TrainMesh(
                 part.name,
                 part.key,
                 motion.driver[mesh],
                 motion.driven[mesh],
                 motion.gears[mesh],
-                figure.places.azimuths[mesh],
+                placed.places.azimuths[mesh],
                 motion.rate[mesh],
                 pair,
                 carrier,
             )
         )
-    return tuple(found)
+    return tuple(meshes)
 
 
 def _source(scenario: Any, train: TrainKinematics, duty: TrainDuty) -> SourceData:
-    operating, given = scenario.operating, motor_torque(scenario)
+    operating, torque = scenario.operating, motor_torque(scenario)
     return SourceData(
         operating.source,
         train.motion.input,
         duty.speed,
-        duty.torques.source if given is None else given,
+        duty.torques.source if torque is None else torque,
         operating.drive_inertia,
         operating.shaft_stiffness,
         operating.shaft_damping,

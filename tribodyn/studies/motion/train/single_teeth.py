@@ -13,12 +13,12 @@ def own_teeth(scenario: Any, train: TrainKinematics, mesh: int, view: Any) -> tu
     numbers = train.motion.gears[mesh]
     one, two = (tuple(sorted({CARRYING[side] for _, side in train.meshes_of(gear)})) for gear in numbers)
     deviations = own_teeth_of(view.drive, view.mesh.tooth_sample, numbers, (one, two))
-    damaged, found = gears_of_train(train), []
-    for own, number in zip(deviations, numbers, strict=True):
+    damaged, both_gears = gears_of_train(train), []
+    for deviating, number in zip(deviations, numbers, strict=True):
         name = train.parts.gears[number].name
         tables = [table for table in scenario.damage if table.gear == name]
-        found.append((*own, *damage_of(tables, damaged[name])))
-    return found[0], found[1]
+        both_gears.append((*deviating, *damage_of(tables, damaged[name])))
+    return both_gears[0], both_gears[1]
 
 
 def gears_of_train(train: TrainKinematics) -> dict[str, GearPlace]:

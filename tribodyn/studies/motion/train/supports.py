@@ -29,7 +29,7 @@ _NOTHING = (0.0,) * 5
 
 
 def supports_of_bodies(
-    scenario: Any, train: TrainKinematics, figure: PlacedTrain, torques: tuple[float, ...]
+    scenario: Any, train: TrainKinematics, placed: PlacedTrain, torques: tuple[float, ...]
 ) -> dict[int, GearSupport]:
     """What holds bodies whose shafts are drawn or whose bearings are matrices, by their numbers.
 
@@ -37,7 +37,8 @@ def supports_of_bodies(
     where a shaft is not held under the load of its gears.
     """
     drawn = {
-        train.numbers[train.parts.body(gear)]: given for gear, given in drawn_shafts(scenario.shaft).items()
+        train.numbers[train.parts.body(gear)]: support
+        for gear, support in drawn_shafts(scenario.shaft).items()
     }
     matrices = {
         number: (f"bearings.{train.parts.bodies[body].name}.matrix", bearing_of(bearing))
@@ -47,22 +48,22 @@ def supports_of_bodies(
     }
     if not drawn and not matrices:
         return {}
-    loads = _loads(train, figure, torques)
-    held = {body: matrix_support(*given, loads[body]) for body, given in matrices.items()}
-    return held | {body: drawn_support(*given, loads[body]) for body, given in drawn.items()}
+    loads = _loads(train, placed, torques)
+    held = {body: matrix_support(*support, loads[body]) for body, support in matrices.items()}
+    return held | {body: drawn_support(*support, loads[body]) for body, support in drawn.items()}
 
 
 def supports_of_mesh(
-    held: Mapping[int, GearSupport], train: TrainKinematics, figure: PlacedTrain, mesh: int
+    held: Mapping[int, GearSupport], train: TrainKinematics, placed: PlacedTrain, mesh: int
 ) -> GearSupports:
     """The same of the bodies of a mesh, as its pair of gears sees them; their bearings are the train's."""
     if not held:
         return GearSupports()
-    turn = _view(train, figure, mesh)
+    turn = _view(train, placed, mesh)
     ends = [held.get(body) for body in (train.motion.driver[mesh], train.motion.driven[mesh])]
     moved = [_turned(turn, _NOTHING if one is None else one.displacement) for one in ends]
     rest = [_turned(turn, _NOTHING if one is None else one.rest) for one in ends]
-    angle = float(figure.assemblies[mesh].path.pressure_angle(0.0))
+    angle = float(placed.assemblies[mesh].path.pressure_angle(0.0))
     seen = [
         one and one._replace(displacement=moved[end], rest=rest[end], bearings=())
         for end, one in enumerate(ends)
@@ -70,22 +71,22 @@ def supports_of_mesh(
     return GearSupports(seen[0], seen[1], misalignment_of_tilts((one[3:] for one in moved), angle), angle)
 
 
-def _loads(train: TrainKinematics, figure: PlacedTrain, torques: tuple[float, ...]) -> Float[Array, "body 5"]:
+def _loads(train: TrainKinematics, placed: PlacedTrain, torques: tuple[float, ...]) -> Float[Array, "body 5"]:
     """Mean loads of all meshes on the bodies, at the middles of the gears' faces."""
     motion = train.motion
-    found = np.zeros((len(motion.bodies), 5))
+    loads = np.zeros((len(motion.bodies), 5))
     for mesh, torque in enumerate(torques):
-        turn = _view(train, figure, mesh)
-        both = mean_loads(figure.assemblies[mesh], torque)
+        turn = _view(train, placed, mesh)
+        both = mean_loads(placed.assemblies[mesh], torque)
         for body, load in zip((motion.driver[mesh], motion.driven[mesh]), both, strict=True):
-            found[body] += _turned(turn.T, load)
-    return found
+            loads[body] += _turned(turn.T, load)
+    return loads
 
 
-def _view(train: TrainKinematics, figure: PlacedTrain, mesh: int) -> Float[Array, "3 3"]:
+def _view(train: TrainKinematics, placed: PlacedTrain, mesh: int) -> Float[Array, "3 3"]:
     """Directions of a mesh's pair of gears in those of the train, its rows: a rotation."""
     sense = train.motion.sense[train.motion.driver[mesh]]
-    along, across = frame_of(figure.places.azimuths[mesh], sense)
+    along, across = frame_of(placed.places.azimuths[mesh], sense)
     return np.array([[*along, 0.0], [*across, 0.0], [0.0, 0.0, -float(sense)]])
 
 
