@@ -127,7 +127,7 @@ class LubricatedCase(OiledCase):
         return (self,)
 
     def chosen(self) -> dict[str, tuple[str, str]]:
-        """Give the laws that "auto" took, and why."""
+        """Laws selected by "auto", and why."""
         laws = {"film.law": self.film, "friction.law": self.friction}
         return {key: (str(law.law), law.chosen) for key, law in laws.items() if law.chosen}
 

@@ -90,7 +90,7 @@ def on_course(course: Mapping[str, Any]) -> str:
         extreme = course["contact_loss_fraction"]
         parts.append(f"the teeth are apart for up to {share(extreme['value'])} of the time {_at(extreme)}")
     else:
-        parts.append("no tooth lifts off")
+        parts.append("contact is never lost")
     return f"On the way from {ends} {'; '.join(parts)}."
 
 
@@ -135,7 +135,7 @@ def pressed(summary: Mapping[str, Any]) -> Iterable[str]:
         summary[name] for name in ("pinion_root_tension_max", "gear_root_tension_max") if name in summary
     ]
     if roots:
-        parts.append(f"the tooth root is pulled with {with_unit('pinion_root_tension_max', max(roots))}")
+        parts.append(f"the tooth-root tensile stress is {with_unit('pinion_root_tension_max', max(roots))}")
     if parts:
         yield f"{'; '.join(parts)}."
 
@@ -251,7 +251,7 @@ def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> li
     if separated := extreme("contact_loss_fraction", np.nanargmax):
         many = int(np.sum(np.nan_to_num(record["contact_loss_fraction"]) > APART))
         longest = f"for {share(separated[0])} of the time at {separated[1]}"
-        lines.append(f"The teeth separate in {many} cases, {longest}." if many else "No tooth lifts off.")
+        lines.append(f"The teeth separate in {many} cases, {longest}." if many else "Contact is never lost.")
     if thin := extreme("film_parameter_min", np.nanargmin):
         lines.append(f"The film is thinnest at {thin[1]}: {thin[0]:.2g} times the roughness.")
     low, high = (extreme("efficiency", find) for find in (np.nanargmin, np.nanargmax))
@@ -274,9 +274,11 @@ def _of_laws(record: SweepRecord) -> Iterable[str]:
 
 
 def apart(fraction: float) -> str:
-    """Whether teeth lift off, by the share of the time without contact."""
+    """Whether contact is lost, by the share of the time without contact."""
     return (
-        f"the teeth are apart for {share(fraction)} of the time" if fraction > APART else "no tooth lifts off"
+        f"the teeth are apart for {share(fraction)} of the time"
+        if fraction > APART
+        else "contact is never lost"
     )
 
 

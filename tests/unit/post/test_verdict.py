@@ -47,7 +47,7 @@ def test_a_sound_run_says_what_moves_presses_and_is_lost_and_nothing_to_do():
     text = said(GOOD | laws(0.0, 0.0))
     assert "12 µm" in text
     assert "1.20 times" in text
-    assert "no tooth lifts off" in text
+    assert "contact is never lost" in text
     assert "1.1 GPa" in text
     assert "3.4 times the roughness: a full film" in text
     assert "200 W of 40 kW, 0.5 %" in text

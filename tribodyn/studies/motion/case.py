@@ -231,7 +231,7 @@ class Gearbox(CaseHead):
         return [ROUNDED] if rounded_in(self.toml) else []
 
     def chosen(self) -> dict[str, tuple[str, str]]:
-        """Give the laws that "auto" took, those of the reference mesh for all."""
+        """Laws selected by "auto", those of the reference mesh for all."""
         return self.meshes[0].pair.chosen()
 
     def laws(self) -> dict[str, Any]:

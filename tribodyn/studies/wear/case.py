@@ -129,7 +129,7 @@ def recorded_at(case: WearCase, after: float = -1.0) -> np.ndarray:
     return rows[rows > after * (1.0 + 1e-9)]
 
 
-#: Evaluations of the loads between two records, and in a run at least; times that friction moves the loads.
+#: Evaluations of the loads between two records, and in a run at least; times that friction changes them.
 _BETWEEN, _LEAST, _FRICTION = 3.0, 100.0, 3.0
 
 

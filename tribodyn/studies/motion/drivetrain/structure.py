@@ -264,10 +264,7 @@ def motion_of(parts: Structure, source: int, sense: int) -> TrainSpeeds:
         [Joint(link.key, ends) for link, ends in parts.couplings()],
         source,
         sense,
-        [
-            SetMembers(gearset.key, gearset.members, gearset.planets, gearset.teeth, gearset.table.held)
-            for gearset in parts.sets
-        ],
+        [SetMembers(one.key, one.members, one.planets, one.teeth, one.table.held) for one in parts.sets],
     )
 
 
@@ -327,7 +324,9 @@ def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
         values = {name: getattr(table, name) for name in ("damping_ratio", "backlash")}
         planetary = table.name if isinstance(table, PlanetaryStage) else ""
         values["stiffness"] = getattr(table, stiffness_key(mesh.name, planetary))
-    return scenario.mesh.model_copy(update={name: keys for name, keys in values.items() if keys is not None})
+    return scenario.mesh.model_copy(
+        update={name: value for name, value in values.items() if value is not None}
+    )
 
 
 def bearings_by_body(scenario: Any, parts: Structure) -> list[Bearing | None]:

@@ -30,7 +30,7 @@ _SPEED = "operating.pinion_speed"
 def tasks(request: Request) -> tuple[Task, ...]:
     """A steady state at every speed, and of every sample at the duty and at its own resonances.
 
-    The oil is taken as it enters, for friction hardly moves the loads.
+    The oil is taken as it enters, for friction changes the loads little.
     """
     tables = request.tables
     scenario = {
