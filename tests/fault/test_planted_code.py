@@ -80,8 +80,11 @@ def planted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     text = f"import os\nwith open({str(marker)!r}, 'a') as file: file.write(__name__ + '\\n')\nos._exit(99)\n"
     for name in NAMES:
         (folder / f"{name}.py").write_text(text, encoding="utf-8")
-    (folder / "tribodyn" / "numerics").mkdir(parents=True)
-    for part in ("__init__.py", "__main__.py", "numerics/__init__.py", "numerics/processes/child.py"):
+    starts_processes = "numerics/processes"
+    (folder / "tribodyn" / starts_processes).mkdir(parents=True)
+    for part in ("", "numerics/", f"{starts_processes}/"):
+        (folder / "tribodyn" / part / "__init__.py").write_text(text, encoding="utf-8")
+    for part in ("__main__.py", f"{starts_processes}/child.py"):
         (folder / "tribodyn" / part).write_text(text, encoding="utf-8")
     written_template("assessment", folder).rename(folder / "drive.toml")
     (folder / "search.toml").write_text(SEARCH, encoding="utf-8")
