@@ -5,17 +5,14 @@ turned into machine code that nobody runs. Here the functions are lowered one by
 parts of the kernel that calls them, and the kernel alone becomes machine code.
 """
 
-import gc
 import re
 from collections import Counter
 from collections.abc import Callable
-from contextlib import contextmanager
-from functools import cache
 from typing import Any, cast
 
-import llvmlite.binding as llvm
 from llvmlite import ir
 from numba.core import config, types
+from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Flags, compile_extra
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.cpu_options import FastMathOptions
@@ -26,25 +23,26 @@ from tribodyn.errors import InputError
 from tribodyn.kernels.native import indexing  # noqa: F401  (its import lets arrays be read by it)
 from tribodyn.kernels.native.arguments import OPTIONS, Compiled, RecordLayout, Target, functions_in
 from tribodyn.kernels.native.functions import register_laws
-from tribodyn.kernels.native.parts import FUSE, LoweredLibrary, as_part
+from tribodyn.kernels.native.parts import FUSE, as_part
 from tribodyn.kernels.native.records import WORDS, RecordType, fields_of, letter_of, put
 
 #: Instructions of a function that becomes part of its callers, and of one that is called at a single place.
 #: LLVM alone counts loops over constants as if nothing in them were known, and leaves calls in them; and it
 #: does not know that nothing else calls a function.
 SMALL, SMALL_ONCE = 60, 160
-#: Instructions of a kernel, with all that becomes part of it, that stays a function: LLVM's time grows faster
-#: than the size of one.
-LARGE = 1000
 _CALLED = re.compile(r'(?:call|invoke) [^@\n]*@"?([^"(\n]+)"?\(')
 
 
-class KernelLibrary(LoweredLibrary):
+class KernelLibrary(JITCodeLibrary):
     """Code of a kernel with all its parts: optimised as one, and made an object file, which is not loaded."""
 
     def _optimize_final_module(self):
-        _simplify(self._final_module, self._codegen._tm)
-        _choose_parts(self._final_module)
+        calls = Counter(_CALLED.findall(str(self._final_module)))
+        for function in self._final_module.functions:
+            size = sum(1 for block in function.blocks for _ in block.instructions)
+            small = SMALL_ONCE if calls[function.name] == 1 else SMALL
+            if 0 < size <= small and b"noinline" not in list(function.attributes):
+                function.add_function_attribute("alwaysinline")
         super()._optimize_final_module()
 
     def _finalize_final_module(self):
@@ -63,70 +61,12 @@ class KernelLibrary(LoweredLibrary):
         return sorted(names)
 
 
-def _simplify(module, machine):
-    """Bring functions from numba's form, a place in memory for every variable, to one that can be counted."""
-    builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(3))
-    passes: Any = llvm.create_new_module_pass_manager()
-    passes.add_sroa_pass()
-    passes.add_simplify_cfg_pass()
-    passes.add_instruction_combine_pass()
-    passes.add_simplify_cfg_pass()
-    passes.run(module, builder)
-
-
-def _choose_parts(module):
-    """Mark what becomes part of its callers and what stays a function; laws are marked by then."""
-    defined = {each.name: each for each in module.functions if not each.is_declaration}
-    marks = {name: b" ".join(each.attributes).split() for name, each in defined.items()}
-    size = {name: sum(1 for _ in _instructions(each)) for name, each in defined.items()}
-    calls = {name: Counter(_CALLED.findall(str(each))) for name, each in defined.items()}
-    places = sum(calls.values(), Counter[str]())
-
-    @cache
-    def whole(name):
-        """Instructions of a function with all that becomes part of it."""
-        return size[name] + sum(
-            count * whole(part)
-            for part, count in calls[name].items()
-            if part in defined and part != name and becomes_part(part)
-        )
-
-    @cache
-    def becomes_part(name):
-        if b"alwaysinline" in marks[name] or b"noinline" in marks[name]:
-            return b"alwaysinline" in marks[name]
-        return size[name] <= (SMALL_ONCE if places[name] == 1 else SMALL) and whole(name) <= LARGE
-
-    for name, function in defined.items():
-        if becomes_part(name):
-            function.add_function_attribute("alwaysinline")
-        elif whole(name) > LARGE:
-            function.add_function_attribute("noinline")
-
-
-def _instructions(function):
-    return (instruction for block in function.blocks for instruction in block.instructions)
-
-
 #: What LLVM calls by a name of its own and takes from the C library, unless the processor has it.
 _C_FUNCTIONS = set("exp exp2 log log2 log10 pow sin cos tan memcpy memmove memset".split())
 
 
-@contextmanager
-def _uncollected():
-    """Nothing is collected meanwhile: nearly all that numba makes lives until the end."""
-    collects = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if collects:
-            gc.enable()
-
-
 # all of it under the lock: a thread that refreshes numba's tables hides types from one that compiles
 @global_compiler_lock
-@_uncollected()
 def compiled(function: Callable[..., Any], layout: RecordLayout) -> Compiled:
     """Compile a function for arguments of a layout."""
     register_laws()

@@ -39,35 +39,6 @@ def _from_the_start(builder: Any, sig: Any, args: Any) -> Any:
     return signature(sig.return_type, array, index, *others)
 
 
-def _place(context, builder, sig, args):
-    """Address of an element by whole numbers, which LLVM makes of numba's code too; None where it is numba's.
-
-    That is a fifth of what numba emits, and most of a kernel is elements of arrays.
-    """
-    array, index, *_ = sig.args
-    several = isinstance(index, types.BaseTuple)
-    kinds = list(cast(Any, index)) if several else [index]
-    values = cgutils.unpack_tuple(builder, args[1]) if several else [args[1]]
-    if not _in_package(builder) or len(kinds) != array.ndim:
-        return None
-    if any(not isinstance(kind, types.Integer) for kind in kinds):
-        return None
-    if any(isinstance(value, ir.Constant) and value.constant < 0 for value in values):
-        return None
-    model = context.data_model_manager[array]
-    data, shape, strides = (model.get(builder, args[0], name) for name in ("data", "shape", "strides"))
-    whole = [context.cast(builder, *one, types.intp) for one in zip(values, kinds, strict=True)]
-    return cgutils.get_item_pointer2(
-        context,
-        builder,
-        data,
-        cgutils.unpack_tuple(builder, shape),
-        cgutils.unpack_tuple(builder, strides) if array.layout == "A" else [],
-        array.layout,
-        whole,
-    )
-
-
 @lower_builtin(operator.getitem, types.Array, types.Integer)
 def _at(context, builder, sig, args):
     """An element, or a part whose address is not taken apart.
@@ -75,8 +46,6 @@ def _at(context, builder, sig, args):
     Else LLVM keeps and moves on an address for every quantity of a mesh's contacts that a loop over meshes
     uses, some forty, where one would do.
     """
-    if (place := _place(context, builder, sig, args)) is not None:
-        return arrayobj.load_item(context, builder, sig.args[0], place)
     part = arrayobj.getitem_arraynd_intp(context, builder, _from_the_start(builder, sig, args), args)
     kind = sig.return_type
     whole = not isinstance(kind, types.Array) or kind.ndim < 2 or isinstance(args[1], ir.Constant)
@@ -90,17 +59,10 @@ def _at(context, builder, sig, args):
 
 @lower_builtin(operator.getitem, types.Array, types.BaseTuple)
 def _at_several(context, builder, sig, args):
-    if (place := _place(context, builder, sig, args)) is not None:
-        return arrayobj.load_item(context, builder, sig.args[0], place)
     return arrayobj.getitem_array_tuple(context, builder, _from_the_start(builder, sig, args), args)
 
 
 @lower_builtin(operator.setitem, types.Array, types.Integer, types.Any)
 @lower_builtin(operator.setitem, types.Array, types.BaseTuple, types.Any)
 def _put_at(context, builder, sig, args):
-    if (place := _place(context, builder, sig, args)) is not None:
-        array, _, kind = sig.args
-        value = context.cast(builder, args[2], kind, array.dtype)
-        arrayobj.store_item(context, builder, array, value, place)
-        return None
     return arrayobj.setitem_array(context, builder, _from_the_start(builder, sig, args), args)

@@ -8,15 +8,6 @@ import numba
 from numba.core import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
-from numba.core.compiler_machinery import PassManager
-from numba.core.typed_passes import (
-    IRLegalization,
-    NativeLowering,
-    NoPythonBackend,
-    NopythonTypeInference,
-    PreLowerStripPhis,
-)
-from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
 from numba.extending import overload
 
 #: What LLVM may do with floats: make one rounding of a product and a sum.
@@ -30,16 +21,7 @@ class _NotLoaded:
         pass
 
 
-class LoweredLibrary(JITCodeLibrary):
-    """Code as lowered: numba optimises every function by itself, and then again in all that call it."""
-
-    def add_llvm_module(self, ll_module):
-        """Take in a function."""
-        ll_module.data_layout = self._codegen._data_layout
-        self._final_module.link_in(ll_module)
-
-
-class PartLibrary(LoweredLibrary):
+class PartLibrary(JITCodeLibrary):
     """Code of a function that only kernels call: as lowered, to be optimised as part of the kernel."""
 
     @property
@@ -89,38 +71,8 @@ def _mergeable(module):
     return copy
 
 
-#: Of numba's passes those that a function of this package needs. The others are for closures, `with`, `raise`
-#: and tuples of several types, and look for them in vain.
-_PASSES = (
-    TranslateByteCode,
-    FixupArgs,
-    IRProcessing,
-    ReconstructSSA,
-    NopythonTypeInference,
-    PreLowerStripPhis,
-    IRLegalization,
-    NativeLowering,
-    NoPythonBackend,
-)
-
-
-@cache
-def _passes() -> Any:
-    manager: Any = PassManager("part")
-    for each in _PASSES:
-        manager.add_pass(each, each.__name__)
-    manager.finalize()
-    return manager
-
-
 class PartCompiler(Compiler):
     """numba's compiler, for parts of kernels."""
-
-    def define_pipelines(self):
-        """Those of `_PASSES` for this package's functions, all of numba's for functions from outside."""
-        if cast(Any, self.state).func_id.modname.startswith("tribodyn."):
-            return [_passes()]
-        return super().define_pipelines()
 
     def __init__(self, typingctx, targetctx, library, args, return_type, flags, locals):
         if library is None:

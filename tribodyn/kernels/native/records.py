@@ -17,6 +17,7 @@ from numba.core.typing.templates import (
     signature,
 )
 from numba.extending import lower_builtin, lower_getattr_generic, models, register_model
+from numba.np.arrayobj import populate_array
 
 from tribodyn.kernels.native.arguments import (
     Array,
@@ -140,19 +141,10 @@ def _read(context, builder, kind, block, word):
             for length in reversed(shape[1:]):
                 strides.insert(0, builder.mul(strides[0], length))
             strides = strides[: kind.ndim]
+        array = context.make_array(kind)(context, builder)
         data = builder.inttoptr(items[0], context.get_data_type(kind.dtype).as_pointer())
-        number = _INT64(1)
-        for length in shape:
-            number = builder.mul(number, length)
-        model = context.data_model_manager[kind]
-        array = cgutils.get_null_value(model.get_value_type())
-        fields = {"nitems": number, "itemsize": _INT64(size), "data": data}
-        fields |= {
-            name: cgutils.pack_array(builder, one) for name, one in (("shape", shape), ("strides", strides))
-        }
-        for field, value in fields.items():
-            array = model.set(builder, array, value, field)
-        return array
+        populate_array(array, data, shape, strides, size, None)
+        return array._getvalue()
     if kind is types.boolean:
         return builder.trunc(_load(builder, place, _INT64), ir.IntType(1))
     return _load(builder, place, context.get_value_type(kind))
