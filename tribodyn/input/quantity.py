@@ -12,12 +12,12 @@ from typing import Annotated, Any, ClassVar, NamedTuple, cast, get_args, get_ori
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError, core_schema
 
 from tribodyn.errors import quoted
 from tribodyn.input.key_meanings import meaning
-from tribodyn.input.names import named_in, under_one_name, worded
+from tribodyn.input.names import named_in, worded
 from tribodyn.input.units import Kind, NotAQuantity, factor_to_si, to_si
 
 
@@ -26,13 +26,8 @@ class Table(BaseModel):
 
     # deferred: of all tables only those that a file is validated against are built
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, defer_build=True)
-    #: further names of fields in a file, see `names`
+    #: further names of fields in a file, see `names`; a table that has some puts its data `under_one_name`
     other_names: ClassVar[Mapping[str, str]] = {}
-
-    @model_validator(mode="before")
-    @classmethod
-    def _under_one_name(cls, data: Any) -> Any:
-        return under_one_name(data) if cls.other_names and isinstance(data, dict) else data
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:

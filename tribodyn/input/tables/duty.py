@@ -4,12 +4,12 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, NamedTuple
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.input import units
 from tribodyn.input.fields import ScenarioHead, Temperature, Torque
-from tribodyn.input.names import OF_PAIR
+from tribodyn.input.names import OF_PAIR, under_one_name
 from tribodyn.input.quantity import InUnit, Positive, Table, Weighed, csv_tables
 from tribodyn.input.schema import fields_of
 
@@ -36,6 +36,11 @@ class DutyTable(Table):
     """
 
     other_names = OF_PAIR
+
+    @model_validator(mode="before")
+    @classmethod
+    def _under_one_name(cls, data: Any) -> Any:
+        return under_one_name(data) if isinstance(data, dict) else data
 
     input_speed: Speed | None = None
     output_speed: Speed | None = None
