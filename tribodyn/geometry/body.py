@@ -15,6 +15,7 @@ from tribodyn.geometry.path import PerContact, position
 from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point, tangent_distance, thickness_half_angle
 from tribodyn.numerics.elementary import absolute, arctan2, cos, namespace, sin, sqrt
 from tribodyn.numerics.parameter import Variable
+from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float
 
 
@@ -134,6 +135,7 @@ def section_area_and_inertia(shape: ToothOutline, teeth: Any, bore_radius: Any) 
     return outwards * area, outwards * inertia
 
 
+@remembered(8)
 def mass_and_inertia(assembly: Assembly, side: Side, density: Any) -> tuple[Any, Any]:
     """Mass (kg) and moment of inertia about the axis (kg m²) of a body without hub, web or shaft.
 

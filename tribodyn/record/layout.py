@@ -1,6 +1,7 @@
 """Lays out the HDF5 file of a record, complete but for its samples."""
 
 import importlib.metadata
+import re
 from collections.abc import Callable, Mapping
 from datetime import datetime
 from functools import cache
@@ -161,7 +162,10 @@ def write_head(
 
 @cache
 def _version(library: str) -> str:
-    return importlib.metadata.version(library)
+    """Version by the head of what the installer wrote: to parse all of it takes ten times as long."""
+    head = importlib.metadata.distribution(library).read_text("METADATA") or ""
+    named = re.search("^Version: *(.+)$", head, re.MULTILINE)
+    return named[1] if named else importlib.metadata.version(library)
 
 
 def reserve(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...]) -> h5py.Dataset:

@@ -112,8 +112,8 @@ def _places(
                     width = float(model.operation.reversal_width) / slope
                     near = [place_of(m, phase, schedule, interval) for phase in pitch_point + width * about]
                     places += [phase for phase in near if low < phase < high]
-        distinct = np.unique(np.round(places, DIGITS))
-        phases += list(distinct)
+        distinct = sorted(set(np.round(places, DIGITS).tolist()))
+        phases += distinct
         passed += [number] * len(distinct)
         interval_numbers += [interval] * len(distinct)
     return np.array(passed) + np.array(phases), np.array(phases), np.array(interval_numbers)
