@@ -76,7 +76,8 @@ def stops(model: Model) -> Float[Array, "interval stop"]:
     ascending = np.sort(np.array(kept).reshape(-1, len(start)), axis=0)
     most = int(np.max(np.sum(np.isfinite(ascending), axis=0), initial=0))
     ending = np.append(ascending[:most], end[None], axis=0)
-    return np.where(np.isfinite(ending), ending, end).T
+    # of one order in memory, whatever the drive: kernels are compiled for it
+    return np.ascontiguousarray(np.where(np.isfinite(ending), ending, end).T)
 
 
 def stops_of_many(models: Sequence[Model]) -> Float[Array, "case interval stop"]:
