@@ -42,7 +42,7 @@ from tribodyn.input.tables.laws import FilmTable, film_of, law_values
 from tribodyn.input.tables.losses import (
     LossesTable,
     TemperatureTable,
-    broken_loss_rules,
+    broken_losses,
     broken_temperature_rules,
     losses_of,
     temperature_of,
@@ -262,7 +262,7 @@ def broken_gear_rules(
         if oil:
             yield from broken_lubricant_rules(lubricant, scenario.operating.oil_temperature)
         yield from broken_temperature_rules(getattr(scenario, "temperature", None), lubricant)
-    yield from broken_loss_rules(getattr(scenario, "losses", None))
+    yield from broken_losses(getattr(scenario, "losses", None))
     yield from _broken_supports(scenario)
     misalignment = getattr(mesh, "misalignment", _ALIGNED)
     coupling = getattr(mesh, "slice_coupling", True)

@@ -148,6 +148,8 @@ def test_a_motion_with_another_loss_is_run_again_until_its_own_temperature():
         ({"losses.gear_immersion": "9 mm"}, "losses.gear_immersion", "no effect"),
         ({"losses.bearings": "palmgren"}, "losses.pinion_bearings", "missing"),
         ({"losses.churning": "stirring"}, "losses.churning", "not one of the choices"),
+        (LOSSES | {"losses.immersion.gear": "9 mm"}, "losses.immersion.gear", "as gear_immersion does"),
+        (LOSSES | {"losses.immersion.wheel": "9 mm"}, "losses.immersion.wheel", "no such gear"),
     ],
 )
 def test_what_contradicts_is_refused(changes, key, rule):
@@ -155,6 +157,19 @@ def test_what_contradicts_is_refused(changes, key, rule):
         case(changes)
     assert refused.value.key == key
     assert rule in refused.value.rule
+
+
+def test_losses_of_gears_by_name_are_those_of_pinion_and_gear():
+    drag = {"type": "deep-groove-ball", "mean_diameter": "40 mm"}
+    formulas = {"churning": "iso-14179-1", "bearings": "palmgren"}
+    of_sides = formulas | {"gear_immersion": "20 mm", "pinion_bearings": drag}
+    by_name = formulas | {"immersion": {"gear": "20 mm"}, "shaft_bearings": {"pinion": drag}}
+    for keys in (of_sides, by_name):
+        assert case({"losses": keys}).losses == case({"losses": of_sides}).losses
+        of_pair, of_train = (
+            case({"losses": keys}, MOTION | {"kind": kind}).gearbox() for kind in ("gear-pair", "gear-train")
+        )
+        assert prepare_motion(of_pair).thermal[0].losses == prepare_motion(of_train).thermal[0].losses
 
 
 def test_a_temperature_needs_the_oil_at_others():

@@ -27,7 +27,7 @@ from tribodyn.studies.motion.drivetrain.placed_train import (
     resolve_kinematics,
 )
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
-from tribodyn.studies.motion.train.losses import broken_losses
+from tribodyn.studies.motion.train.losses import broken_train_losses
 from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
 from tribodyn.studies.motion.train.scenario import Scenario
 from tribodyn.studies.motion.train.single_teeth import gears_of_train
@@ -69,7 +69,7 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
     except InputError as error:
         yield error
         return
-    of_losses = broken_losses(scenario.losses, train)
+    of_losses = broken_train_losses(scenario.losses, train)
     if broken := [*_each_mesh_once(train), *_hands(train), *of_losses, *_pairs(scenario, train)]:
         yield from broken
         return

@@ -18,7 +18,7 @@ from tribodyn.gears.motion.settings import (
     solver_data,
 )
 from tribodyn.gears.prepare import with_chosen_laws
-from tribodyn.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
+from tribodyn.gears.scenario import FilmKeys, LossKeys, Oil, TemperatureKeys, oil_fields
 from tribodyn.gears.supports import GearSupport
 from tribodyn.geometry.drive import SIDES, BodyMass
 from tribodyn.input.fields import PartName, head_of
@@ -61,7 +61,7 @@ from tribodyn.studies.motion.drivetrain.tables import (
     TrainGear,
 )
 from tribodyn.studies.motion.planetary.links import links_of_set, set_data
-from tribodyn.studies.motion.train.losses import TrainLossesTable, losses_of_meshes
+from tribodyn.studies.motion.train.losses import losses_of_meshes
 from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
 from tribodyn.studies.motion.train.single_teeth import own_teeth
 from tribodyn.studies.motion.train.supports import supports_of_bodies, supports_of_mesh
@@ -106,7 +106,7 @@ class GearTrainScenario(SpectrumScenario):
     load: tuple[LoadTable, ...] = Field((), max_length=MOST_PARTS)
     mesh: Meshes
     temperature: TemperatureKeys = None
-    losses: TrainLossesTable | None = None
+    losses: LossKeys = None
     film: FilmKeys = None
     friction: Friction
     solver: TrainSolver = written({})
