@@ -56,7 +56,7 @@ def samples_per_cycle(record: Record) -> int:
 
 
 def mesh_rates(record: Record) -> np.ndarray:
-    """Cycles of every mesh per cycle of the first mesh; of a pair of its only one."""
+    """Cycles of every mesh per cycle of the first mesh."""
     if "mesh_phase" not in record:
         return np.ones(1)
     phase = record["mesh_phase"]
@@ -66,14 +66,16 @@ def mesh_rates(record: Record) -> np.ndarray:
 
 def shown_cycles(record: Record) -> int:
     """Whole mesh cycles to show at first: two, in a train of the slowest mesh."""
-    if "mesh_phase" not in record or record.samples < 2:
+    if record.samples < 2:
         return SHOWN
     return min(MOST_SHOWN, int(np.ceil(SHOWN / np.min(mesh_rates(record)) - _SAME_PHASE)))
 
 
-def of_mesh(values: np.ndarray, mesh: int | None) -> np.ndarray:
-    """A dataset of one mesh: of a train that of a mesh by its number, of a pair all."""
-    return values if mesh is None else values[:, mesh]
+def mesh_phases(record: Record) -> np.ndarray:
+    """Cycles (sample, mesh) of every mesh since it began one."""
+    if "mesh_phase" in record:
+        return record["mesh_phase"]
+    return (np.arange(record.samples) / samples_per_cycle(record))[:, None]
 
 
 def last_cycles(record: Record, cycles: int | None = 2) -> Window:
@@ -99,7 +101,7 @@ def in_parts(record: Record, window: Window) -> Window:
 
     Their samples are its `samples_per_cycle`; what is left at the end is cut off.
     """
-    together = int(np.ceil(1.0 / np.min(mesh_rates(record)) - _SAME_PHASE)) if "mesh_phase" in record else 1
+    together = int(np.ceil(1.0 / np.min(mesh_rates(record)) - _SAME_PHASE))
     size = min(together * window.samples_per_cycle, max(1, window.phase.size - 1))
     count = (window.phase.size - 1) // size * size + 1
     part = slice(window.part.start, window.part.start + count)
@@ -112,22 +114,21 @@ def pair_curve(
     pair: int,
     window: Window,
     abscissa: np.ndarray,
-    mesh: int | None = None,
+    mesh: int = 0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Cut out the curve of one pair number, broken where the number passes to the next teeth.
 
     In the sample that ends a cycle, the teeth that were pair 1 are already pair 0: their last point is taken
     from there, so that each piece reaches its end. Out of contact (transmission error NaN) the curve breaks.
-    `values` are a dataset over time and pair, of a train of this `mesh`; `abscissa` phase or time of the
-    window.
+    `values` are a dataset over time and pair of this `mesh`; `abscissa` phase or time of the window.
     """
     numbers = record.pairs
-    error = of_mesh(record["transmission_error_normal"], mesh)
+    error = record.over_meshes("transmission_error_normal")[:, mesh]
     values = np.where(np.isnan(error), np.nan, values)[window.part]
     column = values[:, numbers.index(pair)]
     older = values[:, numbers.index(pair - 1)] if pair - 1 in numbers and pair <= 1 else None
     pieces_x, pieces_y = [], []
-    phase = window.phase if mesh is None else record["mesh_phase"][window.part, mesh]
+    phase = mesh_phases(record)[window.part, mesh]
     passed = np.diff(np.floor(phase + _SAME_PHASE), prepend=np.floor(phase[0] + _SAME_PHASE)) > 0.0
     for start, end in pairwise(dict.fromkeys([0, *np.flatnonzero(passed), column.size - 1])):
         after = older if passed[end] else column
@@ -164,7 +165,7 @@ def key_points(record: Record) -> list[KeyPoint]:
 
 def transient(record: Record) -> bool:
     """Whether the mean speed or the load of a mesh cycle changes by more than `CHANGING` during a run."""
-    moving = "velocity" in record or "speed" in record
+    moving = "dof" in record or "speed" in record
     if not moving or "power_out" not in record or record.samples < 2:
         return False
     window = last_cycles(record, None)
@@ -172,17 +173,14 @@ def transient(record: Record) -> bool:
     if count < 3:
         return False
     size = window.samples_per_cycle
-    if "dof" in record:
-        dof, speed = list(record["dof"]), record["velocity"][window.part]
-        pinion, gear = (speed[:-1, dof.index(name)].reshape(count, size) for name in ("theta_p", "theta_g"))
-    else:  # a train, whose bodies all have the speed of the first but for their ratios
-        pinion = gear = record["speed"][window.part][:-1, 0].reshape(count, size)
+    # all bodies have the speed of the first but for their ratios
+    speed = record.over_bodies("speed")[window.part][:-1, 0].reshape(count, size)
     power = record["power_out"][window.part][:-1].reshape(count, size)
     with np.errstate(divide="ignore", invalid="ignore"):
-        torque = np.mean(power / gear, axis=1)
+        torque = np.mean(power / speed, axis=1)
     return any(
         float(np.ptp(values)) > CHANGING * float(np.max(np.abs(values)))
-        for values in (np.mean(pinion, axis=1), torque)
+        for values in (np.mean(speed, axis=1), torque)
         if np.all(np.isfinite(values))
     )
 

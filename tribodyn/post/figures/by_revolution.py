@@ -30,15 +30,14 @@ def revolutions_figure(records: Sequence[Record], _view: View) -> Figure:
     record = records[0]
     figure = new_figure(7.0, 5.2)
     panels = figure.subplots(len(_ROWS), 1, sharex=True)
-    meshes = [str(name) for name in record["mesh"]] if "mesh" in record else [""]
     for axes, (name, label, factor) in zip(panels, _ROWS, strict=True):
-        values = factor * record[name].reshape(len(record[_AXIS]), -1)
-        for column, (mesh, curve) in enumerate(zip(meshes, values.T, strict=True)):
+        values = factor * record.over_meshes(name)
+        for column, (mesh, curve) in enumerate(zip(record.meshes, values.T, strict=True)):
             axes.plot(record[_AXIS], curve, color=PALETTE[column % len(PALETTE)], label=mesh, lw=1.0)
         finite = values[np.isfinite(values)]
         scale(axes, [finite] if finite.size else [])
         axes.set_ylabel(label)
-    if len(meshes) > 1:
+    if len(record.meshes) > 1:
         panels[0].legend(fontsize=7, ncols=3)
     panels[-1].set_xlabel("Revolution of the gear that drives the first mesh")
     figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)

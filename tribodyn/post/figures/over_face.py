@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.post import style
-from tribodyn.post.cycles import last_cycles, limits_of
+from tribodyn.post.cycles import last_cycles, limits_of, mesh_phases
 from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import View, abscissa, abscissa_label, record_label, record_title
 from tribodyn.post.figures.scale import scale
@@ -19,7 +19,7 @@ from tribodyn.record.reader import Record
 #: Places of the map along the path of contact, and across the face.
 _PLACES = 241
 #: Dash patterns of pinion and gear.
-_LINES = {"p": "-", "g": (0, (5, 2))}
+_LINES = {"pinion": "-", "gear": (0, (5, 2))}
 
 
 class FlankMap(NamedTuple):
@@ -37,25 +37,21 @@ def helical(record: Record) -> bool:
 
 
 def helical_meshes(record: Record) -> list[int]:
-    """Numbers of the meshes of a train whose pairs are in slices."""
-    names = map(str, record["mesh"])
-    return [m for m, name in enumerate(names) if "face_position" in record.of_mesh(name, "mesh_cycle")]
+    """Numbers of the meshes whose pairs are in slices."""
+    return [m for m in range(len(record.meshes)) if "face_position" in table_of(record, m)]
 
 
-def flank_map(record: Record, mesh: int | None = None) -> FlankMap:
+def flank_map(record: Record, mesh: int = 0) -> FlankMap:
     """Line load (N/m) over a flank; its parts are of the pairs that follow each other in the last cycle.
 
-    Over the roll angle of each section of its own, by which the lines of contact are inclined; of a train of
-    this `mesh`.
+    Over the roll angle of each section of its own, by which the lines of contact are inclined.
     """
     table = table_of(record, mesh)
-    if mesh is None:
-        window = last_cycles(record, 1)
-        phase, load = window.phase[:-1], record["line_load"][window.part][:-1]
-    else:
-        cycles = record["mesh_phase"][:, mesh]
-        last = (cycles >= np.floor(cycles[-1]) - 1.0) & (cycles < np.floor(cycles[-1]))
-        phase, load = cycles[last] % 1.0, record["line_load"][last, mesh][..., : len(table["face_position"])]
+    cycles = mesh_phases(record)[:, mesh]
+    end = max(np.floor(cycles[-1]), 1.0)
+    last = (cycles >= end - 1.0) & (cycles < end)
+    phase = cycles[last] % 1.0
+    load = record.over_meshes("line_load")[last, mesh][..., : len(table["face_position"])]
     fronts = [
         slot for slot, pair in enumerate(record.pairs) if pair <= 1 and np.any(np.isfinite(load[:, slot]))
     ]
@@ -72,18 +68,14 @@ def flank_map(record: Record, mesh: int | None = None) -> FlankMap:
     return FlankMap(roll, face, np.stack(values))
 
 
-def table_of(record: Record, mesh: int | None) -> dict[str, Any]:
-    """The mesh cycle of a record, of a train that of a mesh."""
-    return record.mesh_cycle if mesh is None else record.of_mesh(str(record["mesh"][mesh]), "mesh_cycle")
+def table_of(record: Record, mesh: int) -> dict[str, Any]:
+    """The mesh cycle of a mesh."""
+    return record.of_mesh(record.meshes[mesh], "mesh_cycle")
 
 
 def line_load_figure(records: Sequence[Record], _view: View) -> Figure:
-    """Draw the line load of a pair over roll angle and face, with its lines of contact; of a train of all."""
-    shown: list[tuple[Record, int | None]] = [
-        (record, mesh)
-        for record in records
-        for mesh in (helical_meshes(record) if "mesh" in record else [None])
-    ]
+    """Draw the line load of a pair of every mesh over roll angle and face, with its lines of contact."""
+    shown = [(record, mesh) for record in records for mesh in helical_meshes(record)]
     maps = [flank_map(*one) for one in shown]
     top = 1e-3 * max(float(np.max(flank.values)) for flank in maps)
     figure = style.new_figure(style.WIDTH, (style.PANEL_HEIGHT + 0.4) * len(maps) + 0.4)
@@ -93,7 +85,7 @@ def line_load_figure(records: Sequence[Record], _view: View) -> Figure:
         bar = figure.colorbar(image, ax=axes, label="Line load (N/mm)", pad=0.02)
         bar.outline.set_visible(False)
         parts = [record_label(record)] if len(records) > 1 else []
-        parts += [] if mesh is None else [style.literal(str(record["mesh"][mesh]))]
+        parts += [style.literal(record.meshes[mesh])] if record.names_meshes else []
         title = ", ".join(parts) or "Line load of one pair from entry to exit"
         style.mark_panel(axes, letter if len(shown) > 1 else "", title)
     head = record_title(records[0]) if len(records) == 1 else "Line load of one pair from entry to exit."
@@ -152,14 +144,14 @@ def in_space_figure(records: Sequence[Record], view: View) -> Figure:
     shown: list[list[np.ndarray]] = [[], [], []]
     for number, record in enumerate(records):
         window = last_cycles(record, view.cycles)
-        x, dof = abscissa(window, view), list(record["dof"])
-        moved = 1e6 * record["displacement"][window.part]
+        x = abscissa(window, view)
+        moved = {name: 1e6 * record.over_bodies(name)[window.part] for name in ("z", "tilt_x", "tilt_y")}
         name = record_label(record) if len(records) > 1 else ""
         curves = [(0, "", record["axial_force"][window.part], "-", 0)]
-        for body, side in (("p", "pinion"), ("g", "gear")):
-            curves.append((1, side, moved[:, dof.index(f"z_{body}")], _LINES[body], 0))
+        for body, (side, line) in enumerate(_LINES.items()):
+            curves.append((1, side, moved["z"][:, body], line, 0))
             curves += [
-                (2, f"{side}, about {axis}", moved[:, dof.index(f"tilt_{axis}_{body}")], _LINES[body], i)
+                (2, f"{side}, about {axis}", moved[f"tilt_{axis}"][:, body], line, i)
                 for i, axis in enumerate("xy")
             ]
         for row, label, values, line, shade in curves:
@@ -179,7 +171,7 @@ def in_space_figure(records: Sequence[Record], view: View) -> Figure:
         style.mark_panel(axes, letter, title)
         if axes is not rows[0] or len(records) > 1:
             axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=7)
-    rows[-1].set_xlabel(abscissa_label(view))
+    rows[-1].set_xlabel(abscissa_label(view, records[0]))
     figure.align_ylabels()
     if len(records) == 1:
         figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)

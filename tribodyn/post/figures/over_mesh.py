@@ -160,10 +160,9 @@ def draw_speed(axes: Axes, record: Record, view: View) -> None:
     """Draw the pinion's speed and the torque on the gear, means of every mesh cycle, on two axes."""
     window = last_cycles(record, view.cycles)
     size = window.samples_per_cycle
-    dof = list(record["dof"])
-    velocity = record["velocity"][window.part][:-1]
+    speeds = record.over_bodies("speed")[window.part][:-1]
     power = record["power_out"][window.part][:-1]
-    pinion, gear = (velocity[:, dof.index(name)] for name in ("theta_p", "theta_g"))
+    pinion, gear = speeds[:, 0], speeds[:, 1]
     x, speed, torque = (
         np.mean(values.reshape(-1, size), axis=1)
         for values in (abscissa(window, view)[:-1], pinion * 30 / np.pi, power / gear)
@@ -178,7 +177,7 @@ def draw_speed(axes: Axes, record: Record, view: View) -> None:
         scale(side, [values])
     right.spines["right"].set_visible(True)
     right.grid(False)
-    axes.set_xlabel(abscissa_label(view))
+    axes.set_xlabel(abscissa_label(view, record))
 
 
 def stacked(about: str, *panels: Trace) -> Drawing:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tribodyn.post.cycles import Window, in_parts, key_points, last_cycles, of_mesh, pair_curve
+from tribodyn.post.cycles import Window, in_parts, key_points, last_cycles, pair_curve
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal, name_above, write_beside
 from tribodyn.quantities.quantity import SHOWN
@@ -88,20 +88,20 @@ def draw(
     view: View,
     first: bool = True,
     last: bool = True,
-    mesh: int | None = None,
+    mesh: int = 0,
 ) -> int:
     """Draw a dataset of every record, pairs apart where it has pairs, with axis labels and key points.
 
-    Of trains a `mesh` is drawn, without key points. In a stack of panels the `first` alone names the key
-    points and the `last` alone the horizontal axis. Over many cycles the range within each cycle and its mean
-    are drawn. Returns the rows of names above the axes.
+    Of a `mesh`, without key points where meshes have names. In a stack of panels the `first` alone names the
+    key points and the `last` alone the horizontal axis. Over many cycles the range within each cycle and its
+    mean are drawn. Returns the rows of names above the axes.
     """
     several = len(records) > 1
     shown = []
     for number, record in enumerate(records):
         window = last_cycles(record, view.cycles)
         x = abscissa(window, view)
-        values = of_mesh(record[trace.dataset], mesh) * trace.factor
+        values = record.over_meshes(trace.dataset)[:, mesh] * trace.factor
         color = PALETTE[number % len(PALETTE)] if several else PALETTE[0]
         if window.phase[-1] > MOST_CYCLES_DRAWN:
             shown += draw_ranges(axes, record, values, window, view, color, mesh=mesh)
@@ -118,8 +118,8 @@ def draw(
     axes.set_ylabel(trace.label)
     scale(axes, shown, trace.from_zero)
     if last:
-        axes.set_xlabel(abscissa_label(view, "" if mesh is None else str(records[0]["mesh"][0])))
-    if mesh is not None:
+        axes.set_xlabel(abscissa_label(view, records[0]))
+    if records[0].names_meshes:
         axes.autoscale(axis="x", tight=True)
         return 0
     return mark_key_points(axes, records, view, first)
@@ -133,7 +133,7 @@ def draw_ranges(
     view: View,
     color: str,
     labels: tuple[str, str] = ("range in a mesh cycle", "mean of a mesh cycle"),
-    mesh: int | None = None,
+    mesh: int = 0,
 ) -> list[np.ndarray]:
     """Draw minimum, mean and maximum in each mesh cycle, in a train of its slowest mesh; what is drawn."""
     parts = in_parts(record, window)
@@ -145,12 +145,12 @@ def draw_ranges(
 
 
 def cycle_ranges(
-    record: Record, values: np.ndarray, window: Window, mesh: int | None = None
+    record: Record, values: np.ndarray, window: Window, mesh: int = 0
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Minimum, mean and maximum (cycles,) in every `samples_per_cycle`; of pairs those under load; or NaN."""
     values = values[window.part][:-1]
     if values.ndim > 1:
-        load = of_mesh(record["normal_load"], mesh)[window.part][:-1]
+        load = record.over_meshes("normal_load")[window.part, mesh][:-1]
         values = np.where(load > 0.0, values, np.nan)
     parts = len(values) // window.samples_per_cycle
     rows = np.where(np.isfinite(values), values, np.nan).reshape(parts, -1)
@@ -166,13 +166,13 @@ def _shade_extrapolated(
     window: Window,
     x: np.ndarray,
     hue: str = "",
-    mesh: int | None = None,
+    mesh: int = 0,
 ) -> None:
     """Shade where a law is outside its range for any pair under load; in a record's `hue` colour if given."""
     if trace.flag not in record:
         return
-    outside = (record[trace.flag] == 0) & (record["normal_load"] > 0.0)
-    outside = np.any(of_mesh(outside, mesh)[window.part], axis=1)
+    flag, load = (record.over_meshes(name)[window.part, mesh] for name in (trace.flag, "normal_load"))
+    outside = np.any((flag == 0) & (load > 0.0), axis=1)
     color, label = EXTRAPOLATED[trace.flag]
     if hue:
         color, label = f"{hue}18", f"{label}: {record_label(record)}"
@@ -182,9 +182,9 @@ def _shade_extrapolated(
         axes.axvspan(left, right, color=color, linewidth=0, zorder=0.5, label=label)
 
 
-def drawn_pairs(record: Record, window: Window, mesh: int | None = None) -> list[int]:
+def drawn_pairs(record: Record, window: Window, mesh: int = 0) -> list[int]:
     """List the pairs to draw: driving flanks from the newest on, then back flanks that carry load."""
-    load = of_mesh(record["normal_load"], mesh)[window.part]
+    load = record.over_meshes("normal_load")[window.part, mesh]
     carries = np.any(np.isfinite(load), axis=0)  # a mesh of a train may have fewer than another
     front = [pair for pair, loaded in zip(record.pairs, carries, strict=True) if pair <= 1 and loaded]
     touching = [pair for slot, pair in enumerate(record.pairs) if pair > 1 and np.any(load[:, slot] > 0)]
@@ -196,11 +196,13 @@ def pair_label(pair: int) -> str:
     return f"pair {pair}" if pair <= 1 else f"back flanks {pair - 1}"
 
 
-def abscissa_label(view: View, mesh: str = "") -> str:
-    """Label the horizontal axis, of a train with the name of its first mesh."""
+def abscissa_label(view: View, record: Record) -> str:
+    """Label the horizontal axis, with the name of the first mesh where meshes have names."""
     if view.against == "time":
         return "Time (ms)"
-    return f"Cycles of the mesh {literal(mesh)}" if mesh else "Phase (mesh cycles)"
+    if record.names_meshes:
+        return f"Cycles of the mesh {literal(record.meshes[0])}"
+    return "Phase (mesh cycles)"
 
 
 def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bool = True) -> int:

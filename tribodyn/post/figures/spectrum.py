@@ -9,7 +9,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.cycles import CHANGING, Spectrum, Window, amplitude_spectrum, last_cycles, of_mesh
+from tribodyn.post.cycles import CHANGING, Spectrum, Window, amplitude_spectrum, last_cycles
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, name_above, new_figure
 from tribodyn.record.reader import Record
@@ -146,7 +146,7 @@ def worth_tracking(record: Record) -> bool:
     whole = last_cycles(record, None) if record.samples > 1 else None
     if whole is None or whole.phase[-1] < 2 * WINDOW:
         return False
-    speed = _pinion_speed(record)
+    speed = record.over_bodies("speed")[:, 0]
     return float(np.ptp(speed)) > CHANGING * float(np.mean(speed))
 
 
@@ -160,7 +160,7 @@ def track(record: Record) -> Track:
     per_cycle = whole.samples_per_cycle
     count = round(whole.phase[-1]) - WINDOW
     size, step = WINDOW * per_cycle, min(HOP, max(1, count // MOST_HOPPED)) * per_cycle
-    signal = of_mesh(record["transmission_error_rotational"], 0 if "mesh" in record else None)[whole.part]
+    signal = record.over_meshes("transmission_error_rotational")[whole.part, 0]
     if signal.size < 2 * size:
         raise _too_few(record, round(whole.phase[-1]))
     starts = np.arange(0, signal.size - size, step)
@@ -171,7 +171,7 @@ def track(record: Record) -> Track:
     amplitudes = 2 * np.abs(np.fft.rfft(windows * taper, axis=1)) / taper.sum()
     orders = np.arange(amplitudes.shape[1]) / WINDOW
     keep = orders <= SHOWN + 1e-9
-    speed, time = _pinion_speed(record)[whole.part], record["time"][whole.part]
+    speed, time = record.over_bodies("speed")[whole.part, 0], record["time"][whole.part]
     return Track(speed[part].mean(axis=1), time[part].mean(axis=1), orders[keep], amplitudes[:, keep])
 
 
@@ -181,7 +181,7 @@ def _too_few(record: Record, kept: int) -> InputError:
     of, remedies = "", []
     by_turns = record.scenario.get("solver", {}).get("revolutions") is not None
     if ran < 2 * WINDOW:
-        first = record.mesh_cycle if "mesh" not in record else record.of_mesh(record["mesh"][0], "mesh_cycle")
+        first = record.of_mesh(record.meshes[0], "mesh_cycle")
         turns = -(-800 // int(first["pinion_teeth"]))
         longer = f"solver.revolutions = {turns}" if by_turns else "solver.cycles = 800"
         remedies.append(f"run at least {2 * WINDOW}: {longer}")
@@ -210,7 +210,7 @@ def orders_figure(records: Sequence[Record], view: View) -> Figure:
         below.plot(x, line, color=PALETTE[order - 1], label=f"order {order}")
     below.set_ylabel("Amplitude (µm)")
     below.set_ylim(bottom=0)
-    of = "Pinion speed" if "dof" in record else "Speed of the first body"
+    of = "Speed of the first body" if record.names_meshes else "Pinion speed"
     below.set_xlabel("Time (ms)" if over_time else f"{of} (rpm)")
     below.legend(ncols=2)
     over = "time" if over_time else "the speed"
@@ -230,10 +230,3 @@ def _draw_map(figure: Figure, axes: Axes, x: np.ndarray, tracked: Track) -> None
     axes.set_ylabel("Order of the mesh (–)")
     axes.grid(False)
     figure.colorbar(image, ax=axes, label="Transmission error (µm)", pad=0.02)
-
-
-def _pinion_speed(record: Record) -> np.ndarray:
-    """Speed of the pinion, of a train of the body that drives the first mesh."""
-    if "speed" in record:
-        return record["speed"][:, 0]
-    return record["velocity"][:, list(record["dof"]).index("theta_p")]

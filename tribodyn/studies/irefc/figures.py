@@ -127,7 +127,7 @@ def _over_time(
     figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
     panels = figure.subplots(2, 1, sharex=True)
     titles = draw(panels, records, view)
-    panels[1].set_xlabel(abscissa_label(view))
+    panels[1].set_xlabel(abscissa_label(view, records[0]))
     return _finish(figure, panels, titles, records)
 
 
@@ -203,7 +203,7 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
     if moving:
         part, x = _cycles(record, view)
         draw_loads(rows[1, 2], x, record["normal_load"][part], PALETTE[0])
-        rows[1, 2].set(xlabel=abscissa_label(view), ylabel="Normal load of each element (N)")
+        rows[1, 2].set(xlabel=abscissa_label(view, record), ylabel="Normal load of each element (N)")
         rows[1, 2].set_ylim(bottom=0)
     else:
         rows[1, 2].remove()

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -24,9 +25,7 @@ from tribodyn.record.reader import Record
 from tribodyn.studies.motion.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
 from tribodyn.studies.motion.drivetrain.carried_sets import (
     body_labels,
-    by_mesh,
     mesh_labels,
-    mesh_names,
     sets_of,
 )
 from tribodyn.studies.motion.pictures.curves import draw_curves
@@ -56,15 +55,13 @@ _LOW, _FEW = 1.8, 3
 
 def mesh_forces(record: Record) -> np.ndarray:
     """Force of every mesh on its driven gear along the pitch tangent, N (samples, meshes)."""
-    if not _named(record):
-        return record["driven_torque"][:, None] / abs(record.geometry["gear_pitch_radius"])
-    radii = [abs(record.of_mesh(mesh, "geometry")["gear_pitch_radius"]) for mesh in record["mesh"]]
-    return record["driven_torque"] / np.array(radii)
+    radii = [abs(record.of_mesh(mesh, "geometry")["gear_pitch_radius"]) for mesh in record.meshes]
+    return record.over_meshes("driven_torque") / np.array(radii)
 
 
 def losses(record: Record) -> np.ndarray:
     """Power of friction in every mesh, W (samples, meshes)."""
-    return record["mesh_power_friction"] if _named(record) else record["power_friction"][:, None]
+    return record.over_meshes("mesh_power_friction" if record.names_meshes else "power_friction")
 
 
 def thinnest_films(record: Record) -> np.ndarray:
@@ -78,18 +75,16 @@ def displacements(record: Record) -> np.ndarray:
 
     NaN of those that only turn.
     """
-    if not _named(record):
-        moved = dict(zip(record["dof"], record["displacement"].T, strict=True))
-        return np.stack([np.hypot(moved[f"x_{side}"], moved[f"y_{side}"]) for side in "pg"], axis=1)
-    x, y = record["x"].copy(), record["y"].copy()
+    at = record.over_bodies("x"), record.over_bodies("y")
+    x, y = at[0].copy(), at[1].copy()
     places = record.geometry
     for gearset in sets_of(record):
         ahead = places["sense"][gearset.carrier] * record["angle"][:, gearset.carrier]
         ahead = ahead - places["carried"][gearset.carrier] * record["reference_angle"]
         for planet in gearset.planets:
             right, up = places["centre"][planet] - places["centre"][gearset.carrier]
-            x[:, planet] += ahead * up - record["x"][:, gearset.carrier]
-            y[:, planet] -= ahead * right + record["y"][:, gearset.carrier]
+            x[:, planet] += ahead * up - at[0][:, gearset.carrier]
+            y[:, planet] -= ahead * right + at[1][:, gearset.carrier]
     return np.hypot(x, y)
 
 
@@ -123,11 +118,7 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
 
 def _each_mesh(trace: Trace, records: Sequence[Record], view: View) -> Figure:
     """Draw the pairs of every mesh in a panel of its own, of one record after the other."""
-    places = [
-        (record, m if _named(record) else None, mesh)
-        for record in records
-        for m, mesh in enumerate(mesh_names(record))
-    ]
+    places = [(record, m, mesh) for record in records for m, mesh in enumerate(record.meshes)]
     figure, rows = _rows(len(places), records)
     for letter, axes, (record, m, mesh) in zip(_letters(places), rows, places, strict=True):
         draw(axes, [record], trace, view, last=axes is rows[-1], mesh=m)
@@ -143,7 +134,7 @@ def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], vie
     """Draw a curve of every mesh or body, each record in a panel of its own."""
     figure, rows = _rows(len(records), records)
     for letter, axes, record in zip(_letters(records), rows, records, strict=True):
-        names = mesh_names(record) if over == "mesh" else list(record[over])
+        names = list(record.meshes) if over == "mesh" else list(record[over])
         if len(names) > len(style.PALETTE):
             names = mesh_labels(record) if over == "mesh" else body_labels(record)
         draw_curves(axes, record, of(record), names, trace, view)
@@ -220,11 +211,7 @@ def _lower(text: str) -> str:
     return text[0].lower() + text[1:]
 
 
-def _named(record: Record) -> bool:
-    """Whether a record names its meshes; that of a pair does not."""
-    return "mesh" in record
-
-
+_NAMED = attrgetter("names_meshes")
 _OF_PAIR: dict[str, Drawing] = {
     **over_mesh.DRAWINGS,
     **over_face.DRAWINGS,
@@ -240,7 +227,7 @@ def _apart(name: str, of_named: Any, *, first: bool = False) -> Drawing:
     of_pair = _OF_PAIR[name]
 
     def draw(records: Sequence[Record], view: View) -> Figure:
-        named = any(map(_named, records[:1] if first else records))
+        named = any(record.names_meshes for record in (records[:1] if first else records))
         return (of_named if named else of_pair.draw)(records, view)
 
     return of_pair._replace(draw=draw)
@@ -250,20 +237,20 @@ def _panel_for_each(name: str, trace: Trace) -> Drawing:
     return _apart(name, partial(_each_mesh, trace))
 
 
-def _held(name: str, about: str, draw: Any, fits: Callable[[Record], bool] = _named) -> Drawing:
+def _held(name: str, about: str, draw: Any, fits: Callable[[Record], bool] = _NAMED) -> Drawing:
     """A figure of records that hold what it shows."""
     return drawing(about, draw, fits, (name, "{path} does not hold what it shows", "draw another figure"))
 
 
 _ERROR_OF_EACH = partial(
-    _all_meshes, ERROR, lambda record: by_mesh(record, "transmission_error_rotational"), "mesh"
+    _all_meshes, ERROR, lambda record: record.over_meshes("transmission_error_rotational"), "mesh"
 )
 DRAWINGS: dict[str, Drawing] = {
     **_OF_PAIR,
     "overview": _apart("overview", overview_figure, first=True),
     "transmission-error": _apart("transmission-error", _ERROR_OF_EACH),
     "spectrum": _apart("spectrum", spectrum_figure)._replace(
-        fits=lambda record: has_spectra(record) or not _named(record)
+        fits=lambda record: has_spectra(record) or not record.names_meshes
     ),
     "normal-load": _panel_for_each("normal-load", over_mesh.NORMAL_LOAD),
     "friction": _panel_for_each("friction", over_mesh.FRICTION_COEFFICIENT),
@@ -272,7 +259,7 @@ DRAWINGS: dict[str, Drawing] = {
     "pressure": _panel_for_each("pressure", PRESSURE),
     "efficiency": _apart("efficiency", efficiency_figure),
     "mesh-stiffness": _panel_for_each("mesh-stiffness", over_mesh.STIFFNESS),
-    "path-of-contact": _OF_PAIR["path-of-contact"]._replace(fits=lambda record: not _named(record)),
+    "path-of-contact": _OF_PAIR["path-of-contact"]._replace(fits=lambda record: not record.names_meshes),
     "in-space": _apart("in-space", in_space_figure, first=True),
     "film-parameter": _panel_for_each("film-parameter", over_mesh.FILM_PARAMETER),
     "orders": Drawing(

@@ -94,16 +94,10 @@ def swept_of(*, named: bool) -> tuple[Quantity, ...]:
     return tuple(quantity for quantity in _SWEPT if quantity.name not in left_out)
 
 
-def meshes_of(record: Record) -> dict[str, Mapping[str, Any]]:
-    """What the summary has of each mesh, by name, in the record's order."""
-    meshes = record.summary.get(MESHES)
-    names = map(str, record["mesh"]) if "mesh" in record else ()
-    return {name: meshes[name] for name in names if isinstance(meshes, Mapping) and name in meshes}
-
-
 def tables(record: Record) -> list[TextTable]:
     """Quantities of each mesh, a column for each, one for those of a member of a set; and of its sensors."""
-    if not (meshes := meshes_of(record)):
+    meshes = record.mesh_summaries
+    if not record.names_meshes or not meshes:
         return sensor_tables(record)
     withheld = reasons(record.summary)
     groups = groups_of(meshes)
@@ -119,7 +113,7 @@ def tables(record: Record) -> list[TextTable]:
 
 def mechanism(record: Record) -> Mechanism | None:
     """The train that rolls on a page; a pair has the page's own picture."""
-    return rolling_train(record) if "mesh" in record else None
+    return rolling_train(record) if record.names_meshes else None
 
 
 def _stages(summary: Mapping[str, Any]) -> Iterable[TextTable]:
@@ -167,9 +161,11 @@ def _cell(
 
 def verdict(record: Record) -> list[str]:
     """Say what vibrates, presses and is lost in which mesh, where a law is in doubt, and what to do."""
-    summary, meshes = record.summary, meshes_of(record)
+    if not record.names_meshes:
+        return of_any.of_gears(record)
+    summary, meshes = record.summary, record.mesh_summaries
     if not meshes:
-        return of_any.of_gears(record) if "mesh" not in record else []
+        return []
     summary, meshes = of_course(summary, meshes)
     sentences = [*_moved(summary, meshes), *_pressed(summary, meshes), *_lost(summary, meshes)]
     name = max(meshes, key=lambda name: _beyond(meshes[name]))
@@ -266,8 +262,8 @@ def _listed(parts: Sequence[str]) -> str:
 
 def sentences(record: Record) -> list[str]:
     """Say over which cycles means are, and of all meshes what of a pair is said of it."""
-    summary, meshes = record.summary, meshes_of(record)
-    if "mesh" not in record:
+    summary, meshes = record.summary, record.mesh_summaries
+    if not record.names_meshes:
         return [*on_methods(summary), *on_extremes(summary), *on_closures(summary), *on_energy(summary)]
     of_train = {name: value for name, value in summary.items() if name != "averaging_cycles"}
     meshes_by_line: dict[str, list[str]] = {}
@@ -287,7 +283,7 @@ def _on_period(record: Record) -> list[str]:
     if not {"averaging_cycles", "common_period"} <= set(values):
         return []
     cycles, period = int(values["averaging_cycles"]), max(int(values["common_period"]), 1)
-    text = f"Means are over the last {_counted(cycles, 'cycle')} of the mesh {record['mesh'][0]}"
+    text = f"Means are over the last {_counted(cycles, 'cycle')} of the mesh {record.meshes[0]}"
     if cycles % period:
         return [f"{text}, less than the common period of {period} cycles."]
     return [f"{text}: {_counted(cycles // period, 'common period')} of all meshes."]

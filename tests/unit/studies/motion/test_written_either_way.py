@@ -185,8 +185,12 @@ def test_it_is_one_run(feature: str, tmp_path: Path):
             "bearing_force_x",
             "transmission_error_rotational",
         ):
-            found = train[name][:, 0] if "mesh" in train.dims_of(name) else train[name]
-            np.testing.assert_allclose(found, pair[name], rtol=1e-6, err_msg=name)
+            found = train.over_meshes(name)
+            np.testing.assert_allclose(found, pair.over_meshes(name), rtol=1e-6, err_msg=name)
+        for name in ("x", "y", "angle", "x_rate", "speed", *(["z", "tilt_x"] if feature == "slices" else [])):
+            expected, found = pair.over_bodies(name), train.over_bodies(name)
+            atol = 1e-5 * np.max(np.abs(expected))
+            np.testing.assert_allclose(found, expected, rtol=1e-5, atol=atol, err_msg=name)
         for record, listed in ((pair, "pinion_angle"), (train, "reference_angle")):
             np.testing.assert_array_equal(record["pinion_angle"], record["reference_angle"])
             assert ANGLES.keys() & set(record) == {listed}

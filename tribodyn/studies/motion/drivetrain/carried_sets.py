@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.numerics.shapes import Array, Int
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
 
@@ -17,16 +17,6 @@ class CarriedSet(NamedTuple):
     carrier: int
     planets: tuple[int, ...]
     meshes: dict[int, tuple[int, ...]]  # of the bodies on its axis, with every planet
-
-
-def mesh_names(record: Record) -> list[str]:
-    """Names of the meshes; of a pair that of its only one."""
-    return list(map(str, record["mesh"])) if "mesh" in record else ["mesh"]
-
-
-def by_mesh(record: Record, name: str) -> Float[Array, "sample mesh *pair"]:
-    """A dataset of every mesh; of a pair that of its only one."""
-    return record[name] if "mesh" in record else record[name][:, None]
 
 
 def carriers(record: Record) -> Int[Array, " body"]:
@@ -41,12 +31,12 @@ def driver_of(record: Record, m: int, end: str = "driver") -> int:
 
 
 def sets_of(record: Record) -> list[CarriedSet]:
-    """The planetary sets of a record; none of a pair."""
-    if "mesh" not in record:
+    """The planetary sets of a record; none where meshes have no names."""
+    if not record.names_meshes:
         return []
     carried, centre = carriers(record), record.geometry["centre"]
     by_carrier: dict[int, dict[int, dict[int, int]]] = {}
-    for m in range(len(record["mesh"])):
+    for m in range(len(record.meshes)):
         ends = driver_of(record, m), driver_of(record, m, "driven")
         carrier = int(carried[ends[0]])
         if carrier < 0:
@@ -57,14 +47,14 @@ def sets_of(record: Record) -> list[CarriedSet]:
     for carrier, meshes in by_carrier.items():
         planets = tuple(next(iter(meshes.values())))
         each = {body: tuple(mesh_of[planet] for planet in planets) for body, mesh_of in meshes.items()}
-        name = str(record["mesh"][next(iter(each.values()))[0]]).rsplit("-", 2)[0]
+        name = record.meshes[next(iter(each.values()))[0]].rsplit("-", 2)[0]
         sets.append(CarriedSet(name, carrier, planets, each))
     return sets
 
 
 def mesh_labels(record: Record) -> list[str]:
     """Names of the meshes, one for all that a member of a set has with its planets."""
-    return _labels(mesh_names(record), [group for each in sets_of(record) for group in each.meshes.values()])
+    return _labels(list(record.meshes), [group for each in sets_of(record) for group in each.meshes.values()])
 
 
 def body_labels(record: Record) -> list[str]:

@@ -17,7 +17,6 @@ from tribodyn.post.figures.panel import (
 )
 from tribodyn.post.figures.scale import scale
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.drivetrain.carried_sets import mesh_names
 
 
 def draw_curves(
@@ -46,4 +45,4 @@ def draw_curves(
     scale(axes, shown, trace.from_zero)
     axes.set_xlim(float(x[0]), float(x[-1]))
     axes.set_ylabel(trace.label)
-    axes.set_xlabel(abscissa_label(view, mesh_names(record)[0] if "mesh" in record else ""))
+    axes.set_xlabel(abscissa_label(view, record))

@@ -12,7 +12,7 @@ from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.figures.spectrum import apart, mode_frequencies
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, literal, mark_panel, new_figure, write_beside
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.drivetrain.carried_sets import body_labels, mesh_names, sets_of
+from tribodyn.studies.motion.drivetrain.carried_sets import body_labels, sets_of
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
 
 #: Harmonics of the mesh frequencies, the speeds shown over the mean one, and room below and above.
@@ -38,7 +38,7 @@ def modes_figure(records: Sequence[Record], view: View) -> Figure:
 
 def _draw_campbell(axes: Axes, record: Record, modes: np.ndarray) -> None:
     mesh = last_cycles(record, None).mesh_frequency
-    speed = _reference_speed(record) * 30.0 / np.pi
+    speed = float(np.mean(record.over_bodies("speed")[:, 0])) * 30.0 / np.pi
     rates = mesh_rates(record)
     passes = [one for one in _passes(record) if one[1] > 0.0]
     lowest = min([mesh * rates.min(), *(frequency for _, frequency in passes)])
@@ -47,13 +47,13 @@ def _draw_campbell(axes: Axes, record: Record, modes: np.ndarray) -> None:
     at = np.array(SPEEDS)
     alike: dict[float, list[str]] = {}
     sets = {
-        mesh_names(record)[m]: gearset.name
+        record.meshes[m]: gearset.name
         for gearset in sets_of(record)
         for of in gearset.meshes.values()
         for m in of
     }
-    for name, rate in zip(mesh_names(record), rates, strict=True):
-        alike.setdefault(round(float(rate), 6), []).append(literal(sets.get(str(name), str(name))))
+    for name, rate in zip(record.meshes, rates, strict=True):
+        alike.setdefault(round(float(rate), 6), []).append(literal(sets.get(name, name)))
     for number, (rate, names) in enumerate(alike.items()):
         color = PALETTE[number % len(PALETTE)]
         for order in range(1, HARMONICS + 1):
@@ -89,13 +89,6 @@ def _draw_campbell(axes: Axes, record: Record, modes: np.ndarray) -> None:
     axes.set_xlabel(f"Speed of {literal(str(record['body'][0]))} (rpm)")
     axes.set_ylabel("Frequency (kHz)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
-
-
-def _reference_speed(record: Record) -> float:
-    """Mean speed of the first body, rad/s."""
-    if "speed" in record:
-        return float(np.mean(record["speed"][:, 0]))
-    return float(np.mean(record["velocity"][:, list(record["dof"]).index("theta_p")]))
 
 
 def _passes(record: Record) -> list[tuple[str, float]]:

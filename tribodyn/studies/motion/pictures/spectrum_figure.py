@@ -1,7 +1,6 @@
 """Spectra of the transmission errors of a train, each with the orders of its mesh, and the modes."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,18 +10,12 @@ from tribodyn.post.cycles import Spectrum
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.figures.spectrum import FLOOR, draw_modes, draw_orders, mode_frequencies
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
-from tribodyn.record.reader import MESHES, Record
-from tribodyn.studies.motion.drivetrain.carried_sets import mesh_names
+from tribodyn.record.reader import Record
 
 
 def has_spectra(record: Record) -> bool:
     """Whether means are over whole cycles of a mesh, which have lines at its orders."""
-    return any("spectrum_amplitudes" in mesh for mesh in _meshes(record).values())
-
-
-def _meshes(record: Record) -> Mapping[str, Mapping[str, Any]]:
-    """What a summary has of every mesh; of a pair of its only one."""
-    return record.summary[MESHES] if "mesh" in record else {mesh_names(record)[0]: record.summary}
+    return any("spectrum_amplitudes" in mesh for mesh in record.mesh_summaries.values())
 
 
 def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
@@ -39,7 +32,7 @@ def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
     panels = [
         (record, name, mesh)
         for record in records
-        for name, mesh in _meshes(record).items()
+        for name, mesh in record.mesh_summaries.items()
         if "spectrum_amplitudes" in mesh
     ]
     figure = new_figure(WIDTH, len(panels) * (PANEL_HEIGHT + 0.1) + 0.5)
