@@ -1,6 +1,6 @@
 """Reads a record: arrays by name, units, scenario, summary, mesh cycle and geometry."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
@@ -12,17 +12,17 @@ from tribodyn.errors import InputError
 from tribodyn.record import schema, trust
 from tribodyn.record.files.soundness import UNREADABLE
 from tribodyn.record.layout import counted
+from tribodyn.record.meshes import MESHES as MESHES
+from tribodyn.record.meshes import MeshesOfRecord
 from tribodyn.record.open_record import OpenRecord, attributes, stored_name, summary_of_today, todays_name
 from tribodyn.record.sweep_schema import SWEEP
 from tribodyn.record.withheld_efficiency import withheld
 
-#: Group of a record of a train that has a group for every mesh; the same in its summary.
-MESHES = "meshes"
 #: No axis reaches so far; differences and squares of what it holds are numbers.
 LARGEST = 1e100
 
 
-class Record(OpenRecord):
+class Record(OpenRecord, MeshesOfRecord):
     """The record of a run; samples that an unfinished run never wrote are left out everywhere."""
 
     def __getitem__(self, name: str) -> np.ndarray:
@@ -117,48 +117,6 @@ class Record(OpenRecord):
     def groups(self) -> tuple[str, ...]:
         """Names of the groups: "mesh_cycle", "geometry", "summary", as far as there are."""
         return tuple(name for name, item in self._file.items() if isinstance(item, h5py.Group))
-
-    @cached_property
-    def names_meshes(self) -> bool:
-        """Whether the meshes have names, and are a dimension; else there is one, of the bodies' gears."""
-        return "mesh" in self
-
-    @cached_property
-    def meshes(self) -> tuple[str, ...]:
-        """Names of the meshes; "mesh" where they have none."""
-        return tuple(map(str, self["mesh"])) if self.names_meshes else ("mesh",)
-
-    @property
-    def mesh_summaries(self) -> dict[str, Mapping[str, Any]]:
-        """What the summary has of every mesh, by its name."""
-        if not self.names_meshes:
-            return {self.meshes[0]: self.summary}
-        found = self.summary.get(MESHES)
-        return {name: found[name] for name in self.meshes if isinstance(found, Mapping) and name in found}
-
-    def of_mesh(self, mesh: str, part: str) -> dict[str, Any]:
-        """`mesh_cycle` or `geometry` of a mesh, by its name."""
-        return self._group(f"{MESHES}/{mesh}/{part}" if self.names_meshes else part)
-
-    def over_meshes(self, name: str) -> np.ndarray:
-        """A dataset (sample, mesh, …); where it has no dimension of meshes that is one."""
-        values = self[name]
-        return values if "mesh" in self.dims_of(name) else values[:, None]
-
-    def over_bodies(self, name: str) -> np.ndarray:
-        """Motion (sample, body) in a coordinate: x, y, z, angle, tilt_x or tilt_y, or a rate.
-
-        Rates are x_rate, y_rate, z_rate and speed. Where the meshes have no names of pinion and gear, and NaN
-        of a motor. KeyError where the record does not hold it.
-        """
-        if "dof" not in self:
-            return self[name]
-        coordinate = {"angle": "theta", "speed": "theta"}.get(name, name.removesuffix("_rate"))
-        moved = self["displacement" if name in (coordinate, "angle") else "velocity"]
-        dof = list(self["dof"])
-        values = [moved[:, dof.index(f"{coordinate}_{side}")] for side in "pg"]
-        further = len(self["body"]) - len(values) if "body" in self else 0
-        return np.stack([*values, *[np.full(len(moved), np.nan)] * further], axis=1)
 
     @contextmanager
     def reading(self, name: str) -> Iterator[Any]:  # h5py types no item of a group

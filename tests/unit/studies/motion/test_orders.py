@@ -8,13 +8,14 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.post.figures.spectrum import HOP, MOST_HOPPED, WINDOW, track, worth_tracking
+from tribodyn.record.meshes import MeshesOfRecord
 from tribodyn.studies.pages import figure
 
 TEETH, PER_CYCLE, CYCLES = 20, 32, 120
 PITCH = 2 * np.pi / TEETH
 
 
-class RunUp(types.SimpleNamespace):
+class RunUp(types.SimpleNamespace, MeshesOfRecord):
     """A run whose speed rises linearly in the phase, with orders 1 and 2.5 in its transmission error."""
 
     def __init__(self, cycles: int = CYCLES, rise: float = 1.0):
@@ -24,13 +25,14 @@ class RunUp(types.SimpleNamespace):
         self.data = {
             "pinion_angle": phase * PITCH,
             "time": np.concatenate([[0.0], np.cumsum(2 * PITCH / PER_CYCLE / (speed[1:] + speed[:-1]))]),
-            "velocity": np.stack([0 * speed, speed], axis=1),
-            "dof": np.array(["x_p", "theta_p"]),
+            "velocity": np.stack([speed, speed], axis=1),
+            "dof": np.array(["theta_p", "theta_g"]),
             "transmission_error_rotational": error,
         }
         super().__init__(
             samples=phase.size,
             mesh_cycle={"pinion_teeth": TEETH},
+            _group={"mesh_cycle": {"pinion_teeth": TEETH}}.get,
             kind="gear-pair",
             path=Path("run-up.h5"),
             label="run-up",
@@ -45,6 +47,9 @@ class RunUp(types.SimpleNamespace):
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self.data[name]
+
+    def dims_of(self, name: str) -> tuple[str, ...]:
+        return ("time",)
 
 
 def test_lines_have_the_amplitudes_of_their_cosines():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.post.verdict import LINES
+from tribodyn.record.meshes import MeshesOfRecord
 from tribodyn.studies.motion.report import OF_A_MESH, sentences, tables, verdict
 
 FIRST = {
@@ -40,7 +41,7 @@ TRAIN = {
 
 def record(meshes: dict[str, Any] | None = None, **changed: Any) -> Any:
     meshes = meshes or {"first": FIRST, "second": SECOND}
-    return type("OfTrain", (dict,), {"summary": TRAIN | {"meshes": meshes} | changed})(
+    return type("OfTrain", (dict, MeshesOfRecord), {"summary": TRAIN | {"meshes": meshes} | changed})(
         mesh=np.array([*meshes])
     )
 
