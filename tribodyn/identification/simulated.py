@@ -46,7 +46,9 @@ class SignalComparison:
         self._run_in, self._without_mean, self._workers = run_in, without_mean, workers
         batch = study_of({"kind": case.kind}).batch()
         if batch is None:
-            raise InputError("kind", f'"{case.kind}"', "such a study has no sensors", "use gear-pair")
+            raise InputError(
+                "kind", f'"{case.kind}"', "such a study has no sensors", "use gear-pair or gear-train"
+            )
         self._batch: Any = batch.hearing(SignalRequest(1.0, run_in))
         self._last = max((one.first + len(one.values)) / self._sensors[one.sensor].rate for one in measured)
         self.scales = [max(float(np.std(one.values)), 1e-300) for one in measured]

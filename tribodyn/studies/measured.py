@@ -11,10 +11,13 @@ from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.input.sources import read_curve
 from tribodyn.input.units import ANGULAR_SPEED, Kind, NotAQuantity, factor_to_si
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
+from tribodyn.record.mesh_view import mesh_views
 from tribodyn.record.reader import Record
 
 #: What a first column may be, besides the axis of the record.
 TIME, PHASE, ANGLE = "time", "mesh_phase", "pinion_angle"
+#: Between the name of a column and that of its mesh, in a train of several.
+OF_MESH = " of "
 ALIGN = ("given", "mean", "fit")
 #: Fewest points that are compared, and most columns that a figure has room for.
 FEWEST, MOST_COLUMNS = 4, 6
@@ -94,7 +97,8 @@ def _columns(source: Mapping[str, Any]) -> dict[str, Any]:
 def beside(record: Record, measured: Measured, name: str, align: str = "given") -> Beside:
     """Lay a record's dataset beside the measured one of that name.
 
-    Over the phase of the mesh and the pinion's angle the record is moved by whole mesh cycles, so that its
+    Of several meshes columns say whose they are, "transmission_error_rotational of second"; phase and angle
+    are the first mesh's where they do not. Over both the record is moved by whole mesh cycles, so that its
     last ones lie there; over time it is not. `align` "mean" also moves it to the measured mean, "fit" besides
     along the abscissa, by at most half a mesh cycle, to where the first column correlates best.
     """
@@ -105,7 +109,7 @@ def beside(record: Record, measured: Measured, name: str, align: str = "given") 
         measured, measured.abscissa, _units_of(record, measured)
     )
     whole = 0.0
-    if measured.abscissa in (PHASE, ANGLE) and not periodic:
+    if measured.abscissa.partition(OF_MESH)[0] in (PHASE, ANGLE) and not periodic:
         # a fit leaves half a cycle at both ends where the record is that long
         room = cycle / 2.0 if align == "fit" and np.ptp(x) >= np.ptp(at) + 2.0 * cycle else 0.0
         whole = cycle * np.floor((x[-1] - at[-1] - room) / cycle + 1e-9)
@@ -149,13 +153,17 @@ def _correlation(one: np.ndarray, other: np.ndarray) -> float:
 
 def _abscissa(record: Record, measured: Measured) -> tuple[np.ndarray, float, bool]:
     """The measured abscissa of a record, SI; the length of a mesh cycle on it; whether it repeats with 1."""
-    name = measured.abscissa
+    name, of, mesh = measured.abscissa.partition(OF_MESH)
+    views = mesh_views(record)
+    if of and mesh not in views:
+        raise unknown_name("measured", mesh, views, "mesh of this record")
+    record = views[mesh] if of else next(iter(views.values()))
     axis = "phase" if name == PHASE else name
     teeth = record.mesh_cycle.get("pinion_teeth") if "mesh_cycle" in record.groups else None
     if axis == record.axis or (axis == TIME and TIME in record) or (axis == ANGLE and axis in record):
         x = np.asarray(record[axis], dtype=float)
     elif name == PHASE and teeth and ANGLE in record:
-        x = (record[ANGLE] - record[ANGLE][0]) * (teeth / (2.0 * np.pi))
+        x = record[ANGLE] * (teeth / (2.0 * np.pi))
     else:
         names = [record.axis, *(other for other in (ANGLE,) if other in record)]
         names += [PHASE] if (teeth and ANGLE in record) or record.axis == "phase" else []
@@ -173,16 +181,23 @@ def _abscissa(record: Record, measured: Measured) -> tuple[np.ndarray, float, bo
 
 def _simulated(record: Record, measured: Measured, name: str) -> np.ndarray:
     """A dataset of the record in the measured unit; InputError where it has none of that name."""
-    curves = [key for key in record if record.dims_of(key) == (record.axis,) and key != record.axis]
+    views, axis = mesh_views(record), record.axis
+    curves: dict[str, tuple[Record, str]] = {}
+    for mesh, view in views.items():
+        for key in view:
+            if key in view and key != axis and view.dims_of(key) == (axis,):
+                alone = len(views) == 1 or record.dims_of(key) == (axis,)
+                curves[key if alone else f"{key}{OF_MESH}{mesh}"] = view, key
     if name not in curves:
-        if near := near_name(name, curves):
-            curves = [near, *(key for key in curves if key != near)]
-        raise unknown_name("measured", name, curves, "quantity of this record over its axis")
-    return np.asarray(record[name], dtype=float) / _factor(measured, name, record.units(name))
+        near, heads = near_name(name, list(curves)), (key.partition(OF_MESH) for key in curves)
+        names = dict.fromkeys([near] * bool(near) + [f"{key}{of}{of and 'MESH'}" for key, of, _ in heads])
+        raise unknown_name("measured", name, list(names), "quantity of this record over its axis")
+    view, key = curves[name]
+    return np.asarray(view[key], dtype=float) / _factor(measured, name, record.units(key))
 
 
 def _units_of(record: Record, measured: Measured) -> str:
-    name = measured.abscissa
+    name = measured.abscissa.partition(OF_MESH)[0]
     return {PHASE: "1", TIME: "s", ANGLE: "rad"}.get(name) or record.units(name)
 
 
@@ -244,7 +259,7 @@ SPELLED = {"um": "µm", "deg": "°", "N*m": "N m", "1": ""}
 def spelled(unit: str, name: str) -> str:
     """A unit of a file as a figure shows it; the phase of the mesh is counted in mesh cycles."""
     shown = SPELLED.get(unit, unit)
-    return shown or ("mesh cycles" if name == "mesh_phase" else "")
+    return shown or ("mesh cycles" if name.startswith(PHASE) else "")
 
 
 class MeasuredPanel(NamedTuple):

@@ -1,4 +1,4 @@
-"""Gear pairs followed along a parameter: `continuation` over `gear_map.GearMap`."""
+"""Gears followed along a parameter: `continuation` over `gear_map.GearMap`."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -27,7 +27,7 @@ class ContinuedBranch(NamedTuple):
 
 
 class LegResult(NamedTuple):
-    """What following one gear pair gave: the motion at the target, how the leg ended, what is unstable."""
+    """What following one gearbox gave: the motion at the target, how the leg ended, what is unstable."""
 
     steady: SteadyMotion
     arrival: Arrival
@@ -42,7 +42,7 @@ class UnstableRange(NamedTuple):
 
 
 class GearLines:
-    """Gear pairs on lines along a parameter, as `arclength.SystemFamily`; `starts` scale the states."""
+    """Gearboxes on lines along a parameter, as `arclength.SystemFamily`; `starts` scale the states."""
 
     def __init__(self, model_at: ModelAt, starts: dict[int, np.ndarray], moving: FreeStates, **settings: Any):
         self.model_at, self.starts = model_at, starts
@@ -75,7 +75,7 @@ def followed_states(
     tolerance: float = 1e-7,
     unstable: UnstableRange | None = None,
 ) -> list[LegResult]:
-    """Follow gear pairs, each along its leg, to the steady motions at the targets.
+    """Follow gearboxes, each along its leg, to the steady motions at the targets.
 
     States of the legs are at phase 0 after engagement, those that are handed on likewise; numbers
     are those of `periodic.steady_states`. Branches go on beyond the ends of their stable parts where

@@ -1,4 +1,4 @@
-"""Periodic steady states of gear pairs: fixed points of `gear_map.GearMap`, from `search.find`."""
+"""Periodic steady states of gears: fixed points of `gear_map.GearMap`, from `search.find`."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace

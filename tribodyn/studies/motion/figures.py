@@ -21,6 +21,8 @@ from tribodyn.post.figures.panel import (
     record_label,
     record_title,
 )
+from tribodyn.post.figures.path_of_contact import path_figure
+from tribodyn.record.mesh_view import MeshView
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
 from tribodyn.studies.motion.drivetrain.carried_sets import (
@@ -154,6 +156,16 @@ def efficiency_figure(records: Sequence[Record], view: View) -> Figure:
     return figure
 
 
+def paths_figure(records: Sequence[Record], view: View) -> Figure:
+    """Draw the gears in every mesh of records, of those that differ by their planet alone the first."""
+    meshes = []
+    for record in records:
+        labels = mesh_labels(record)
+        firsts = [m for m, label in enumerate(labels) if labels.index(label) == m]
+        meshes += [MeshView(record, m, labels[m]) for m in firsts] if record.names_meshes else [record]
+    return path_figure(meshes, view)
+
+
 #: rad to µrad.
 MICRO = 1e6
 AXIAL_FORCE = Trace("axial_force", "Axial force of each mesh on its driver", "$F_a$", "N")
@@ -259,7 +271,7 @@ DRAWINGS: dict[str, Drawing] = {
     "pressure": _panel_for_each("pressure", PRESSURE),
     "efficiency": _apart("efficiency", efficiency_figure),
     "mesh-stiffness": _panel_for_each("mesh-stiffness", over_mesh.STIFFNESS),
-    "path-of-contact": _OF_PAIR["path-of-contact"]._replace(fits=lambda record: not record.names_meshes),
+    "path-of-contact": _OF_PAIR["path-of-contact"]._replace(draw=paths_figure),
     "in-space": _apart("in-space", in_space_figure, first=True),
     "film-parameter": _panel_for_each("film-parameter", over_mesh.FILM_PARAMETER),
     "orders": Drawing(

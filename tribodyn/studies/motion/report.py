@@ -69,11 +69,8 @@ _SWEPT = (
     *quantities("contact_loss_fraction", "closure_in_range_fraction", "friction_in_range_fraction"),
     *quantities("mesh_load_factor", "planet_load_factor_max"),
 )
-#: Of these what a sweep keeps of a single mesh without a name alone, and of others alone.
-_OF_ONE, _OF_SEVERAL = (
-    ("transmission_error_mean", "friction_coefficient_mean"),
-    ("mesh_load_factor", "planet_load_factor_max"),
-)
+#: Of these what a sweep keeps only where files name the meshes, which may be of planets.
+_OF_PLANETS = "mesh_load_factor", "planet_load_factor_max"
 #: What a sweep prints, minimum and maximum of each.
 SWEEP_TABLE = quantities(
     *("transmission_error_rms", "transmission_error_peak_to_peak", "dynamic_factor", "normal_load_max"),
@@ -90,8 +87,7 @@ ACROSS, NAMED = 4, 3
 
 def swept_of(*, named: bool) -> tuple[Quantity, ...]:
     """Of these quantities what a sweep keeps where files name the meshes, and where not."""
-    left_out = _OF_ONE if named else _OF_SEVERAL
-    return tuple(quantity for quantity in _SWEPT if quantity.name not in left_out)
+    return tuple(quantity for quantity in _SWEPT if named or quantity.name not in _OF_PLANETS)
 
 
 def tables(record: Record) -> list[TextTable]:

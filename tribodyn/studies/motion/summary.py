@@ -23,6 +23,7 @@ WIDEST_WINDOW = 400
 WORST = {
     "transmission_error_rms": 1,
     "transmission_error_peak_to_peak": 1,
+    "transmission_error_mean": 1,
     "dynamic_factor": 1,
     "contact_loss_fraction": 1,
     "normal_load_max": 1,
@@ -30,6 +31,7 @@ WORST = {
     "film_min": -1,
     "film_parameter_min": -1,
     "flash_temperature_max": 1,
+    "friction_coefficient_mean": 1,
     "contact_temperature_max": 1,
     "bulk_temperature": 1,
     "S_B": -1,

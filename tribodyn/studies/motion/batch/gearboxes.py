@@ -26,7 +26,8 @@ REFERENCE = 0
 #: What a sweep keeps of every mesh; the name of the dataset is that of the quantity and `OF_MESH`.
 KEPT = (
     *("transmission_error_peak_to_peak", "dynamic_factor", "contact_loss_fraction", "hertz_pressure_max"),
-    *("film_parameter_min", "efficiency", "power_friction_mean", "bulk_temperature"),
+    *("film_parameter_min", "friction_coefficient_mean", "transmission_error_mean"),
+    *("efficiency", "power_friction_mean", "bulk_temperature"),
 )
 OF_MESH = "_of_mesh"
 OF_MESHES = {name + OF_MESH: QUANTITIES[name].variable()._replace(dims=("mesh",)) for name in KEPT}
