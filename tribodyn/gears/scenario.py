@@ -104,17 +104,23 @@ class GearScenario(SpectrumScenario):
         return {mesh: each and defaults_written_out(each, cls) for mesh, each in every.items()}
 
 
-def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:
-    """Return the fields of a `GearCase` for a scenario that has passed schema and rules."""
+def gear_fields(scenario: Any, toml: str, sha256: str, **own: Any) -> dict[str, Any]:
+    """Return the fields of a `GearCase` for a scenario that has passed schema and rules.
+
+    Fields of its `own` stand in place of its duty, `operating`, and of its `mesh` as `mesh_data` has it.
+    """
     drive = scenario.drive
     gears = drive.pinion, drive.gear
-    duty = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth)
+    if "operating" not in own:
+        duty = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth)
+        own["operating"] = OperatingData("speed", *duty)
+    if "mesh" not in own:
+        own["mesh"] = mesh_data(scenario)
     return {
         **head_of(scenario, toml, sha256),
         **teeth_of(drive),
+        **own,
         "masses": masses_of(drive),
-        "operating": OperatingData("speed", *duty),
-        "mesh": mesh_data(scenario),
         "supports": supports_of(scenario),
         "quality": quality_of(
             [grade_of(drive, gear) for gear in gears], tolerances_of(drive), drive.quality_edition

@@ -5,8 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tribodyn.sensing.data import HousingData, HousingMode, HousingTransfer, SensorData
-from tribodyn.sensing.sampler import Sampler
-from tribodyn.sensing.signal_path import as_measured, heard, housing_acceleration
+from tribodyn.sensing.sampler import Sampler, as_measured, heard, housing_acceleration
 from tribodyn.signals import resampled
 
 MODE = HousingMode(900.0, 0.02, 12.0, {"pinion": (0.3, -0.8), "gear": (0.5,)}, {"top": 1.5})

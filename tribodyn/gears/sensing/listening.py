@@ -10,9 +10,8 @@ from tribodyn.gears.sensing.sensor_places import DRIVE, OUTPUT, Placed, Sensible
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.sensors import Sensed, SensorSignal
 from tribodyn.sensing.data import DIRECTIONS, KINDS, HousingData
-from tribodyn.sensing.sampler import Sampler
+from tribodyn.sensing.sampler import Sampler, as_measured, heard, housing_acceleration
 from tribodyn.sensing.sensed_motion import force_on_bearing, output_torque, torque_of_link, velocity
-from tribodyn.sensing.signal_path import as_measured, heard, housing_acceleration
 from tribodyn.signals.lines import SignalLine
 from tribodyn.train.structure import turned
 

@@ -1,4 +1,4 @@
-"""The figures of a gear pair over its mesh cycles, and the six panels that sum them up."""
+"""The figures of a gear pair over its mesh cycles and revolutions, and the six panels that sum them up."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -26,6 +26,7 @@ from tribodyn.post.figures.panel import (
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.figures.spectrum import spectrum_figure
+from tribodyn.post.style import PALETTE, new_figure
 from tribodyn.record.reader import Record
 
 TRANSMISSION_ERROR = Trace("transmission_error_rotational", "Transmission error", "$r_pθ_p - r_gθ_g$", "µm")
@@ -203,3 +204,43 @@ DRAWINGS: dict[str, Drawing] = {
     "mesh-stiffness": stacked("stiffness of every pair, and of all together", STIFFNESS),
     "path-of-contact": Drawing("both gears in mesh, path of contact, key points", path_figure),
 }
+
+
+_REVOLUTION = "revolution"
+#: Dataset, what stands beside its axis, and what its values are multiplied by.
+_BY_REVOLUTION = (
+    ("revolution_transmission_error_rms", "Transmission error,\nrms about its mean (µm)", 1e6),
+    ("revolution_normal_load_max", "Maximum load\nof a pair (kN)", 1e-3),
+    ("revolution_film_thickness_min", "Minimum\nfilm (µm)", 1e6),
+)
+
+
+def has_revolutions(record: Record) -> bool:
+    """Whether a record has more than one row by revolution."""
+    return _REVOLUTION in record and len(record[_REVOLUTION]) > 1
+
+
+def revolutions_figure(records: Sequence[Record], _view: View) -> Figure:
+    """Draw the rows by revolution of the first record, a curve for each mesh."""
+    record = records[0]
+    figure = new_figure(7.0, 5.2)
+    panels = figure.subplots(len(_BY_REVOLUTION), 1, sharex=True)
+    for axes, (name, label, factor) in zip(panels, _BY_REVOLUTION, strict=True):
+        values = factor * record.over_meshes(name)
+        for column, (mesh, curve) in enumerate(zip(record.meshes, values.T, strict=True)):
+            axes.plot(record[_REVOLUTION], curve, color=PALETTE[column % len(PALETTE)], label=mesh, lw=1.0)
+        finite = values[np.isfinite(values)]
+        scale(axes, [finite] if finite.size else [])
+        axes.set_ylabel(label)
+    if len(record.meshes) > 1:
+        panels[0].legend(fontsize=7, ncols=3)
+    panels[-1].set_xlabel("Revolution of the gear that drives the first mesh")
+    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+REVOLUTIONS = Drawing(
+    "transmission error, load and film by revolution, of gears whose teeth differ",
+    revolutions_figure,
+    has_revolutions,
+)

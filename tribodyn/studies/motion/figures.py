@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.post import style
 from tribodyn.post.cycles import last_cycles
-from tribodyn.post.figures import by_revolution, over_face, over_mesh, sensors, spectrum
+from tribodyn.post.figures import over_face, over_mesh, sensors, spectrum
 from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import (
     ORDER,
@@ -133,25 +133,15 @@ def _each_mesh(trace: Trace, records: Sequence[Record], view: View) -> Figure:
 
 
 def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], view: View) -> Figure:
-    """Draw a curve of every mesh or body, each record in a panel of its own."""
+    """Draw a curve of every mesh or body, or of the train, each record in a panel of its own."""
     figure, rows = _rows(len(records), records)
     for letter, axes, record in zip(_letters(records), rows, records, strict=True):
-        names = list(record.meshes) if over == "mesh" else list(record[over])
+        names = [over] if over == "train" else list(record[over] if over == "body" else record.meshes)
         if len(names) > len(style.PALETTE):
             names = mesh_labels(record) if over == "mesh" else body_labels(record)
         draw_curves(axes, record, of(record), names, trace, view)
         head = f"{record_label(record)}: " if len(records) > 1 else ""
         style.mark_panel(axes, letter, f"{head}{_lower(trace.title) if head else trace.title}")
-    _finish(figure, rows, records)
-    return figure
-
-
-def efficiency_figure(records: Sequence[Record], view: View) -> Figure:
-    """Draw the efficiency at each moment, each record in a panel of its own."""
-    figure, rows = _rows(len(records), records)
-    for letter, axes, record in zip(_letters(records), rows, records, strict=True):
-        draw_curves(axes, record, record["efficiency"][:, None], ["train"], EFFICIENCY, view)
-        style.mark_panel(axes, letter, record_label(record) if len(records) > 1 else EFFICIENCY.title)
     _finish(figure, rows, records)
     return figure
 
@@ -257,6 +247,7 @@ def _held(name: str, about: str, draw: Any, fits: Callable[[Record], bool] = _NA
 _ERROR_OF_EACH = partial(
     _all_meshes, ERROR, lambda record: record.over_meshes("transmission_error_rotational"), "mesh"
 )
+_EFFICIENCY_OF_TRAIN = partial(_all_meshes, EFFICIENCY, lambda record: record["efficiency"][:, None], "train")
 DRAWINGS: dict[str, Drawing] = {
     **_OF_PAIR,
     "overview": _apart("overview", overview_figure, first=True),
@@ -269,7 +260,7 @@ DRAWINGS: dict[str, Drawing] = {
     "film": _panel_for_each("film", over_mesh.FILM_THICKNESS),
     "entrainment": _panel_for_each("entrainment", over_mesh.ENTRAINMENT),
     "pressure": _panel_for_each("pressure", PRESSURE),
-    "efficiency": _apart("efficiency", efficiency_figure),
+    "efficiency": _apart("efficiency", _EFFICIENCY_OF_TRAIN),
     "mesh-stiffness": _panel_for_each("mesh-stiffness", over_mesh.STIFFNESS),
     "path-of-contact": _OF_PAIR["path-of-contact"]._replace(draw=paths_figure),
     "in-space": _apart("in-space", in_space_figure, first=True),
@@ -300,7 +291,7 @@ DRAWINGS: dict[str, Drawing] = {
         lambda record: "body" in record and bool(np.any(np.isfinite(displacements(record)))),
     ),
     "loss": Drawing("loss to friction in every mesh", partial(_all_meshes, LOSS, losses, "mesh")),
-    **by_revolution.DRAWINGS,
+    "revolutions": over_mesh.REVOLUTIONS,
     "bearing-load": drawing(
         "force on every bearing and pin",
         bearing_load_figure,

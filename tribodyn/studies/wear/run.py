@@ -1,4 +1,4 @@
-"""From a case of the wear study to its record; a run that goes on from what another one left."""
+"""From a case of the wear study to its record and worn profiles; a run goes on from what another left."""
 
 import hashlib
 import math
@@ -25,6 +25,7 @@ from tribodyn.geometry.helix import pitch_slope
 from tribodyn.kernels.native.arguments import function_layout
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
 from tribodyn.mesh.teeth.flank_positions import flank_places
+from tribodyn.numerics.files.output_files import WRITTEN, check_output, write_output
 from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.numerics.registry import FROM_PYTHON
 from tribodyn.numerics.shapes import Array, Float
@@ -38,9 +39,44 @@ from tribodyn.studies.wear.outcome import row_of, state_of, summary_of
 from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, passage
 from tribodyn.studies.wear.pressed_positions import places_of
 from tribodyn.studies.wear.steps import march, unworn
-from tribodyn.studies.wear.worn_files import check_profiles, write_profiles
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.wear import wear_law_of
+
+
+def profile_path(record: Path, body: str) -> Path:
+    """Name of the file with the worn profile of a gear, beside its record."""
+    return record.with_name(f"{record.stem}-{body}.csv")
+
+
+def check_profiles(record: Path, force: bool = False) -> None:
+    """Raise InputError where a file is in the way that no run wrote, see `check_output`."""
+    for body in BODIES:
+        check_output(profile_path(record, body), force)
+
+
+def profile_text(roll: Any, depth: Any, about: str) -> str:
+    """Depth (m) over roll angle (rad) as a table, with a comment before it."""
+    columns = np.degrees(roll).tolist(), (1e6 * np.asarray(depth)).tolist()
+    lines = [f"{angle!r},{worn!r}" for angle, worn in zip(*columns, strict=True)]
+    return "\n".join([f"{WRITTEN['.csv'].decode()}: {about}", "roll_angle [deg],error [um]", *lines, ""])
+
+
+def write_profiles(study: Wearing, row: dict[str, Any], record: Path, force: bool = False) -> list[Path]:
+    """Write what is worn off both gears, the mean over teeth and face, with the profile error that they had.
+
+    Raises as `write_output`.
+    """
+    roll, files = study.places.node, []
+    for body, depth in zip(BODIES, row["worn_depth"], strict=True):
+        profile_error = getattr(study.case.mesh.modifications, body).profile_error
+        total = np.mean(depth, axis=-1)
+        if profile_error is not None:
+            total = total + np.interp(roll, *profile_error)
+        about = f"profile error of the {body} after {float(row['revolutions']):g} revolutions of the pinion"
+        text = profile_text(roll, total, about)
+        files.append(write_output(profile_path(record, body), text, force=force))
+    return files
+
 
 #: Keys in which the scenario of a run that goes on may differ from that of the record.
 _MAY_DIFFER = (("wear", "revolutions"), ("output", "every"))

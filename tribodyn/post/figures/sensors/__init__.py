@@ -1,8 +1,7 @@
 """Figures of what sensors gave: signals, spectra with named lines, averages over a turn, envelopes."""
 
 from tribodyn.post.figures.drawing import Drawing
-from tribodyn.post.figures.sensors.averages import average_figure, has_turns
-from tribodyn.post.figures.sensors.envelopes import envelope_figure
+from tribodyn.post.figures.sensors.averages import average_figure, envelope_figure, has_turns
 from tribodyn.post.figures.sensors.shown_signals import has_signals
 from tribodyn.post.figures.sensors.spectra import order_spectrum_figure, signal_figure, spectrogram_figure
 

@@ -1,19 +1,26 @@
 """The tables of a scenario file: what is done with a drive.
 
 Field names are the interface of the command line (`--set operating.output_torque="600 N*m"`). Defaults stand
-as they would be written in TOML. Rules that tie fields together stand in `rules`; names of laws, families and
-solvers in their registries.
+as they would be written in TOML. Names of laws, families and solvers stand in their registries.
 """
 
-from typing import Annotated, Any, ClassVar, Literal
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
 
 from tribodyn.dynamics.data import OperatingData
+from tribodyn.errors import InputError
+from tribodyn.gears.damage_rules import broken_damage
 from tribodyn.gears.motion.settings import (
     Friction,
     Mesh,
     Operating,
     Output,
     Solver,
+    broken_flank_rules,
+    broken_mesh_rules,
+    broken_output_rules,
+    broken_solver_rules,
+    broken_source_rules,
     harmonics_of,
     moving_mesh_of,
     output_data,
@@ -27,16 +34,19 @@ from tribodyn.gears.scenario import (
     Oil,
     ShaftKeys,
     TemperatureKeys,
+    broken_gear_rules,
     gear_fields,
     oil_fields,
 )
 from tribodyn.gears.supports import bearings_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.quantity import model_file, written
-from tribodyn.input.tables.duty import OiledOperatingTable, duty_of
+from tribodyn.input.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of
 from tribodyn.input.tables.gears.damage import Damages, GearPlace, damage_of
+from tribodyn.input.tables.gears.drive_data import gives_backlash
+from tribodyn.input.tables.gears.internal_gear import driving_internal
 from tribodyn.input.tables.gears.single_teeth import own_teeth_of, with_own_teeth
-from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
+from tribodyn.input.tables.sensors import Housing, Sensors, broken_sensor_rules, housing_of, sensors_of
 from tribodyn.input.tables.supports.bearings import Bearings
 from tribodyn.input.tables.supports.shafts import listed
 from tribodyn.studies.motion.pair.case import Case
@@ -76,13 +86,9 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         for each, side in zip(teeth, SIDES, strict=True)
     )
     teeth = one, two
-    pair_fields: dict[str, Any] = {
-        "operating": _operating(scenario),
-        "mesh": with_own_teeth(moving_mesh_of(scenario), teeth),
-        "teeth": teeth,
-    }
+    own = {"mesh": with_own_teeth(moving_mesh_of(scenario), teeth), "teeth": teeth}
     case = Case(
-        **gear_fields(scenario, toml, sha256) | pair_fields,
+        **gear_fields(scenario, toml, sha256, operating=_operating(scenario), **own),
         **oil_fields(scenario),
         bearings=bearings_of(scenario),
         shafts={shaft.gears[0]: (shaft.mass, shaft.inertia) for shaft in listed(scenario.shaft)},
@@ -111,3 +117,31 @@ def _operating(scenario: Scenario) -> OperatingData:
             exclude={"output_torque_table", "output_torque_harmonics", *OiledOperatingTable.model_fields}
         ),
     )
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that the scenario breaks; none: it is consistent."""
+    of_drive = [
+        *driving_internal(scenario.drive),
+        *broken_gear_rules(scenario, every_tooth=True),
+    ]
+    yield from of_drive
+    if not of_drive:
+        yield from broken_damage(scenario.damage, gears_of_pair(scenario))
+    yield from broken_source_rules(scenario.operating)
+    yield from broken_mesh_rules(scenario.mesh)
+    yield from _load(scenario)
+    yield from broken_solver_rules(scenario.solver)
+    yield from broken_output_rules(scenario.output, scenario.solver, scenario.drive.pinion.teeth)
+    yield from broken_sensor_rules(scenario.sensor, scenario.housing)
+
+
+def _load(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules of speed and load; without one of each there is nothing else to say."""
+    operating, drive, mesh = scenario.operating, scenario.drive, scenario.mesh
+    if broken := broken_duty_rules(operating.load):
+        yield from broken
+        return
+    torque = duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth).gear_torque
+    back_flanks = mesh.backlash is not None or gives_backlash(drive)
+    yield from broken_flank_rules("operating.output_torque", torque, back_flanks, mesh)

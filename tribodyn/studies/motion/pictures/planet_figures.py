@@ -1,6 +1,7 @@
 """Figures of planetary sets: loads of the planets over time, orbits of the gears on the axis."""
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -32,20 +33,16 @@ def planet_load_figure(records: Sequence[Record], view: View) -> Figure:
     """Draw of the first record the loads of all planets of every set, at sun and ring in a panel each."""
     record = records[0]
     panels = [
-        (gearset, body, meshes) for gearset in sets_of(record) for body, meshes in gearset.meshes.items()
+        _Panel(
+            f"{_named(record, gearset, body)}: load of the teeth of every planet",
+            planet_loads(record, meshes),
+            [str(record["body"][planet]) for planet in gearset.planets],
+            len(gearset.planets),
+        )
+        for gearset in sets_of(record)
+        for body, meshes in gearset.meshes.items()
     ]
-    figure = new_figure(WIDTH, (PANEL_HEIGHT + 0.15) * len(panels) + 0.6)
-    rows = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
-    for letter, axes, (gearset, body, meshes) in zip(_LETTERS, rows, panels, strict=False):
-        names = [str(record["body"][planet]) for planet in gearset.planets]
-        draw_curves(axes, record, planet_loads(record, meshes), names, LOAD, view)
-        mark_panel(axes, letter, f"{_named(record, gearset, body)}: load of the teeth of every planet")
-        axes.legend(loc="upper right", ncols=len(names), fontsize=6.5)
-    for axes in rows[:-1]:
-        axes.set_xlabel("")
-    figure.align_ylabels()
-    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)
-    return figure
+    return _below_each_other(record, panels, LOAD, view)
 
 
 def bearing_load_figure(records: Sequence[Record], view: View) -> Figure:
@@ -56,13 +53,29 @@ def bearing_load_figure(records: Sequence[Record], view: View) -> Figure:
     groups: dict[str, list[int]] = {}
     for place, name in enumerate(names):
         groups.setdefault("pins" if name.startswith("pin-") else "bearings", []).append(place)
-    figure = new_figure(WIDTH, (PANEL_HEIGHT + 0.15) * len(groups) + 0.6)
-    rows = figure.subplots(len(groups), 1, squeeze=False, sharex=True)[:, 0]
-    for letter, axes, (kind, places) in zip(_LETTERS, rows, groups.items(), strict=False):
-        labels = [names[place].partition("-")[2] for place in places]
-        draw_curves(axes, record, force[:, places], labels, BEARING, view)
-        mark_panel(axes, letter, f"Force on {kind}")
-        axes.legend(loc="upper right", ncols=4, fontsize=6.5)
+    panels = [
+        _Panel(f"Force on {kind}", force[:, places], [names[at].partition("-")[2] for at in places], 4)
+        for kind, places in groups.items()
+    ]
+    return _below_each_other(record, panels, BEARING, view)
+
+
+class _Panel(NamedTuple):
+    """Curves of a panel."""
+
+    title: str
+    values: np.ndarray  # (samples, names)
+    names: Sequence[str]
+    columns: int  # of its legend
+
+
+def _below_each_other(record: Record, panels: Sequence[_Panel], trace: Trace, view: View) -> Figure:
+    figure = new_figure(WIDTH, (PANEL_HEIGHT + 0.15) * len(panels) + 0.6)
+    rows = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
+    for letter, axes, panel in zip(_LETTERS, rows, panels, strict=False):
+        draw_curves(axes, record, panel.values, panel.names, trace, view)
+        mark_panel(axes, letter, panel.title)
+        axes.legend(loc="upper right", ncols=panel.columns, fontsize=6.5)
     for axes in rows[:-1]:
         axes.set_xlabel("")
     figure.align_ylabels()

@@ -1,13 +1,25 @@
-"""A mesh of a train's scenario as the scenario of a pair of gears, for what those share."""
+"""A mesh of a train's scenario as the scenario of a pair of gears: its teeth, and its share of the losses.
 
+Every gear and every shaft counts once: a gear in its first mesh, all bearings in the first mesh of the train.
+The formulas are of gears on fixed axes: those of planetary stages neither churn nor drive air here.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any, NamedTuple
 
+from tribodyn.errors import InputError
 from tribodyn.gears.motion.settings import Friction, Mesh
 from tribodyn.gears.supports import GearSupports
+from tribodyn.input.tables.gears.damage import GearPlace, damage_of
 from tribodyn.input.tables.gears.model_files import DriveTable
-from tribodyn.studies.motion.drivetrain.duty_tables import TrainOperating
+from tribodyn.input.tables.gears.single_teeth import own_teeth_of
+from tribodyn.input.tables.losses import LossesTable, broken_losses
+from tribodyn.mesh.teeth.fields import CARRYING, OwnTeeth
+from tribodyn.studies.motion.drivetrain.duty import TrainOperating
 from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics
 from tribodyn.studies.motion.drivetrain.structure import mesh_table
+from tribodyn.tribology.losses import LossData
 
 
 class PairView(NamedTuple):
@@ -50,3 +62,60 @@ def pair_view(scenario: Any, train: TrainKinematics, mesh: int) -> PairView:
 def reference_teeth(train: TrainKinematics) -> int:
     """Teeth of the gear that drives the first mesh: its cycles in a revolution against the mesh's frame."""
     return abs(train.parts.gears[train.motion.gears[0][0]].teeth)
+
+
+def own_teeth(scenario: Any, train: TrainKinematics, mesh: int, view: Any) -> tuple[OwnTeeth, OwnTeeth]:
+    """What teeth of driver and driven gear of a mesh have; `view` is its `scenario.PairView`."""
+    numbers = train.motion.gears[mesh]
+    one, two = (tuple(sorted({CARRYING[side] for _, side in train.meshes_of(gear)})) for gear in numbers)
+    deviations = own_teeth_of(view.drive, view.mesh.tooth_sample, numbers, (one, two))
+    damaged, both_gears = gears_of_train(train), []
+    for deviating, number in zip(deviations, numbers, strict=True):
+        name = train.parts.gears[number].name
+        tables = [table for table in scenario.damage if table.gear == name]
+        both_gears.append((*deviating, *damage_of(tables, damaged[name])))
+    return both_gears[0], both_gears[1]
+
+
+def gears_of_train(train: TrainKinematics) -> dict[str, GearPlace]:
+    """The gears that may be damaged, by name."""
+    return {
+        gear.name: GearPlace(tuple((train.drives[mesh], side) for mesh, side in train.meshes_of(number)))
+        for number, gear in enumerate(train.parts.gears)
+    }
+
+
+def losses_of_meshes(
+    table: LossesTable | None, train: TrainKinematics, speed: float
+) -> list[LossData | None]:
+    """What every mesh counts of the losses; None: nothing. `speed` is that of the reference body, rad/s."""
+    motion, parts = train.motion, train.parts
+    if table is None or not table.any:
+        return [None] * len(motion.meshes)
+    speeds = {body: speed * abs(float(motion.ratio[number])) for body, number in train.numbers.items()}
+    turning = [(drag, speeds[parts.body(name)]) for name, drag in table.drags().items()]
+    losses, counted_gears = [], set[int]()
+    for mesh, gears in enumerate(motion.gears):
+        one, two = (gear not in counted_gears and motion.carrier[mesh] < 0 for gear in gears)
+        counted_gears |= set(gears)
+        data = table.data(*(parts.gears[gear].name for gear in gears))
+        depths = data.pinion_immersion if one else 0.0, data.gear_immersion if two else 0.0
+        losses.append(replace(data, pinion_immersion=depths[0], gear_immersion=depths[1], counted=(one, two)))
+    # a shaft that stands loses nothing
+    losses[0] = replace(losses[0], further=tuple(one for one in turning if one[1] > 0.0))
+    return list(losses)
+
+
+def broken_train_losses(table: LossesTable | None, train: TrainKinematics) -> Iterator[InputError]:
+    """Go through the rules that a train's losses break."""
+    parts = train.parts
+    gears = [gear.name for gear in parts.gears]
+    bodies = [*gears, *(body.name for body in parts.bodies)]
+    return broken_losses(table, gears, bodies, {parts.gears[gear].name for gear in _carried(train)})
+
+
+def _carried(train: TrainKinematics) -> set[int]:
+    """Gears of planetary stages."""
+    motion = train.motion
+    meshes = zip(motion.gears, motion.carrier, strict=True)
+    return {gear for gears, carrier in meshes if carrier >= 0 for gear in gears}

@@ -27,10 +27,13 @@ from tribodyn.studies.motion.drivetrain.placed_train import (
     resolve_kinematics,
 )
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
-from tribodyn.studies.motion.train.losses import broken_train_losses
-from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
+from tribodyn.studies.motion.train.pair_view import (
+    broken_train_losses,
+    gears_of_train,
+    pair_view,
+    reference_teeth,
+)
 from tribodyn.studies.motion.train.scenario import Scenario
-from tribodyn.studies.motion.train.single_teeth import gears_of_train
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:

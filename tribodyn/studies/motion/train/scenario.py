@@ -6,7 +6,6 @@ from typing import Annotated, Any, Literal, cast
 from pydantic import Discriminator, Field, Tag
 
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.gears.by_standard import quality_of
 from tribodyn.gears.case import LubricatedCase, with_chosen
 from tribodyn.gears.motion.settings import (
     Friction,
@@ -18,17 +17,16 @@ from tribodyn.gears.motion.settings import (
     solver_data,
 )
 from tribodyn.gears.prepare import with_chosen_laws
-from tribodyn.gears.scenario import FilmKeys, LossKeys, Oil, TemperatureKeys, oil_fields
+from tribodyn.gears.scenario import FilmKeys, LossKeys, Oil, TemperatureKeys, gear_fields, oil_fields
 from tribodyn.gears.supports import GearSupport
 from tribodyn.geometry.drive import SIDES, BodyMass
 from tribodyn.input.fields import PartName, head_of
 from tribodyn.input.quantity import Count, model_file, written
 from tribodyn.input.tables.duty import SpectrumScenario
 from tribodyn.input.tables.gears.damage import Damages
-from tribodyn.input.tables.gears.drive_data import masses_of, materials_of, teeth_of
+from tribodyn.input.tables.gears.drive_data import materials_of
 from tribodyn.input.tables.gears.material import MaterialReference
 from tribodyn.input.tables.gears.model_files import DriveTable, Grade, QualityEdition, Roughness
-from tribodyn.input.tables.gears.quality import grade_of, tolerances_of
 from tribodyn.input.tables.gears.single_teeth import with_own_teeth
 from tribodyn.input.tables.laws import law_values
 from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
@@ -43,8 +41,13 @@ from tribodyn.studies.motion.case import (
     SourceData,
     TrainMesh,
 )
-from tribodyn.studies.motion.drivetrain.duty import TrainDuty, duty_of, motor_torque
-from tribodyn.studies.motion.drivetrain.duty_tables import LoadTable, TrainOperating
+from tribodyn.studies.motion.drivetrain.duty import (
+    LoadTable,
+    TrainDuty,
+    TrainOperating,
+    duty_of,
+    motor_torque,
+)
 from tribodyn.studies.motion.drivetrain.placed_train import (
     PlacedTrain,
     TrainKinematics,
@@ -61,9 +64,7 @@ from tribodyn.studies.motion.drivetrain.tables import (
     TrainGear,
 )
 from tribodyn.studies.motion.planetary.links import links_of_set, set_data
-from tribodyn.studies.motion.train.losses import losses_of_meshes
-from tribodyn.studies.motion.train.pair_view import pair_view, reference_teeth
-from tribodyn.studies.motion.train.single_teeth import own_teeth
+from tribodyn.studies.motion.train.pair_view import losses_of_meshes, own_teeth, pair_view, reference_teeth
 from tribodyn.studies.motion.train.supports import supports_of_bodies, supports_of_mesh
 from tribodyn.train.links import LINK_LAWS
 
@@ -124,11 +125,11 @@ def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
     train = resolve_kinematics(scenario)
     placed = place_train(train)
     duty = duty_of(scenario, train)
-    head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
     gears = _gears(train, placed)
     teeth = reference_teeth(train)
     held = supports_of_bodies(scenario, train, placed, duty.torques.driven)
-    meshes = _meshes(scenario, train, placed, duty, head, held)
+    meshes = _meshes(scenario, train, placed, duty, (toml, sha256), held)
+    head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
     return Gearbox(
         **head,
         gears=gears,
@@ -250,7 +251,7 @@ def _meshes(
     train: TrainKinematics,
     placed: PlacedTrain,
     duty: TrainDuty,
-    head: dict[str, Any],
+    text: tuple[str, str],
     held: Mapping[int, GearSupport],
 ) -> tuple[TrainMesh, ...]:
     motion, meshes = train.motion, []
@@ -262,22 +263,11 @@ def _meshes(
         driver, carrier = motion.driver[mesh], motion.carrier[mesh]
         teeth = own_teeth(scenario, train, mesh, view)
         speed = duty.speed * float(motion.ratio[driver] - motion.carried(driver, carrier))
-        further: dict[str, Any] = {**oil_fields(view), "losses": losses[mesh]}
-        pair = LubricatedCase(
-            **head,
-            **teeth_of(view.drive),
-            masses=masses_of(view.drive),
-            operating=OperatingData("speed", speed, duty.torques.driven[mesh]),
-            mesh=with_own_teeth(moving_mesh_of(view), teeth),
-            teeth=teeth,
-            supports=supports,
-            quality=quality_of(
-                [grade_of(view.drive, gear) for gear in (view.drive.pinion, view.drive.gear)],
-                tolerances_of(view.drive),
-                view.drive.quality_edition,
-            ),
-            **further,
-        )
+        operating = OperatingData("speed", speed, duty.torques.driven[mesh])
+        moving = with_own_teeth(moving_mesh_of(view), teeth)
+        oiled: dict[str, Any] = oil_fields(view) | {"losses": losses[mesh]}
+        gears = gear_fields(view, *text, operating=operating, mesh=moving, teeth=teeth)
+        pair = LubricatedCase(**gears, **oiled)
         # one film and one friction law hold in the whole train: where "auto" chooses, for its first mesh
         pair = with_chosen_laws(pair) if first is None else with_chosen(pair, first)
         first = first or pair
