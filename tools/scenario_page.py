@@ -23,8 +23,7 @@ import tomli_w
 from pydantic.fields import FieldInfo
 
 from tools.marked_block import DOCS, table
-from tribodyn.input.key_meanings import meaning
-from tribodyn.input.quantity import Column, InUnit, Reference, Table
+from tribodyn.input.quantity import Column, InUnit, Reference, Table, meaning
 from tribodyn.input.units import Kind
 from tribodyn.studies import STUDIES
 

@@ -22,6 +22,7 @@ from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
 WIDTH = 26.7e-3
+#: The pair of Diez-Ibarbia et al. with bores and cutter as assumed for it.
 DRIVE = Drive(
     3e-3,
     np.radians(20.0),

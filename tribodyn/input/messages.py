@@ -11,9 +11,8 @@ from pydantic import BaseModel, ValidationError
 
 from tribodyn.errors import InputError, InputErrors, near_name, printable, quoted
 from tribodyn.input import scope
-from tribodyn.input.key_meanings import meaning
 from tribodyn.input.names import OF_PAIR, speaks_of_pair, worded
-from tribodyn.input.quantity import Reference
+from tribodyn.input.quantity import Reference, meaning
 from tribodyn.input.schema import fields_of, holds_by_name, inner_tables, table_at
 from tribodyn.input.unit_grammar import range_for_one
 from tribodyn.input.units import base_units

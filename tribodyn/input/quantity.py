@@ -1,12 +1,15 @@
-"""Field types of the scenario's tables: quantities with units, plain numbers, columns of numbers with a unit.
+"""Field types of the scenario's tables: quantities with units, numbers, columns; what every key means.
 
 The types here speak pydantic; what a unit is stands in `units`. Of numbers as they are printed it is known by
 how much the rounding to their last digit may have moved them.
 """
 
 import re
+import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
+from functools import cache
+from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple, cast, get_args, get_origin
 
@@ -16,9 +19,22 @@ from pydantic import BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError, core_schema
 
 from tribodyn.errors import quoted
-from tribodyn.input.key_meanings import meaning
 from tribodyn.input.names import named_in, worded
 from tribodyn.input.units import Kind, NotAQuantity, factor_to_si, to_si
+
+
+def meaning(table: type, key: str) -> str:
+    """The meaning of a key of a table, or of a table from which it is made; "" where it is not known."""
+    known = meanings()
+    return next(
+        (known[each.__name__][key] for each in table.__mro__ if key in known.get(each.__name__, {})), ""
+    )
+
+
+@cache
+def meanings() -> dict[str, dict[str, str]]:
+    """All meanings, by table and key."""
+    return tomllib.loads(resources.files(__package__ or "").joinpath("keys.toml").read_text(encoding="utf-8"))
 
 
 class Table(BaseModel):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
+from tests.support.faces_in_slices import DRIVE, WIDTH
 from tribodyn.compliance.sharing.flank_gap import (
     check_modifications,
     flank_gap,
@@ -32,13 +33,7 @@ from tribodyn.geometry.flanks.modification import (
 )
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
-WIDTH, ANGLE = 26.7e-3, np.radians(20.0)
-DRIVE = Drive(
-    3e-3,
-    ANGLE,
-    GearBody(18, 0.0, 1.0, 1.25, 0.25, WIDTH, 12e-3),
-    GearBody(36, 0.0, 1.0, 1.25, 0.25, WIDTH, 25e-3),
-)
+ANGLE = np.radians(20.0)
 ASSEMBLY = assemble(FAMILY, DRIVE)
 BASE = 27e-3 * np.cos(ANGLE)
 START, END = ASSEMBLY.roll_limits

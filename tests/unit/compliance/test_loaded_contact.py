@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.support.faces_in_slices import DRIVE, STEEL, WIDTH
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import (
     LoadedFlanks,
@@ -13,7 +14,7 @@ from tribodyn.compliance.sharing.load_sharing import (
 from tribodyn.compliance.sharing.loaded_contact import loaded_error, mean_pairs, reach, roll_through
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody, MaterialData
+from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import (
@@ -26,14 +27,7 @@ from tribodyn.geometry.flanks.modification import (
 )
 from tribodyn.geometry.helix import face_positions
 
-STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
-WIDTH, ANGLE = 26.7e-3, np.radians(20.0)
-DRIVE = Drive(
-    3e-3,
-    ANGLE,
-    GearBody(18, 0.0, 1.0, 1.25, 0.25, WIDTH, 12e-3),
-    GearBody(36, 0.0, 1.0, 1.25, 0.25, WIDTH, 25e-3),
-)
+ANGLE = np.radians(20.0)
 TORQUE, PITCH = 318.3, 2 * np.pi / 18
 #: Both tips, linear, over all of the path that two pairs share; as deep as one pair deflects.
 LONG = FlankModification(tip=Relief(12e-6, 5.4e-3))

@@ -9,8 +9,7 @@ from pydantic import ValidationError
 
 from tools.scenario_page import PAGE, every_table, inside, own_keys, page
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.input.key_meanings import meaning, meanings
-from tribodyn.input.quantity import Reference
+from tribodyn.input.quantity import Reference, meaning, meanings
 from tribodyn.solve.methods import SOLVERS
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS

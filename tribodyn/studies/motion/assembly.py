@@ -9,7 +9,7 @@ from tribodyn.dynamics.damping import spring_damping
 from tribodyn.dynamics.data import matrices_in_space
 from tribodyn.gears.model import tilting_inertia
 from tribodyn.gears.prepare import assembled
-from tribodyn.gears.shared_tables import table_key
+from tribodyn.gears.tabulated import table_key
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.numerics.shapes import Array, Float

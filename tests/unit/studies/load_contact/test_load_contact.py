@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.support.faces_in_slices import DRIVE, STEEL, WIDTH
 from tribodyn.compliance.sharing.load_sharing import (
     LoadedFlanks,
     contact_deflection,
@@ -12,19 +13,11 @@ from tribodyn.compliance.sharing.load_sharing import (
 )
 from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody, MaterialData
+from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.flanks.corner_contact import pair_geometry, roll_at_gap
 
-STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
-WIDTH, PITCH_RADIUS, ANGLE = 26.7e-3, 27e-3, np.radians(20.0)
-# The pair of Diez-Ibarbia et al. with bores and cutter as assumed for it.
-DRIVE = Drive(
-    3e-3,
-    ANGLE,
-    GearBody(18, 0.0, 1.0, 1.25, 0.25, WIDTH, 12e-3),
-    GearBody(36, 0.0, 1.0, 1.25, 0.25, WIDTH, 25e-3),
-)
+PITCH_RADIUS, ANGLE = 27e-3, np.radians(20.0)
 PITCH = 2 * np.pi / 18
 
 

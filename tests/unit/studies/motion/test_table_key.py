@@ -5,8 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tribodyn.gears.shared_tables import table_key
-from tribodyn.gears.tabulated import _tabulated, tables
+from tribodyn.gears.tabulated import _tabulated, table_key, tables
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 

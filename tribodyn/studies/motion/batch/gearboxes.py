@@ -10,7 +10,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.gears.motion.extremes import RunningExtremes
 from tribodyn.gears.motion.samples import Sampled
-from tribodyn.gears.shared_tables import table_key
+from tribodyn.gears.tabulated import table_key
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
 from tribodyn.studies.motion.case import Gearbox, refuse_long_period
