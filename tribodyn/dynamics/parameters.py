@@ -6,9 +6,17 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.links.chain import BY_TABLE
 from tribodyn.train.schedule import Schedule
 from tribodyn.train.structure import Bodies, GearMesh, Links, TrainLayout
+from tribodyn.tribology.film.numbers import FilmNumbers
 from tribodyn.tribology.friction.none import LAW as NO_FRICTION
 from tribodyn.tribology.friction.none import NoParameters
-from tribodyn.tribology.law import ActiveLaw, Closure, FilmFunctions, FrictionFunctions
+from tribodyn.tribology.law import (
+    ActiveLaw,
+    Closure,
+    FilmFunctions,
+    FrictionFunctions,
+    film_range_not_stated,
+    range_not_stated,
+)
 
 #: The reference's speed is prescribed, or a torque acts on the input body.
 DRIVE_SPEED = 0
@@ -90,6 +98,22 @@ class Model(NamedTuple):
             ActiveLaw(self.options.film, part.film),
             ActiveLaw(self.options.friction, part.friction),
         )
+
+
+def with_shared_code(model: Model) -> Model:
+    """Return the model with functions whose machine code most scenarios share; its motion is the same.
+
+    Kernels ask for no ranges of laws; and where friction does not read the film, all film laws by formula
+    are one function.
+    """
+    film, friction = model.options.film, model.options.friction
+    if not friction.reads_film and all(isinstance(mesh.film, FilmNumbers) for mesh in model.meshes):
+        from tribodyn.tribology.film.by_number import film_by_number
+
+        film = film._replace(film=film_by_number)
+    film = film._replace(in_range=film_range_not_stated)
+    friction = friction._replace(in_range=range_not_stated)
+    return model._replace(options=model.options._replace(film=film, friction=friction))
 
 
 def frictionless(model: Model) -> Model:

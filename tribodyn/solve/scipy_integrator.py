@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, Radau
 
-from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.parameters import Model, with_shared_code
 from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.integrator import IntegratedCycles, Status
@@ -94,7 +94,8 @@ class _Walk:
         self.steps = self.steps_before = self.evaluations = 0
         states = integrator.model.layout.states
         self._place, self._rates = np.empty(states), np.empty(states)
-        self._arguments = [*map(packed, (self._place, integrator.model, self.work, self._rates))]
+        model = with_shared_code(integrator.model)
+        self._arguments = [*map(packed, (self._place, model, self.work, self._rates))]
 
     def over(self, cycle: float, interval: int, start: float, end: float) -> None:
         """Integrate over an interval; raises `_Ended` where that cannot be done."""

@@ -80,6 +80,7 @@ class FrictionFunctions(NamedTuple):
     coefficient: Callable[..., Any]
     flash_temperature: Callable[..., Any]
     in_range: Callable[..., Any]
+    reads_film: bool
 
 
 class ActiveLaw(NamedTuple):
@@ -260,7 +261,7 @@ class FrictionLaw(KeyedLaw):
     @property
     def functions(self) -> FrictionFunctions:
         """The functions that kernels and models hold."""
-        return FrictionFunctions(self.function, self.flash_temperature, self.in_range)
+        return FrictionFunctions(self.function, self.flash_temperature, self.in_range, self.reads_film)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.dynamics.parameters import Model, Options, with_shared_code
 from tribodyn.dynamics.recorded.extremes import Extremes
 from tribodyn.kernels.lanes.fields import Extent, Field, SubRecord
 from tribodyn.kernels.lanes.tables import LaneRecord
@@ -209,6 +209,7 @@ def in_lanes(
     progress: Callable[[float], None] | None = None,
 ) -> Ensemble:
     """Integrate with the explicit method, many cases side by side in the lanes of vectors."""
+    models = [with_shared_code(model) for model in models]
     batches = [_batch(models, states, march, places) for places in by_shape(models)]
     whole = len(models) * march.cycles
     with ThreadPoolExecutor(workers) as pool:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, Model
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, Model, with_shared_code
 from tribodyn.kernels.native import kernel, packed
 from tribodyn.numerics.elementary import largest_slope, maximum, minimum
 from tribodyn.numerics.shapes import Array, Float
@@ -183,7 +183,7 @@ class NativeIntegrator:
         file = import_module(f"tribodyn.solve.methods.{method}")
         self._integrate, self._buffer = file.integrate, file.buffer(model.layout)
         self._work = work_array(model)
-        self._model = packed(model)
+        self._model = packed(with_shared_code(model))
         self._stops = stops(model)
         self.samples = samples
         self.tolerances = tolerances

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.parameters import Model, with_shared_code
 from tribodyn.kernels.duals import functions  # noqa: F401  (its import gives the laws their derivatives)
 from tribodyn.kernels.duals.functions import duals_of, length_of
 from tribodyn.kernels.duals.numbers import BLOCK
@@ -189,7 +189,11 @@ def _packed(models: Sequence[Model]) -> list[PackedValue]:
             packed_records[id(record)] = packed(record)
         return packed_records[id(record)]
 
-    return [packed(Model(*map(once, model.numbers), options=model.options)) for model in models]
+    options = (with_shared_code(model).options for model in models)
+    return [
+        packed(Model(*map(once, model.numbers), options=of))
+        for model, of in zip(models, options, strict=True)
+    ]
 
 
 def _duals(shape: tuple[int, ...], directions: int) -> Float[Array, "*shape dual"]:

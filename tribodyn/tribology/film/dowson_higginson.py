@@ -8,12 +8,13 @@ The formula is of smooth surfaces; `roughening` makes the film between rough one
 """
 
 import math
-from typing import Any, NamedTuple
+from functools import partial
 
 from tribodyn.numerics.elementary import law, log
 from tribodyn.tribology.contact import hertz_pressure, inlet_heating, moes_numbers
+from tribodyn.tribology.film.numbers import DOWSON_HIGGINSON, film_numbers
 from tribodyn.tribology.film.roughening import roughening
-from tribodyn.tribology.law import FilmLaw, JudgedRange, LawInput
+from tribodyn.tribology.law import FilmLaw, JudgedRange
 
 _LOG_FACTOR = math.log(2.65)
 _U_POWER, _G_POWER, _W_POWER = 0.7, 0.54, -0.13
@@ -26,27 +27,6 @@ FITTED_RANGE = {"W": (3e-5, 3e-4), "U": (1e-13, 1e-11), "G": (2500.0, 5000.0)}
 #: η0 u² (W/m).
 JUDGED_RANGE = {"M": (2.0, 500.0), "L": (2.0, 15.0), "pressure": (0.0, 1.4e9), "heating": (0.0, 1.0)}
 (_M_LOW, _M_HIGH), (_L_LOW, _L_HIGH), (_, _P_HIGH), (_, _HEAT_HIGH) = JUDGED_RANGE.values()
-
-
-class SmoothFilm(NamedTuple):
-    """Natural logarithms of what a contact has whatever its load and speed."""
-
-    log_modulus: Any  # of E' in Pa
-    log_material: Any  # of G = α_PV E'
-    log_inlet_viscosity: Any  # of η0 in Pa·s
-    log_roughness: Any  # of σ in m
-
-
-def smooth_film_of(inputs: LawInput) -> SmoothFilm:
-    """Return the parameters."""
-    surfaces = inputs.surfaces
-    log_modulus = log(surfaces.effective_modulus)
-    return SmoothFilm(
-        log_modulus,
-        log(surfaces.pressure_viscosity) + log_modulus,
-        log(surfaces.inlet_viscosity),
-        log(surfaces.roughness),
-    )
 
 
 @law
@@ -79,7 +59,7 @@ LAW = FilmLaw(
     "dowson-higginson",
     "minimum film of line contacts, Dowson & Higginson (1968), raised by roughness",
     dowson_higginson,
-    smooth_film_of,
+    partial(film_numbers, number=DOWSON_HIGGINSON),
     in_range=in_ranges,
     range="3e-5 ≤ W ≤ 3e-4, 1e-13 ≤ U ≤ 1e-11, 2500 ≤ G ≤ 5000",
     thickness="minimum",

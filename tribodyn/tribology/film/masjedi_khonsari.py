@@ -7,11 +7,11 @@ lubrication with provision for surface roughness", J. Tribol. 134 (2012) 011503;
 import math
 from dataclasses import replace
 from functools import partial
-from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import exp, law, log, log1p, maximum, minimum, where
 from tribodyn.tribology.contact import inlet_heating, moes_numbers
-from tribodyn.tribology.law import FilmLaw, JudgedRange, LawInput
+from tribodyn.tribology.film.numbers import MASJEDI_KHONSARI, film_numbers
+from tribodyn.tribology.law import FilmLaw, JudgedRange
 
 #: Ranges over which the regressions were fitted: load W, speed U, material G, roughness σ/ρ, hardness V.
 #: The bounds are given from memory of the literature and have not been checked against the paper; the flags
@@ -40,17 +40,6 @@ LIMITS = (
     *("W ≤ 5e-4", "U ≤ 1e-10", "G ≤ 7500", "V ≤ 0.03", "σ/ρ ≤ 5e-5"),
 )
 RANGE = "2e-5 ≤ W ≤ 5e-4, 1e-12 ≤ U ≤ 1e-10, 2500 ≤ G ≤ 7500, σ/ρ ≤ 5e-5, 0.005 ≤ V ≤ 0.03"
-
-
-class RoughFilm(NamedTuple):
-    """Natural logarithms of what a contact has whatever its load and speed, so that none is taken twice."""
-
-    log_modulus: Any  # of E' in Pa
-    log_material: Any  # of G = α_PV E'
-    log_hardness: Any  # of V = H_v/E'
-    log_roughness: Any  # of σ in m
-    log_inlet_viscosity: Any  # of η0 in Pa·s
-    log_asperity_factor: Any  # of the factor inside the logarithm of the asperity load ratio
 
 
 @law
@@ -123,27 +112,13 @@ def in_ranges(contact, surfaces, parameters):
     return (*fitted, *low, *high, _HEAT_HIGH / inlet_heating(contact, surfaces))
 
 
-def rough_film_of(inputs: LawInput, asperity_log_factor: float = 4470.0) -> RoughFilm:
-    """Return the parameters; the factor inside the logarithm of the asperity load ratio is the paper's."""
-    surfaces = inputs.surfaces
-    log_modulus = log(surfaces.effective_modulus)
-    return RoughFilm(
-        log_modulus=log_modulus,
-        log_material=log(surfaces.pressure_viscosity) + log_modulus,
-        log_hardness=log(surfaces.hardness) - log_modulus,
-        log_roughness=log(surfaces.roughness),
-        log_inlet_viscosity=log(surfaces.inlet_viscosity),
-        log_asperity_factor=log(asperity_log_factor),
-    )
-
-
 JUDGED_LIMITS = "M ≥ 2", "L ≥ 2", "M ≤ 1000", "L ≤ 20", "roughness factor of the film ≤ 2", "η0 u² ≤ 3 W/m"
 
 LAW = FilmLaw(
     "masjedi-khonsari",
     "central film and asperity load of rough line contacts, Masjedi & Khonsari (2012)",
     rough_film,
-    rough_film_of,
+    partial(film_numbers, number=MASJEDI_KHONSARI),
     in_range=in_ranges,
     range=RANGE,
     limits=(*LIMITS, *JUDGED_LIMITS),
@@ -154,5 +129,5 @@ AS_PRINTED = replace(
     LAW,
     name="masjedi-khonsari-as-printed",
     about="the same with Liu & Ni's misprint in the asperity load, 447 for 4470",
-    parameters=partial(rough_film_of, asperity_log_factor=447.0),
+    parameters=partial(film_numbers, number=MASJEDI_KHONSARI, asperity_log_factor=447.0),
 )

@@ -17,10 +17,11 @@ makes the film between rough ones of it.
 """
 
 import math
+from functools import partial
 
 from tribodyn.numerics.elementary import absolute, exp, law, log, log1p, maximum, minimum
 from tribodyn.tribology.contact import hertz_pressure, inlet_heating, moes_numbers
-from tribodyn.tribology.film.dowson_higginson import smooth_film_of
+from tribodyn.tribology.film.numbers import MOES, film_numbers
 from tribodyn.tribology.film.roughening import roughening
 from tribodyn.tribology.law import FilmLaw, JudgedRange
 
@@ -80,7 +81,7 @@ LAW = FilmLaw(
     "moes",
     "central film of line contacts in all regimes, Moes' survey formula, raised by roughness",
     moes,
-    smooth_film_of,
+    partial(film_numbers, number=MOES),
     in_range=in_judged_range,
     limits=("M ≥ 2", "L ≥ 1", "M ≤ 1000", "L ≤ 15", "p_H ≤ 0.75 GPa", "η0 u² ≤ 1 W/m"),
     judged=JudgedRange((0.75, 1.25), (0.66, 1.12, 1.23), 6, (1.1, 1.22, 1.63)),
