@@ -23,7 +23,7 @@ LOOSE = {"shaft.0.law": "play", "shaft.0.play": "0.02 deg", "shaft.0.stiffness":
 
 
 def train(name: str, **overrides: str) -> Model:
-    return prepared_train(name, **LAWS, **overrides).model
+    return prepared_train(name, **LAWS | overrides).model
 
 
 def machine_codes() -> dict[str, int]:
@@ -57,10 +57,16 @@ def of_the_first() -> dict[str, int]:
 
 @pytest.mark.parametrize(
     ("name", "overrides", "further"),
-    [("idler-train", {}, set()), ("planetary-24-84", {}, WIDER), ("two-stage-reducer", LOOSE, set())],
+    [
+        ("idler-train", {}, set()),
+        ("planetary-24-84", {}, WIDER),
+        ("two-stage-reducer", LOOSE, set()),
+        ("two-stage-reducer", {"film.law": "moes"}, set()),
+        ("two-stage-reducer", {"film.law": "masjedi-khonsari"}, set()),
+    ],
 )
 def test_a_second_layout_compiles_nothing(of_the_first, name, overrides, further):
-    """Other bodies, meshes, links, states, intervals; and a link that has play."""
+    """Other bodies, meshes, links, states, intervals; a link that has play; a film that is recorded only."""
     assert {name.rpartition(".")[2] for name in of_the_first} >= {"integrate", "march_lanes", "explicit"}
     before = machine_codes()
     solve(train(name, **overrides))

@@ -181,7 +181,7 @@ class KeyedLaw:
         return (*self.limits[:unjudged], *(f"{limit} (judged)" for limit in self.limits[unjudged:]))
 
     def __post_init__(self) -> None:
-        for function in self.functions:
+        for function in filter(callable, self.functions):
             if not any(function is builtin for builtin in LAWS):
                 law(function)
 
