@@ -162,7 +162,7 @@ def test_laws_without_a_range_say_nothing():
     for sliding in (-0.3, 0.0, 0.1):
         seen = local_contact(3e5, 77.0, 0.6, sliding, 0.65, 0.55)
         assert coulomb.LAW.function(seen, None, None, laws.friction.parameters) == 0.07
-        assert frictionless.LAW.function(seen, None, None, None) == 0.0
+        assert frictionless.LAW.function(seen, None, None, frictionless.NO_FRICTION) == 0.0
     assert coulomb.LAW.stated == ""
     shares = range_shares(local_contact(3e5, 77.0, 0.6, 0.1, 0.65, 0.55), laws)[1]
     assert np.all(np.isnan(shares))
