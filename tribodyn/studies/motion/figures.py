@@ -270,7 +270,12 @@ DRAWINGS: dict[str, Drawing] = {
         spectrum.orders_figure,
         spectrum.worth_tracking,
     ),
-    "train": _held("train", "the train in its true positions, and the teeth in every mesh", train_figure),
+    "train": drawing(
+        "the gears in their true positions, and the teeth in every mesh",
+        train_figure,
+        lambda record: "centre" in record.geometry,
+        ("train", "{path} does not say where its gears stand", "run it again"),
+    ),
     "planet-load": _held(
         "planet-load",
         "load of every planet of planetary sets, at sun and ring",

@@ -305,9 +305,12 @@ def geometry_of(prepared: PreparedGearbox) -> dict[str, np.ndarray]:
     carriers = [of_body.get(body, HOUSING) for body in order] + [HOUSING] * (
         len(prepared.bodies) - len(order)
     )
+    centres = np.array([body.centre for body in prepared.bodies])
+    # gears of a pair are as far apart as its path of contact says
+    centres[np.isnan(centres)] = prepared.cycle.pinion_pitch_radius + prepared.cycle.gear_pitch_radius
     turning = [body.sense * float(body.ratio) for body in prepared.bodies] + [0.0]  # the last: the housing
     return {
-        "centre": np.array([body.centre for body in prepared.bodies]),
+        "centre": centres,
         "sense": np.array([body.sense for body in prepared.bodies]),
         "carrier": np.array(carriers),
         "carried": np.array([turning[body] for body in carriers]),

@@ -127,7 +127,15 @@ BEARINGS: dict[str, Variable] = {
 }
 _BEARING = {"bearing": Variable(("bearing",), "1", "bearing or pin, by the body that it holds")}
 #: Of a pair besides what `gears_layout` has.
-OF_A_GEAR = {name: SAMPLES[name]._replace(dims=_TIME) for name in ("driver_torque", "driven_torque")}
+OF_A_GEAR = {
+    name: SAMPLES[name]._replace(dims=tuple(dim for dim in SAMPLES[name].dims if dim != "mesh"))
+    for name in ("driver_torque", "driven_torque", "signed_distance")
+}
+#: Where its bodies, gears and only mesh stand, of a mesh without its dimension.
+OF_ONE_MESH = {
+    name: variable._replace(dims=()) if variable.dims == ("mesh",) else variable
+    for name, variable in TRAIN_GEOMETRY.items()
+}
 #: A mesh has as many pairs as it needs: they are counted beside those of the record.
 _SLOTS = {"pair": "slot", "other_pair": "other_slot"}
 
@@ -193,10 +201,17 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
         cycle, in_space = prepared.cycle, model.layout.spatial > 0
         plain = gears_layout(cycle.slices, in_space=in_space)
         samples = {**plain.samples, **OF_A_GEAR} | (BEARINGS if bearings else {})
-        axes = {**plain.scales, "body": SCALES["body"]} | (_BEARING if bearings else {})
-        layout = plain._replace(samples=samples, scales=axes)
-        scales |= scales_of(cycle, in_space=in_space) | {"body": np.array(prepared.names)}
-        groups = {"mesh_cycle": as_arrays(cycle), "geometry": geometry_arrays(prepared.assembly)}
+        axes = {**plain.scales, "body": SCALES["body"], "gear": SCALES["gear"]}
+        axes |= _BEARING if bearings else {}
+        described_groups = {**plain.groups, "geometry": GEOMETRY | OF_ONE_MESH}
+        layout = plain._replace(samples=samples, scales=axes, groups=described_groups)
+        scales |= scales_of(cycle, in_space=in_space)
+        scales |= {"body": np.array(prepared.names), "gear": np.array([gear.name for gear in case.gears])}
+        stand = {
+            name: values if OF_ONE_MESH[name].dims else values[MESH]
+            for name, values in geometry_of(prepared).items()
+        }
+        groups = {"mesh_cycle": as_arrays(cycle), "geometry": geometry_arrays(prepared.assembly) | stand}
         return GearboxRecord(layout, scales, groups, pairs, meshes, named=False)
     groups: dict[str, Any] = {"geometry": geometry_of(prepared)}
     tables: dict[str, Any] = {"geometry": TRAIN_GEOMETRY}

@@ -175,6 +175,7 @@ def test_it_is_one_run(feature: str, tmp_path: Path):
             assert of_mesh[name] == pytest.approx(value, rel=1e-5, abs=1e-12), name
         for name in (
             "normal_load",
+            "signed_distance",
             "central_film_thickness",
             "bearing_force_x",
             "transmission_error_rotational",
@@ -348,8 +349,6 @@ KINDS_OF_MOTION = [STUDIES["gear-pair"], STUDIES["gear-train"]]
 OF_PLANETS = {"mesh_load_factor", "planet_load_factor_max"}
 #: Figures of what these records have not: slices, helical teeth, a speed that changes, whole revolutions.
 OF_OTHERS = {"line-load", "in-space", "orders", "revolutions", "synchronous-average"}
-#: Figures that a gearbox has in another place: the teeth of every mesh are in the figure of the train.
-ELSEWHERE = {"pair": {"train"}, "reducer": set[str](), "planetary": set[str]()}
 
 
 @pytest.mark.parametrize("gearbox", GEARBOXES)
@@ -369,10 +368,19 @@ def test_every_quantity_of_every_gearbox(gearbox: str, of_everything: dict[str, 
 @pytest.mark.parametrize("gearbox", GEARBOXES)
 def test_every_figure_of_every_gearbox(gearbox: str, of_everything: dict[str, Record]):
     every = set().union(*(study.drawings() for study in KINDS_OF_MOTION))
-    without = ELSEWHERE[gearbox] | (set() if gearbox == "planetary" else {"planet-load", "orbit"})
+    without = set() if gearbox == "planetary" else {"planet-load", "orbit"}
     record = of_everything[gearbox]
     assert set(drawable([record])) == every - OF_OTHERS - without
-    for name in ("mesh-force", "displacement", "loss", "film-parameter", "bearing-load", "modes"):
+    for name in (
+        "mesh-force",
+        "displacement",
+        "loss",
+        "film-parameter",
+        "bearing-load",
+        "modes",
+        "train",
+        "path-of-contact",
+    ):
         figure(name, [record]).draw_without_rendering()
 
 

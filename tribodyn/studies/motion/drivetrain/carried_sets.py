@@ -25,9 +25,14 @@ def carriers(record: Record) -> Int[Array, " body"]:
     return np.full(len(record["body"]), -1) if carrier_of is None else np.asarray(carrier_of, int)
 
 
+def place_of(record: Record, name: str, m: int) -> float:
+    """What the geometry of a record says of a mesh, by its number."""
+    return float(np.atleast_1d(record.geometry[name])[m])
+
+
 def driver_of(record: Record, m: int, end: str = "driver") -> int:
     """The body that drives a mesh, or that is driven in it."""
-    return int(record.geometry["gear_body"][int(record.geometry[f"{end}_gear"][m])])
+    return int(record.geometry["gear_body"][int(place_of(record, f"{end}_gear", m))])
 
 
 def sets_of(record: Record) -> list[CarriedSet]:

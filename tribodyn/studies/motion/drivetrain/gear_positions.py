@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.post.cycles import mesh_phases
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.drivetrain.carried_sets import carriers, driver_of, sets_of
+from tribodyn.studies.motion.drivetrain.carried_sets import carriers, driver_of, place_of, sets_of
 from tribodyn.train.positions import frame_of
 
 #: What a gear is in the pair of a mesh, and which way that pair rolls it about its axis in the pair's frame.
@@ -56,13 +57,13 @@ def gear_outlines(record: Record) -> list[GearOutline]:
     """The gears of a train, the largest first, so that a small one beside it stays in sight."""
     places, names = record.geometry, record["gear"]
     outlines: dict[int, GearOutline] = {}
-    for m, mesh in enumerate(record["mesh"]):
+    for m, mesh in enumerate(record.meshes):
         shape, cycle = record.of_mesh(mesh, "geometry"), record.of_mesh(mesh, "mesh_cycle")
         frame = np.array(_frame(record, m))
         pitch = 2.0 * np.pi / cycle["pinion_teeth"]
-        roll = cycle["roll_start"] + places["phase"][m] * pitch
+        roll = cycle["roll_start"] + place_of(record, "phase", m) * pitch
         for end, side, way in _ENDS:
-            gear = int(places[end][m])
+            gear = int(place_of(record, end, m))
             if gear in outlines:
                 continue
             radius = float(shape[f"{side}_pitch_radius"])
@@ -83,8 +84,9 @@ def gear_outlines(record: Record) -> list[GearOutline]:
 def poses(record: Record) -> Float[Array, "body time 3"]:
     """Centre (m) and rotation (rad, counter-clockwise) of every body."""
     places = record.geometry
-    moved = np.nan_to_num(np.stack([record["x"], record["y"]], axis=-1)) + places["centre"]
-    turned = places["sense"] * record["angle"]
+    moved = np.stack([record.over_bodies("x"), record.over_bodies("y")], axis=-1)
+    moved = np.nan_to_num(moved) + places["centre"]
+    turned = places["sense"] * record.over_bodies("angle")
     for body, carrier in enumerate(carriers(record)):
         if carrier >= 0:
             frame = places["carried"][body] * record["reference_angle"]
@@ -111,7 +113,7 @@ def shifts(record: Record) -> Float[Array, "gear 2"]:
     if not np.any(carriers(record) >= 0) or len(set(planes.tolist())) == 1:
         return shift
     x, _, radius = reaches(record).T
-    for plane in dict.fromkeys(int(planes[int(gear)]) for gear in places["driver_gear"]):
+    for plane in dict.fromkeys(int(planes[int(gear)]) for gear in np.atleast_1d(places["driver_gear"])):
         of_plane = planes == plane
         low, high = np.min((x - radius)[of_plane]), np.max((x + radius)[of_plane])
         right = low if right is None else right
@@ -174,36 +176,37 @@ def contacts(record: Record, displaced: bool = True) -> Float[Array, "time mesh 
     """
     places = record.geometry
     mirrored = np.where(np.array(record.pairs) > 1, -1.0, 1.0)  # of back flanks, about the line of centres
-    points = np.full((*record["normal_load"].shape, 3), np.nan)
+    load = record.over_meshes("normal_load")
+    points = np.full((*load.shape, 3), np.nan)
     shift_of, stand = shifts(record), poses(record)
-    for m, mesh in enumerate(record["mesh"]):
+    for m, mesh in enumerate(record.meshes):
         along, across = (np.array(direction) for direction in _frame(record, m))
         body = driver_of(record, m)
         pitch_point = record.of_mesh(mesh, "geometry")["pinion_pitch_radius"] * across
-        angle = record["pressure_angle"][:, m]
+        angle = record.over_meshes("pressure_angle")[:, m]
         normal = (mirrored * np.cos(angle))[..., None] * along + np.sin(angle)[..., None] * across
         turned = mesh_turns(record, m)
         centre = _carried(places["centre"][body], _axis(record, m), turned)
         if displaced:
             rolled = 2.0 * np.pi / record.of_mesh(mesh, "mesh_cycle")["pinion_teeth"] * _sense(record, m)
-            turned = stand[body, :, 2] - rolled * (record["mesh_phase"][:, m] - places["phase"][m])
+            turned = stand[body, :, 2] - rolled * (mesh_phases(record)[:, m] - place_of(record, "phase", m))
             centre = stand[body, :, :2]
         turned = turned[:, None]
-        contact = pitch_point + record["signed_distance"][:, m, :, None] * normal
+        contact = pitch_point + record.over_meshes("signed_distance")[:, m, :, None] * normal
         points[:, m, :, :2] = _carried(contact, np.zeros(2), turned) + centre[:, None]
-        points[:, m, :, :2] += shift_of[int(places["driver_gear"][m])]
+        points[:, m, :, :2] += shift_of[int(place_of(record, "driver_gear", m))]
         points[:, m, :, 2] = np.arctan2(normal[..., 1], normal[..., 0]) + turned
-    return np.where(record["normal_load"][..., None] > 0.0, points, np.nan)
+    return np.where(load[..., None] > 0.0, points, np.nan)
 
 
 def _frame(record: Record, m: int) -> tuple[tuple[float, float], tuple[float, float]]:
     """Directions along and across of a mesh, while its carrier has not turned."""
-    return frame_of(float(record.geometry["azimuth"][m]), _sense(record, m))
+    return frame_of(place_of(record, "azimuth", m), _sense(record, m))
 
 
 def _sense(record: Record, m: int) -> int:
     """Sense in which the driver of a mesh turns; the other one of an internal gear."""
-    radius = record.of_mesh(record["mesh"][m], "geometry")["pinion_pitch_radius"]
+    radius = record.of_mesh(record.meshes[m], "geometry")["pinion_pitch_radius"]
     return int(record.geometry["sense"][driver_of(record, m)] * np.sign(radius))
 
 
@@ -213,9 +216,12 @@ def mesh_reach(record: Record, m: int, turned: float = 0.0) -> tuple[tuple[float
     `turned` is the angle of its carrier, rad.
     """
     places = record.geometry
-    shape = record.of_mesh(record["mesh"][m], "geometry")
+    shape = record.of_mesh(record.meshes[m], "geometry")
     point = places["centre"][driver_of(record, m)] + shape["pinion_pitch_radius"] * np.array(
         _frame(record, m)[1]
     )
-    x, y = _carried(point, _axis(record, m), np.array(turned)) + shifts(record)[int(places["driver_gear"][m])]
+    x, y = (
+        _carried(point, _axis(record, m), np.array(turned))
+        + shifts(record)[int(place_of(record, "driver_gear", m))]
+    )
     return (float(x), float(y)), 1.8 * float(np.abs(shape["path_of_contact"]).max())

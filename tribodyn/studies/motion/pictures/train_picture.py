@@ -14,7 +14,7 @@ from tribodyn.post.figures.gears_in_mesh import GEAR_FILL, MILLIMETRE, PINION_FI
 from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.drivetrain.carried_sets import mesh_labels, sets_of
+from tribodyn.studies.motion.drivetrain.carried_sets import mesh_labels, place_of, sets_of
 from tribodyn.studies.motion.drivetrain.gear_positions import (
     GearOutline,
     axes_of,
@@ -40,7 +40,7 @@ def draw_train(axes: Axes, record: Record, sample: int, mesh: int | None = None)
     planetary sets stand beside each other.
     """
     of_mesh = (
-        {int(record.geometry[f"{end}_gear"][mesh]) for end in ("driver", "driven")}
+        {int(place_of(record, f"{end}_gear", mesh)) for end in ("driver", "driven")}
         if mesh is not None
         else set()
     )
@@ -117,7 +117,7 @@ def draw_mesh(axes: Axes, record: Record, m: int, sample: int) -> None:
     """Draw the teeth in a mesh at a sample, with arrows for the loads on the driven gear."""
     draw_train(axes, record, sample, m)
     (x, y), reach = mesh_reach(record, m, float(mesh_turns(record, m)[sample]))
-    places, load = contacts(record)[sample, m], record["normal_load"][:, m]
+    places, load = contacts(record)[sample, m], record.over_meshes("normal_load")[:, m]
     for pair, (left, low, way) in enumerate(places):
         if not np.isfinite(left):
             continue
@@ -151,6 +151,6 @@ def train_figure(records: Sequence[Record], view: View) -> Figure:
     for number, m in enumerate(meshes):
         axes = figure.add_subplot(grid[1 + number // columns, number % columns])
         draw_mesh(axes, record, m, sample)
-        mark_panel(axes, chr(ord("b") + number), literal(str(record["mesh"][m])))
+        mark_panel(axes, chr(ord("b") + number), literal(record.meshes[m]))
     figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)
     return figure
