@@ -15,7 +15,6 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from tools.by_schema.keys import Inside, SchemaKey
-from tribodyn.geometry.families import FAMILIES
 from tribodyn.input import units
 from tribodyn.input.quantity import Column, Columns, CurveTable, InUnit, Names, Reference
 from tribodyn.input.resolve import resolve_table
@@ -117,12 +116,6 @@ def law_and_keys(random: Random, table: type[LawTable], law: str) -> dict[str, A
         if (own.default is None and not own.optional) or random.random() < 0.5
     ]
     return {"law": law, **{own.name: own_value(random, own) for own in keys}}
-
-
-def family_and_keys(random: Random, family: str) -> dict[str, Any]:
-    """Draw what a family of teeth needs, and by chance what it may have."""
-    keys = FAMILIES[family].parameters
-    return {own.name: own_value(random, own) for own in keys if not own.optional or random.random() < 0.5}
 
 
 def near(random: Random, value: Any) -> Any:

@@ -1,6 +1,5 @@
 """What is drawn: an input for one of the targets, from a seed and a number."""
 
-import tomllib
 from collections.abc import Sequence
 from functools import cache
 from random import Random
@@ -16,7 +15,6 @@ from tools.fuzz.records import FIXTURES, RUNS
 from tribodyn.input.quantity import Reference
 from tribodyn.input.schema import EACH, parts_of
 from tribodyn.input.sources import shipped
-from tribodyn.studies import study_of
 
 #: Targets and how often each is drawn.
 SHARES = {
@@ -238,9 +236,3 @@ def _run(random: Random) -> Input:
 def _cache(random: Random) -> Input:
     base = random.choice(("kernel", "gear", "table"))
     return Input("cache", base, random.randbytes(16))
-
-
-@cache
-def kind_of(name: str) -> str:
-    """Kind of a shipped scenario."""
-    return study_of(tomllib.loads(scenarios()[name].decode())).kind

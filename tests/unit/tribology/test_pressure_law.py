@@ -17,7 +17,6 @@ from tribodyn.tribology.pressure_law import (
     with_coefficient,
 )
 
-CELSIUS = 273.15
 NAMES = list(MEASURED)
 
 

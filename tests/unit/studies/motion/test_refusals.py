@@ -11,7 +11,6 @@ from tests.support.train_scenarios import REDUCER, train_case
 from tribodyn.errors import InputErrors
 
 GEAR = {"teeth": 31, "face_width": "40 mm"}
-BEARING = {"stiffness_x": "1e9 N/m", "stiffness_y": "1e9 N/m", "damping_ratio": 0.1}
 STAGE = {"module": "4 mm", "pressure_angle": "20 deg"}
 
 

@@ -46,7 +46,6 @@ GROUND = "ground"
 
 Backlash = Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.1 mm")]
 Azimuth = Annotated[float, InUnit(units.ANGLE_KIND, "30 deg")]
-NotNegativeMass = Annotated[float, InUnit(units.not_negative(units.MASS))]
 SpringStiffness = Annotated[float, InUnit(units.not_negative(units.STIFFNESS))]
 Damping = Annotated[float, InUnit(units.not_negative(units.DAMPING))]
 
