@@ -14,6 +14,7 @@ from tests.support.durations import Durations, add_options
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.relative import approx, assert_allclose
 from tests.support.short_studies import ShortRuns
+from tests.support.soak_parameters import is_in_soak
 from tribodyn.numerics.files.cache import trusted_folder
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.protocol.load import load_scenario
@@ -58,7 +59,10 @@ def pytest_collection_finish() -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what is marked soak, unless `-m` names it."""
+    """Mark what the list of soak names; leave out what is marked so, unless `-m` names it."""
+    for item in items:
+        if is_in_soak(item.nodeid):
+            item.add_marker(pytest.mark.soak)
     if "soak" in (config.getoption("markexpr") or ""):
         return
     config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("soak")])

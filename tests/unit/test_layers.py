@@ -13,6 +13,7 @@ import pytest
 
 import tribodyn
 from tests.support.durations import files_of_tests
+from tests.support.soak_parameters import in_soak
 from tools.package_shape import ROOT_FILES, by_file, by_folder, circles, folder, imports, lines, modules
 from tribodyn.studies import STUDIES
 
@@ -262,6 +263,12 @@ def test_every_file_of_tests_is_in_the_order():
     """`pytest FILE --measure-durations` adds a new one, and takes out what is gone."""
     listed = json.loads((TESTS / "durations.json").read_text(encoding="utf-8"))["files"]
     assert sorted(listed) == files_of_tests()
+
+
+def test_the_list_of_soak_names_tests_that_there_are():
+    for name in sorted(in_soak()):
+        file, _, test = name.partition("[")[0].partition("::")
+        assert f"\ndef {test}(" in (TESTS / file).read_text(encoding="utf-8"), name
 
 
 def test_nothing_lies_at_the_top_that_no_distribution_holds():
