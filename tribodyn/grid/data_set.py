@@ -19,7 +19,10 @@ from tribodyn.studies.sweeping.signals import RUN_IN, SignalRequest
 DAMAGE, SOUND = "damage", "none"
 #: Keys of a damage that say how large it is, the first that it has; keys of a drive, where no seed draws it.
 _SIZES = ("depth", "diameter", "length", "width")
-_OF_A_DRIVE = ("drive.", "bearings.", "gears.", "gear.", "shaft.", "mesh.")
+_OF_A_DRIVE = (
+    *("drive.", "bearings.", "gears.", "gear.", "shaft.", "mesh."),
+    *("stage.", "body.", "link.", "housing."),
+)
 _DURATION = units.positive(units.TIME)._replace(example="1 s")
 TRAIN, TEST = "train", "test"
 #: Share of the drives that are left for the test.

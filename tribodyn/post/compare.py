@@ -123,10 +123,10 @@ def _conditions(scenario: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             yield part, str(value["title"])
         if value is not None:
             yield from _flat(part, value)
-    for gear in ("pinion", "gear"):
-        modification = scenario.get("drive", {}).get(gear, {}).get("modification")
-        if modification is not None:
-            yield from _flat(f"drive.{gear}.modification", modification)
+    for part in ("drive", "gear"):
+        for gear, keys in scenario.get(part, {}).items():
+            if isinstance(keys, Mapping) and keys.get("modification") is not None:
+                yield from _flat(f"{part}.{gear}.modification", keys["modification"])
 
 
 def _flat(key: str, value: Any) -> Iterator[tuple[str, str]]:

@@ -13,18 +13,23 @@ import tomli_w
 import tribodyn as td
 from tests.support.soak_parameters import all_in_soak
 from tests.support.three_gearboxes import GEARBOXES, NETWORK, PLACES, SPALL, heard
+from tribodyn.grid.data_set import drives_of
 from tribodyn.grid.engines import LocalEngine
 from tribodyn.grid.grid import Grid
 from tribodyn.grid.run import run, settings_of
 from tribodyn.input.sources import find_scenario, read_toml
+from tribodyn.post.compare import compare
 from tribodyn.record.mesh_view import mesh_views
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.measured import beside, read_measured
+from tribodyn.studies.pages import study_of_record
 from tribodyn.studies.protocol.load import load_scenario
 
 SHORT = {"solver": {"cycles": 4}, "output": {"samples_per_cycle": 16}}
 OIL = 343.15  # K
+#: A gear of each, by its key.
+GEAR = {"pair": "drive.gear", "reducer": "gear.wheel-1", "planetary": "gear.sun"}
 ERROR = "transmission_error_rotational"
 #: Other tests have pairs; planetary sets take long.
 REDUCERS = all_in_soak(GEARBOXES, ("reducer",))
@@ -110,6 +115,21 @@ def test_data_sets_hold_sound_and_damaged_gears(gearbox: str, tmp_path: Path):
         assert not np.array_equal(sound, spalled)
 
 
+@pytest.mark.parametrize(
+    ("gearbox", "varied"),
+    [
+        ("pair", "drive.gear.profile_shift=0,0.1"),
+        ("reducer", "stage.1.azimuth=30,40deg"),
+        ("planetary", "stage.0.support_damping_ratio=0.04,0.05"),
+    ],
+)
+def test_drives_of_a_data_set_differ_by_what_they_are_made_of(gearbox: str, varied: str, tmp_path: Path):
+    load = f"operating.{PLACES[gearbox][-1]}=100,150N*m"
+    grid = Grid(str(written(tmp_path, gearbox)), [load, varied], {})
+    places = [np.ravel(axis) for axis in np.indices(grid.shape)]
+    assert drives_of(grid, places).tolist() == [0, 1, 0, 1]
+
+
 @pytest.mark.parametrize("gearbox", REDUCERS)
 def test_what_a_sensor_hears_gives_the_damping(gearbox: str, tmp_path: Path):
     sensor = next(each for each in heard(gearbox) if each["kind"] == "transmission-error")
@@ -153,10 +173,20 @@ def test_measured_flanks_of_a_gear_are_read(gearbox: str, tmp_path: Path):
     """One tooth lacks 5 µm: it differs in the meshes of its gear, and in no other."""
     rows = [f"3, {height}, {face}, 5" for height in (0, 1) for face in (-10, 10)]
     (tmp_path / "flanks.csv").write_text("\n".join(["tooth [1], height [1], face [mm], error [um]", *rows]))
-    gear = {"pair": "drive.gear", "reducer": "gear.wheel-1", "planetary": "gear.sun"}[gearbox]
-    errors = {f"{gear}.modification.tooth_errors": "flanks.csv"}
+    errors = {f"{GEAR[gearbox]}.modification.tooth_errors": "flanks.csv"}
     case = load_scenario(str(written(tmp_path, gearbox)), errors)
     differ = [any(pair.teeth) for pair in case.pairs]
     assert (
         differ == {"pair": [True], "reducer": [True, False], "planetary": [True] * 3 + [False] * 3}[gearbox]
     )
+
+
+@pytest.mark.parametrize("gearbox", REDUCERS)
+def test_a_comparison_names_what_the_flanks_of_a_gear_differ_by(gearbox: str, tmp_path: Path):
+    file = written(tmp_path, gearbox, solver={"cycles": 1})
+    key = f"{GEAR[gearbox]}.modification.tooth_formula"
+    errors = "3 * h", "5 * h"
+    paths = [td.run(file, {key: error}, output=tmp_path / f"{error[0]}.h5").path for error in errors]
+    with Record(paths[0]) as one, Record(paths[1]) as other:
+        found = compare([one, other], study_of_record(one).reported())
+    assert found.conditions[key] == errors
