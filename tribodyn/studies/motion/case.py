@@ -88,6 +88,15 @@ class LinkData:
     offset: tuple[float, float] = (0.0, 0.0)
     holds: bool = False  # whether it holds the first end against rotation
 
+    @classmethod
+    def of_bearing(
+        cls, name: str, key: str, ends: tuple[int, int], data: BearingData, **more: Any
+    ) -> "LinkData":
+        """A bearing, or a planet's pin: its springs in the plane, and what `more` says."""
+        stiffness = data.stiffness_x, data.stiffness_y, 0.0
+        damping_ratio = data.damping_ratio_x, data.damping_ratio_y, 0.0
+        return cls(name, key, ends, stiffness, (0.0, 0.0, 0.0), damping_ratio, **more)
+
 
 @dataclass(frozen=True)
 class TrainMesh:
@@ -150,6 +159,20 @@ class SourceData:
     shaft_stiffness: float | None = None  # between motor and body, N m/rad; None: rigid
     shaft_damping: float = 0.0  # N m s/rad
     speed_regulation: float = 0.0  # fall of the torque per speed above nominal, N m s/rad
+
+    @classmethod
+    def of(cls, operating: Any, body: int, speed: float, torque: float) -> "SourceData":
+        """By what a table [operating], or `OperatingData`, says of the drive."""
+        return cls(
+            operating.source,
+            body,
+            speed,
+            torque,
+            operating.drive_inertia,
+            operating.shaft_stiffness,
+            operating.shaft_damping,
+            operating.speed_regulation,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -91,17 +91,16 @@ def _gearbox(case: Case) -> Gearbox:
             )
             for number, side in enumerate(SIDES)
         ),
-        links=tuple(_bearing(number, side, case.bearings[number]) for number, side in enumerate(SIDES)),
+        links=tuple(
+            LinkData.of_bearing(f"bearing-{side}", f"bearings.{side}", (number, HOUSING), held, bearing=held)
+            for number, (side, held) in enumerate(zip(SIDES, case.bearings, strict=True))
+        ),
         meshes=(TrainMesh(MESH, "drive", 0, 1, (0, 1), UPWARD, Fraction(1), case),),
-        source=SourceData(
-            operating.source,
+        source=SourceData.of(
+            operating,
             0,
             operating.pinion_speed,
             operating.gear_torque * float(ratio) if torque is None else torque,
-            operating.drive_inertia,
-            operating.shaft_stiffness,
-            operating.shaft_damping,
-            operating.speed_regulation,
         ),
         loads=(
             LoadData(
@@ -119,17 +118,4 @@ def _gearbox(case: Case) -> Gearbox:
         sensors=case.sensors,
         housing=case.housing,
         named=False,
-    )
-
-
-def _bearing(body: int, name: str, data: BearingData) -> LinkData:
-    """What holds a gear."""
-    return LinkData(
-        name=f"bearing-{name}",
-        key=f"bearings.{name}",
-        ends=(body, HOUSING),
-        stiffness=(data.stiffness_x, data.stiffness_y, 0.0),
-        damping=(0.0, 0.0, 0.0),
-        damping_ratio=(data.damping_ratio_x, data.damping_ratio_y, 0.0),
-        bearing=data,
     )

@@ -26,15 +26,12 @@ def links_of_set(
         bearing = bearings[body]
         if bearing is None:
             continue
-        data = bearing_of(bearing)
         x, y = centre[new[body]] - centre[carrier]
-        yield LinkData(
+        yield LinkData.of_bearing(
             f"pin-{train.parts.bodies[body].name}",
             gearset.key,
             (new[body], carrier),
-            (data.stiffness_x, data.stiffness_y, 0.0),
-            (0.0, 0.0, 0.0),
-            (data.damping_ratio_x, data.damping_ratio_y, 0.0),
+            bearing_of(bearing),
             lever=(-sense * float(y), sense * float(x)),
             offset=pin_offset(stage, number),
         )

@@ -223,17 +223,8 @@ def _links(
         bearing = bearings[body]
         if (bearing is not None or number in held) and body not in without:
             data = held[number].data if number in held else bearing_of(cast(Bearing, bearing))
-            links.append(
-                LinkData(
-                    f"bearing-{train.parts.bodies[body].name}",
-                    "bearings",
-                    (number, HOUSING),
-                    (data.stiffness_x, data.stiffness_y, 0.0),
-                    (0.0, 0.0, 0.0),
-                    (data.damping_ratio_x, data.damping_ratio_y, 0.0),
-                    bearing=data,
-                )
-            )
+            name = f"bearing-{train.parts.bodies[body].name}"
+            links.append(LinkData.of_bearing(name, "bearings", (number, HOUSING), data, bearing=data))
     for gearset in train.parts.sets:
         links += links_of_set(gearset, train, placed, bearings)
     for link in train.parts.links:
@@ -289,14 +280,6 @@ def _meshes(
 
 
 def _source(scenario: Any, train: TrainKinematics, duty: TrainDuty) -> SourceData:
-    operating, torque = scenario.operating, motor_torque(scenario)
-    return SourceData(
-        operating.source,
-        train.motion.input,
-        duty.speed,
-        duty.torques.source if torque is None else torque,
-        operating.drive_inertia,
-        operating.shaft_stiffness,
-        operating.shaft_damping,
-        operating.speed_regulation,
-    )
+    torque = motor_torque(scenario)
+    torque = duty.torques.source if torque is None else torque
+    return SourceData.of(scenario.operating, train.motion.input, duty.speed, torque)
