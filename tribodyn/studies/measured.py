@@ -11,8 +11,7 @@ from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.input.sources import read_curve
 from tribodyn.input.units import ANGULAR_SPEED, Kind, NotAQuantity, factor_to_si
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
-from tribodyn.record.mesh_view import mesh_views
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import Record, mesh_views
 
 #: What a first column may be, besides the axis of the record.
 TIME, PHASE, ANGLE = "time", "mesh_phase", "pinion_angle"

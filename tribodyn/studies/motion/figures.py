@@ -22,8 +22,7 @@ from tribodyn.post.figures.panel import (
     record_title,
 )
 from tribodyn.post.figures.path_of_contact import path_figure
-from tribodyn.record.mesh_view import MeshView
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import MeshView, Record
 from tribodyn.studies.motion.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
 from tribodyn.studies.motion.drivetrain.carried_sets import (
     body_labels,

@@ -19,8 +19,7 @@ from tribodyn.grid.grid import Grid
 from tribodyn.grid.run import run, settings_of
 from tribodyn.input.sources import find_scenario, read_toml
 from tribodyn.post.compare import compare
-from tribodyn.record.mesh_view import mesh_views
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import Record, mesh_views
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.measured import beside, read_measured
 from tribodyn.studies.pages import study_of_record
