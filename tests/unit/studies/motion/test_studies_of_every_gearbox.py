@@ -76,6 +76,13 @@ def test_branches_are_followed_either_way(gearbox: str, tmp_path: Path):
         np.testing.assert_allclose(up[name], down[name], rtol=1e-6, err_msg=name)
 
 
+def up_with_what_lies_beyond(file: Path, speed: str) -> SweepRecord:
+    """A sweep up over a speed, with the unstable branches behind the ends of stable ones."""
+    grid, path = Grid(str(file), [f"operating.{speed}"], {}), file.with_suffix(".h5")
+    run(grid, settings_of(grid), LocalEngine(), path, directions=("up",), unstable=True)
+    return SweepRecord(path)
+
+
 @pytest.mark.soak
 def test_a_fold_is_that_of_the_pair_written_as_a_train(tmp_path: Path):
     """Contact is lost: the branch ends, and goes on unstably behind its end."""
@@ -89,16 +96,34 @@ def test_a_fold_is_that_of_the_pair_written_as_a_train(tmp_path: Path):
     for kind, table in (("pinion", data), ("input", train)):
         file = tmp_path / f"{kind}.toml"
         file.write_text(tomli_w.dumps(table | {"output": {"samples_per_cycle": 20}}), encoding="utf-8")
-        grid = Grid(str(file), [f"operating.{kind}_speed=440:490:25rad/s"], {})
-        path = tmp_path / f"{kind}.h5"
-        run(grid, settings_of(grid), LocalEngine(), path, directions=("up",), unstable=True)
-        records.append(SweepRecord(path))
+        records.append(up_with_what_lies_beyond(file, f"{kind}_speed=440:490:25rad/s"))
     one, other = records
     assert np.sum(one["end_kind"] > 0) == 1
     assert np.sum(np.isfinite(one["unstable_value"])) > 10
     for name in one:
-        if one.units(name) and one[name].dtype.kind in "fi" and name != "state":
+        if one[name].dtype.kind in "fi" and name != "state":
             np.testing.assert_allclose(other[name], one[name], rtol=1e-4, atol=1e-9, err_msg=name)
+
+
+@pytest.mark.soak
+def test_a_reducer_whose_teeth_part_has_an_unstable_motion_too(tmp_path: Path):
+    """At its lowest resonance the branch turns back, where the multiplier is 1."""
+    mesh = GEARBOXES["reducer"]["mesh"] | {"damping_ratio": 0.03}
+    file = written(tmp_path, "reducer", mesh=mesh, friction={"law": "none"})
+    found = up_with_what_lies_beyond(file, "input_speed=2000,2100rpm")
+    ((case, direction, end),) = np.argwhere(found["end_kind"] > 0)
+    assert found.meanings("end_kind")[int(found["end_kind"][case, direction, end])] == "fold"
+    values, error, modulus = (
+        found[f"unstable_{name}"][case, direction, end]
+        for name in ("value", "transmission_error_rms", "multiplier_modulus")
+    )
+    there = np.isfinite(values)
+    assert values[0] == pytest.approx(found["end_value"][case, direction, end], rel=1e-4)
+    assert np.all(np.diff(values[there]) < 0.0)  # back to lower speeds
+    assert np.all(modulus[there] > 1.0)
+    assert np.argmin(modulus[there]) == 0
+    assert np.all(np.diff(error[there]) > 0.0)
+    assert np.all(error[there] > found["transmission_error_rms"][0, direction])
 
 
 @pytest.mark.parametrize("gearbox", REDUCERS)
