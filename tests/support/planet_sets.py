@@ -21,6 +21,7 @@ samples_per_cycle = 60
 [assessment]
 speed_range = [0.5, 1.0]
 speeds = 2
+samples = 2
 """
 
 

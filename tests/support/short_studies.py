@@ -52,6 +52,7 @@ SHORT: dict[str, dict[str, Any]] = {
         "scenario.output.samples_per_cycle": 40,
         "scenario.friction.law": "xu",
         "assessment.speeds": 2,
+        "assessment.samples": 2,
     },
 }
 

@@ -10,6 +10,7 @@ import numpy as np
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, at_radii, at_wave_numbers
 from tribodyn.compliance.sharing.face_root_stress import root_stress
 from tribodyn.compliance.sharing.oblique_faces import oblique_faces
+from tribodyn.gears.rating.limits import least
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
@@ -167,7 +168,7 @@ def train_assessment_faults(record: Record) -> Iterator[str]:
     yield from _negative(record, "dynamic_factor", "power_friction_mean", "S_B", "S_lambda", missing=True)
     for name, mesh in summary["meshes"].items():
         for part in ("iso", "simulated"):
-            margins = {key: value for key, value in mesh.get(part, {}).items() if key.startswith("S_")}
+            margins = {key: least(value) for key, value in mesh.get(part, {}).items() if key.startswith("S_")}
             if not all(value >= 0.0 for value in margins.values()):
                 yield f"margins of {name}, {part}: {margins}"
 

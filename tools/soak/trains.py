@@ -65,5 +65,6 @@ def assessed(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
             "lubrication": draw.choice(("dip", "spray", "submerged")),
             "speed_range": [0.5, 1.5],
             "speeds": draw.choice((0, 2)),
+            "samples": draw.choice((0, 1)),
         },
     }

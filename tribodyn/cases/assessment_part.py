@@ -7,7 +7,7 @@ the tasks of every role and puts their answers together; it knows no study by na
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -18,9 +18,10 @@ class Request(NamedTuple):
     title: str
     #: tables ``drive``, ``lubricant``, ``bearings``, ``shaft``, ``mesh``, ``temperature`` and ``losses`` as a
     #: scenario has them, ``shaft`` and the last only where given; ``film`` that goes with the first friction
-    #: law, where it is not the law's own; ``oil_temperature``, a quantity as text; ``damping_ratio``
+    #: law, where it is not the law's own; ``oil_temperature``, a quantity as text; ``damping_ratio``. For
+    #: roles of the `GEARBOX` a scenario of it at the duty
     tables: Mapping[str, Any]
-    #: pinion_speed, gear_torque: rad/s and N m
+    #: pinion_speed, gear_torque: rad/s and N m; of a `GEARBOX` the speed of its input, and 0
     pinion_speed: float
     gear_torque: float
     torques: Sequence[float]  # over which the loaded error is asked for, N m, increasing
@@ -33,6 +34,8 @@ class Request(NamedTuple):
     samples: Sequence[Mapping[str, Any]]
     #: torques of the other duties of a load spectrum, N m, whose loads along the face are asked for
     spectrum_torques: Sequence[float] = ()
+    #: mesh cycles that are marched in place of steady states where none repeats; 0: they do
+    marched: int = 0
 
     def operating(self) -> dict[str, Any]:
         """Table ``operating`` of a scenario at the duty."""
@@ -73,6 +76,7 @@ class Task(NamedTuple):
     further: Callable[[Any], Sequence[Mapping[str, Any]]] | None = None
     arrays: Sequence[str] = ()  # names of arrays that are kept of every case beside the study's quantities
     needed: bool = True  # whether the assessment ends where this cannot be run
+    marched: int = 0  # mesh cycles that the cases are marched in place of their steady states; 0: those
 
 
 class TaskResult(NamedTuple):
@@ -112,6 +116,12 @@ class Findings(NamedTuple):
     #: loads of all pairs in steady motion at the duty, the pair that entered first in front: ``roll_angle``
     #: (position, pair), rad, and ``normal_load`` (cycle, position, pair), N
     motion: Mapping[str, Any] = MappingProxyType({})
+    #: values (speed,) and of meshes (speed, mesh) by name over the ``speed``, rad/s
+    over_speed: Mapping[str, np.ndarray] = MappingProxyType({})
+
+
+#: What a role is asked of: the teeth of a mesh, a pair of gears, or a gearbox of several meshes.
+TEETH, PAIR, GEARBOX = "teeth", "pair", "gearbox"
 
 
 class Contribution(NamedTuple):
@@ -122,8 +132,8 @@ class Contribution(NamedTuple):
     tasks: Callable[[Request], Sequence[Task]]  # request -> its tasks
     #: (Request, results of its tasks by name) -> Findings
     answer: Callable[[Request, Mapping[str, TaskResult]], Findings]
-    #: whether it is of the teeth of a mesh alone: then a train's assessment asks it of every mesh
-    of_teeth: bool = False
+    #: `TEETH`: an assessment of a pair asks it, and one of a train of every mesh; of the others one of both
+    of: Literal["teeth", "pair", "gearbox"] = PAIR
 
 
 class Meshing(NamedTuple):
@@ -141,6 +151,7 @@ class MeshAtDuty(NamedTuple):
     alike: str = ""  # what it shares with the meshes of a set's other planets; "": none
     stage: str = ""  # planetary stage that it belongs to; "": none
     meshing: tuple[Meshing, Meshing] = (Meshing(), Meshing())  # of driver and driven gear
+    distance: str = ""  # key of the centre distance of its two shafts, where the scenario gives it
 
 
 def shared_names(meshes: Sequence[MeshAtDuty]) -> list[str]:
@@ -153,8 +164,10 @@ class WholeDrive(NamedTuple):
     """What an assessment needs of a study whose cases have several meshes."""
 
     meshes: Callable[[Any], Sequence[MeshAtDuty]]  # of a case
-    #: (case, scenario as a file has it, factor) -> the scenario at that factor of its speed, torques the same
-    at_speed: Callable[[Any, Mapping[str, Any], float], dict[str, Any]]
+    #: (case, scenario as a file has it) -> the scenario whose input speed may vary, torques the same
+    at_torque: Callable[[Any, Mapping[str, Any]], dict[str, Any]]
+    #: case -> mesh cycles that are marched where no steady state repeats; 0: there is one
+    marched: Callable[[Any], int]
     speed: Callable[[Any], float]  # of the input of a case, rad/s
     #: (case, name of a mesh, of those of all planets, or "": the only one) -> the scenario of its pair of
     #: gears at its duty, as a file has it; raises InputError with the key "mesh" where there is no such mesh

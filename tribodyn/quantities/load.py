@@ -82,30 +82,21 @@ ASSESSMENT = (
     ).defined_as("Maximum of the same over all speeds of the assessment."),
     Quantity(
         "dynamic_factor_max_speed",
-        "Pinion speed of the maximum dynamic factor",
+        "Speed of the maximum dynamic factor",
         "rpm",
-        ".0f",
-        below="at a pinion speed of",
-    ).defined_as("Speed of the pinion at that maximum."),
-    Quantity("contact_loss_speed_from", "Contact is lost from", "rpm", ".0f").defined_as(
-        "Lowest speed of the pinion at which no pair carries load for part of the time."
+        ".4g",
+        below="at a speed of",
+    ).defined_as("Speed of the pinion, of a train of its input, at that maximum."),
+    Quantity("contact_loss_speed_from", "Contact is lost from", "rpm", ".4g").defined_as(
+        "Lowest speed of the pinion, of a train of its input, at which no pair of a mesh carries load for "
+        "part of the time."
     ),
     Quantity("centre_distance", "Centre distance", "mm", ".6g").defined_as("Of a sample of an assessment."),
     Quantity("input_speed", "Speed of the input", "rpm", ".5g").defined_as("Of the duty of a train."),
-    Quantity(
-        "dynamic_factor_max_input_speed",
-        "Input speed of the maximum dynamic factor",
-        "rpm",
-        ".4g",
-        below="at an input speed of",
-    ).defined_as("Speed of the train's input at that maximum."),
-    Quantity("contact_loss_input_speed_from", "Contact is lost from", "rpm", ".4g").defined_as(
-        "Lowest speed of the train's input, of those run, at which a mesh is without contact for a time."
-    ),
     Quantity("mesh_load_factor_max", "Maximum mesh load factor over the speeds", digits=".3f").defined_as(
-        "Maximum of all runs and planetary stages of an assessment."
+        "Maximum over all speeds and planetary stages of an assessment."
     ),
-    Quantity("contact_loss_speed_to", "Contact is lost up to", "rpm", ".0f").defined_as(
+    Quantity("contact_loss_speed_to", "Contact is lost up to", "rpm", ".4g").defined_as(
         "The highest of these speeds."
     ),
     Quantity("specific_film_min", "Minimum specific film", digits=".3g", symbol="λ_GF").defined_as(

@@ -95,6 +95,12 @@ def test_what_is_packed_once_stands_for_the_value(arguments):
     np.testing.assert_array_equal(out, expected)
 
 
+def test_truths_of_numpy_are_those_of_python(arguments):
+    outer, x, table, reverse, out = arguments
+    plain, of_numpy = (weigh(outer, x, table, truth, out) for truth in (bool(reverse), np.bool_(reverse)))
+    assert of_numpy == plain
+
+
 def test_other_values_are_refused():
     with pytest.raises(TypeError, match="not str"):
         half("1")

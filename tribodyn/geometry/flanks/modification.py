@@ -164,11 +164,11 @@ def broken_flank_rules(
     if rule:
         unmodified = shown_length(lead.unmodified)
         yield InputError(key + "lead_unmodified", unmodified, rule, "use less than the face width")
-    if flank.pitch_error and len(flank.pitch_error) != teeth:
+    if flank.pitch_error and len(flank.pitch_error) != abs(teeth):
         yield InputError(
             key + "pitch_errors",
             shown_count(len(flank.pitch_error)),
-            f"the gear has {teeth} teeth",
+            f"the gear has {abs(teeth)} teeth",
             "give one value per tooth",
         )
 

@@ -283,7 +283,7 @@ def packed(value: Any) -> PackedValue:
         table = np.array(value, dtype=np.int64)
         return PackedValue(INDICES, _int(table.ctypes.data), table)
     if isinstance(value, (bool, np.bool_)):
-        return PackedValue(BOOL, _int(value), value)
+        return PackedValue(BOOL, _int(bool(value)), value)
     if isinstance(value, (int, np.integer)):
         return PackedValue(INT, _int(value), value)
     if isinstance(value, FunctionType):

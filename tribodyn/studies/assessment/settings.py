@@ -1,16 +1,50 @@
 """What every assessment is asked beyond the duty."""
 
-from typing import Literal
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
+from pydantic import Field
+
+from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.gears.rating.settings import RatingTable
+from tribodyn.input.quantity import Positive, Text, written
+from tribodyn.studies.assessment.unknowns import UnknownsTable, broken_unknowns
+from tribodyn.tribology.friction import FRICTION_LAWS
+from tribodyn.tribology.law import AUTO
 
 
 class AssessedTable(RatingTable):
     """What is asked beyond the duty, and what the standards need to know."""
 
     ring_root: Literal["as-cut", "formula"] = "as-cut"
+    speed_range: tuple[Positive, Positive] = (0.2, 2.5)
+    speeds: Annotated[int, Field(strict=True, ge=0)] = 46
+    samples: Annotated[int, Field(strict=True, ge=0, le=1000)] = 16
+    seed: Annotated[int, Field(strict=True, ge=0, le=10**9)] = 1
+    unknowns: UnknownsTable = written({})
+    friction_laws: tuple[Text, ...] = Field((), max_length=10)
 
     @property
     def root_by_formula(self) -> bool:
         """Whether roots of internal gears are those of the standard's formula."""
         return self.ring_root == "formula"
+
+
+def broken_settings(settings: AssessedTable, damping_ratio: float | None, of: str) -> Iterator[InputError]:
+    """Go through the rules that the settings break; the mesh has a damping ratio `of` a key, or not one."""
+    if damping_ratio is not None:
+        yield from broken_unknowns(settings.unknowns, damping_ratio, of)
+    first, last = settings.speed_range
+    if not first < last:
+        rule = "the last speed must be above the first"
+        yield InputError("assessment.speed_range", f"[{first:g}, {last:g}]", rule, "write [0.2, 2.5]")
+    for name in settings.friction_laws:
+        if name == AUTO:
+            continue
+        if name not in FRICTION_LAWS:
+            yield unknown_name("assessment.friction_laws", name, FRICTION_LAWS, FRICTION_LAWS.what)
+            continue
+        needed = [key.name for key in FRICTION_LAWS[name].keys if key.default is None]
+        if name == "none" or needed:
+            rule = f"has keys of its own ({', '.join(needed)})" if needed else "has no losses"
+            yield InputError("assessment.friction_laws", quoted(name), rule, "leave it out")

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.cases.assessment_part import (
+    TEETH,
     Contribution,
     Findings,
     ReportCurve,
@@ -119,4 +120,4 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     return Findings(quantities, along, (curve,), scattered)
 
 
-ROLE = Contribution(1, "Loaded contact", tasks, answer, of_teeth=True)
+ROLE = Contribution(1, "Loaded contact", tasks, answer, of=TEETH)

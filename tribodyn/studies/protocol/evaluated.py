@@ -43,15 +43,23 @@ def evaluated_quantities(study: Study) -> dict[str, Quantity]:
     return quantities
 
 
-def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) -> list[dict[str, Any] | str]:
+def evaluated(
+    study: Study,
+    cases: Sequence[Any],
+    workers: int | None = None,
+    *,
+    marched: int = 0,
+    arrays: Sequence[str] = (),
+) -> list[dict[str, Any] | str]:
     """Work out the quantities of cases without a record; a text instead where one fails: why.
 
     A text among the cases is why one could not even be made. Cases of a study with a `batch` are steady
-    states, evaluated by so many threads; default: one per core.
+    states, or so many mesh cycles that are marched, evaluated by so many threads, default: one per core;
+    `arrays` are datasets of its rows that are kept, too.
     """
     batch = study.batch()
     if batch:
-        results = _together(study, batch, cases, workers)
+        results = _together(study, batch, cases, workers, marched or None, arrays)
     else:
         results = [alone(study, case, number) for number, case in enumerate(cases)]
     return [
@@ -75,16 +83,23 @@ def alone(study: Study, case: Any, number: int = 0) -> dict[str, Any] | str:
 
 
 def _together(
-    study: Study, batch: "Batch", cases: Sequence[Any], workers: int | None
+    study: Study,
+    batch: "Batch",
+    cases: Sequence[Any],
+    workers: int | None,
+    marched: int | None,
+    arrays: Sequence[str],
 ) -> list[dict[str, Any] | str]:
     valid = [case for case in cases if not isinstance(case, str)]
     if not valid:
         return list(cases)
     rows = batch.evaluate(
-        Chunk(np.arange(len(cases)), tuple(cases)), batch.settings(valid, None, "native"), workers
+        Chunk(np.arange(len(cases)), tuple(cases)), batch.settings(valid, marched, "native"), workers
     )
     return [
-        {name: float(rows[name][i]) for name in study.swept()} if status == DONE else str(rows["message"][i])
+        {name: float(rows[name][i]) for name in study.swept()} | {name: rows[name][i] for name in arrays}
+        if status == DONE
+        else str(rows["message"][i])
         for i, status in enumerate(rows["status"])
     ]
 

@@ -161,7 +161,8 @@ def _computed(study: Study, task: Task, folder: Path) -> TaskResult:
 def _varied(study: Study, task: Task) -> dict[str, Any]:
     """Quantities over the cases of a task, None where one fails, and why those failed."""
     keys, cases = _cases(task)
-    results = evaluated(study, cases)
+    batched = task.arrays if study.batch() else ()  # others have their arrays among their quantities
+    results = evaluated(study, cases, marched=task.marched, arrays=batched)
     return {
         "scenario": tomli_w.dumps(dict(task.scenario)),
         "cases": keys,
@@ -226,7 +227,8 @@ def _seal(task: Task, folder: Path) -> Path:
 
 def _origin(task: Task) -> str:
     """Digest of everything that the part of a task depends on."""
-    parts = [_first(task).sha256, [dict(case) for case in task.cases], list(task.arrays), computing_digest()]
+    varied = [dict(case) for case in task.cases], list(task.arrays), task.marched
+    parts = [_first(task).sha256, *varied, computing_digest()]
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
 
 

@@ -111,7 +111,7 @@ def test_a_load_spectrum_of_a_train_is_that_of_the_pair(pair: Any, tmp_path: Pat
         "title": "Stage",
         "kind": "train-assessment",
         "scenario": scenario,
-        "assessment": {**RATED, "speeds": 0},
+        "assessment": {**RATED, "speeds": 0, "samples": 0},
     }
     result = run(load_data(data, "stage").case, tmp_path / "stage.h5")
     found = result.summary["meshes"]["pinion-wheel"]["iso"]
@@ -167,7 +167,12 @@ def test_a_lightly_loaded_pair_lasts_without_end():
 
 def test_an_assessment_takes_any_gearbox(tmp_path: Path):
     """A train under the short name of the kind is assessed as one, and so it is from its record."""
-    data = {"title": "x", "kind": "assessment", "scenario": TRAIN, "assessment": {**RATED, "speeds": 0}}
+    data = {
+        "title": "x",
+        "kind": "assessment",
+        "scenario": TRAIN,
+        "assessment": {**RATED, "speeds": 0, "samples": 0},
+    }
     loaded = load_data(data, "x")
     assert (loaded.study.kind, loaded.case.kind) == ("train-assessment", "train-assessment")
     again = load_data(tomllib.loads(loaded.case.toml), "again")
@@ -192,7 +197,7 @@ def test_stresses_of_the_simulation_are_those_of_the_pair(tmp_path: Path):
     }
     for gear in spur["gear"].values():
         del gear["hand"]
-    asked = {"application_factor": 1.25, "speeds": 0}
+    asked = {"application_factor": 1.25, "speeds": 0, "samples": 0}
     data = {"title": "x", "kind": "train-assessment", "scenario": spur, "assessment": asked}
     found = run(load_data(data, "x").case, tmp_path / "x.h5").summary["meshes"]["pinion-wheel"]
     sides = {

@@ -15,8 +15,8 @@ from tribodyn.gears.motion.tooth_loads import ToothLoads, tooth_loads
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.limits import least
 from tribodyn.record.reader import MESHES, Record
-from tribodyn.studies.assessment.train.meshes import pairs_of
-from tribodyn.studies.assessment.train.run import name_at, tasks_of
+from tribodyn.studies.assessment.train.pairs import pairs_of
+from tribodyn.studies.assessment.train.run import tasks_of
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.tasks import case_of
 
@@ -62,33 +62,86 @@ def test_every_mesh_stands_by_the_standards_and_simulated(assessed: dict[str, An
         assert assessed["worst_of"][name] in meshes
 
 
-def test_other_speeds_have_the_same_torques(folder: Path, assessed: dict[str, Any]):
+def test_roots_bear_the_whole_load_in_slow_rotation_and_no_more_than_it_in_motion(
+    folder: Path, assessed: dict[str, Any]
+):
+    """In slow rotation two pairs still share where the root stress is largest, at speed one may bear all.
+
+    The standard has the whole load on one pair, at its outer point of single contact. Finite elements under
+    that load find its σ_F0, of the ring's notch, which Y_S overrates, 15 % less. σ_F of the standard stands
+    above it by K_Fα and K_v of the tolerance class, which the accurate teeth of the simulation do not have.
+    """
+    for group in ("set-sun", "set-ring"):
+        with Record(folder / "out" / "assessment-parts" / f"{group}-loaded-contact.h5") as record:
+            load, tension = record["normal_load"], record["root_tension"][..., 0]
+            turned = assessed[MESHES][f"{group}-1"]["driver"] == "ring"
+        share = load / np.sum(load, axis=1, keepdims=True)
+        mean = float(np.mean(np.sum(load, axis=1)))
+        for number, side in enumerate(("gear", "pinion") if turned else ("pinion", "gear")):
+            stress = np.where(share > 0.5, mean * tension[:, number] / np.maximum(load, 1e-9), 0.0)
+            alone = float(np.max(stress[share > 0.9]))
+            for name in (f"{group}-{planet}" for planet in (1, 2, 3)):
+                mesh = assessed[MESHES][name]
+                own, rated = mesh["simulated"], mesh["iso"]
+                internal = mesh["driven" if side == "gear" else "driver"] == "ring"
+                assert alone == pytest.approx(rated["sigma_F0"][side], rel=0.2 if internal else 0.07)
+                assert own[f"{side}_root_tension_max"] <= alone * (1.0 + 1e-9)
+                whole = float(np.max(stress)) * assessed["mesh_load_factor"]
+                assert own["sigma_F"][side] < own["K_v"] * whole
+
+
+def test_other_speeds_have_the_same_torques_and_the_duty_its_steady_state(
+    folder: Path, assessed: dict[str, Any]
+):
     with Record(folder / "out" / "assessment.h5") as record:
-        speeds = record["input_speed"]
+        speeds, power, factor = (
+            record[name] for name in ("input_speed", "power_friction_mean", "dynamic_factor")
+        )
     assert speeds == pytest.approx(np.array([0.5, 1.0]) * assessed["input_speed"])
-    loads = []
-    for name in ("duty", "speed-0.5"):
-        with Record(folder / "out" / "assessment-parts" / f"{name}.h5") as run:
-            loads.append(np.mean(run["driven_torque"][-60:], axis=0))
-    assert loads[1] == pytest.approx(loads[0], rel=5e-3)
+    # the same loads slide half as fast; oil at half the speed rubs up to twice as much
+    assert 0.4 * power[1] < power[0] < power[1]
+    assert factor[1] == pytest.approx(assessed["dynamic_factor"], rel=0.02)
 
 
 def test_a_power_is_held_as_a_torque():
-    """At half the speed half the power, whatever the scenario gives."""
+    """At half the speed half the power, whatever the scenario gives; a long common period is marched."""
     case = load_scenario("wind-turbine-gearbox-assessment", {"assessment.speed_range": [0.5, 0.75]})
     train = case.subject.case
-    for (_, task), factor in zip(tasks_of(case)[1:3], (0.5, 0.75), strict=True):
-        slower = case_of(task)
+    task = next(task for _, task in tasks_of(case) if task.name == "steady-states")
+    assert task.marched == train.solver.cycles
+    assert len(task.cases) == 3
+    for overrides, factor in zip(task.cases, (0.5, 0.75, 1.0), strict=True):
+        slower = case_of(task, overrides)
         assert slower.source.speed == pytest.approx(factor * train.source.speed)
         for own, at_duty in zip(slower.meshes, train.meshes, strict=True):
             assert own.pair.operating.gear_torque == pytest.approx(at_duty.pair.operating.gear_torque)
+
+
+def test_samples_of_a_train_are_its_worst_meshes(assessed: dict[str, Any]):
+    """Ranges of every mesh hold what its samples have, and of each sample the worst mesh counts."""
+    samples, meshes = assessed["by_sample"], assessed[MESHES]
+    assert set(samples) > {"bearing_stiffness_factor_default", "damping_ratio", "deviation_sample", "S_H"}
+    for name in ("S_H", "S_F", "S_B", "S_lambda"):
+        lowest = [
+            mesh[part]["spread"][name]["p5"]
+            for mesh in meshes.values()
+            for part in ("iso", "simulated")
+            if name in mesh[part].get("spread", {})
+        ]
+        assert np.percentile(samples[name], 5.0) <= min(lowest) * (1.0 + 1e-9)
+        assert np.percentile(samples[name], 95.0) <= assessed[f"{name}_spread"][2] * (1.0 + 1e-9)
+    # deviating teeth press harder than accurate ones: K_Hβ above 1 of external meshes, which tilt
+    for name, mesh in meshes.items():
+        assert mesh["iso"]["spread"]["K_Hbeta"]["p5"] >= 1.0, name
+    assert assessed["limits"]["dynamic_factor"]["samples"] == 2
+    assert assessed["sample_counts"]["samples"] == 2
 
 
 def test_what_exceeds_a_limit_is_named(assessed: dict[str, Any], folder: Path):
     assert not assessed["limits"]["dynamic_factor"]["kept"]
     assert assessed["limits"]["scuffing_flash"]["kept"]
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")
-    assert "Limits not kept: Dynamic factor K_v." in page
+    assert "Limits not kept with accurate teeth: Dynamic factor K_v." in page
     assert "set-ring" in page
 
 
@@ -140,11 +193,6 @@ def test_bad_input_is_one_message(changes: dict[str, Any], key: str, tmp_path: P
         load_scenario(tmp_path / "set.toml", changes)
     assert key in str(error.value)
     assert error.value.remedy
-
-
-def test_runs_at_speeds_that_are_near_have_names_of_their_own():
-    assert name_at(1.0015) != name_at(1.002)
-    assert name_at(0.5) == "speed-0.5"
 
 
 def test_a_ring_that_drives_is_pressed_as_by_its_planet():

@@ -11,7 +11,14 @@ from tests.support.short_studies import short_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.input.tables.supports.bearings import Bearing, bearing_of
-from tribodyn.studies.assessment.pair.unknowns import UnknownsTable, distances, drawn, stiffened
+from tribodyn.studies.assessment.unknowns import (
+    OF_PAIR,
+    UnknownsTable,
+    distances,
+    drawn,
+    ranges_of,
+    stiffened,
+)
 
 KIND, SAMPLES = "assessment", 16
 KNOWN: dict[str, Any] = {"deviations": False, "bearings": 1.0, "damping_ratio": [0.05, 0.05]}
@@ -27,17 +34,18 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 def test_the_same_seed_draws_the_same(case: Any):
-    first, again, other = (drawn(case, table(), 0.05, SAMPLES, seed) for seed in (3, 3, 4))
+    first, again, other = (drawn(ranges_of(case, table(), 0.05), SAMPLES, seed) for seed in (3, 3, 4))
     assert first == again
     assert [draw.bearings for draw in first] != [draw.bearings for draw in other]
     assert [draw.deviation for draw in first] == list(range(3, 3 + SAMPLES))
 
 
 def test_every_part_of_every_range_is_met_once(case: Any):
-    draws = drawn(case, table(bearings=4.0, damping_ratio=[0.02, 0.08]), 0.05, SAMPLES, 1)
+    varied = table(bearings=4.0, damping_ratio=[0.02, 0.08])
+    draws = drawn(ranges_of(case, varied, 0.05), SAMPLES, 1)
     shares = {
-        "pinion": [math.log(draw.bearings[0]) / math.log(16.0) + 0.5 for draw in draws],
-        "gear": [math.log(draw.bearings[1]) / math.log(16.0) + 0.5 for draw in draws],
+        "pinion": [math.log(draw.bearings["pinion"]) / math.log(16.0) + 0.5 for draw in draws],
+        "gear": [math.log(draw.bearings["gear"]) / math.log(16.0) + 0.5 for draw in draws],
         "damping": [math.log(draw.damping_ratio / 0.02) / math.log(4.0) for draw in draws],
     }
     for name, values in shares.items():
@@ -47,13 +55,14 @@ def test_every_part_of_every_range_is_met_once(case: Any):
 
 
 def test_what_is_known_is_not_varied(case: Any):
-    for draw in drawn(case, table(**KNOWN, centre_distance="0 um"), 0.05, SAMPLES, 1):
+    for draw in drawn(ranges_of(case, table(**KNOWN, centre_distance="0 um"), 0.05), SAMPLES, 1):
         assert draw.keys({}) == {"mesh.damping_ratio": 0.05}
         assert draw.of(case) is case
 
 
 def test_the_centre_distance_stays_where_the_teeth_do_not_jam(case: Any):
-    distances = [draw.centre_distance for draw in drawn(case, table(centre_distance="1 mm"), 0.05, 64, 1)]
+    draws = drawn(ranges_of(case, table(centre_distance="1 mm"), 0.05), 64, 1)
+    distances = [draw.distances[OF_PAIR] for draw in draws]
     tight = float(tight_centre_distance(case.drive))
     assert tight < min(distances) < tight + 0.1e-3
     assert 82.0e-3 < max(distances) < 82.1e-3
@@ -62,14 +71,8 @@ def test_the_centre_distance_stays_where_the_teeth_do_not_jam(case: Any):
 def test_a_drive_without_a_centre_distance_has_no_other(tmp_path: Path):
     # rack shifts of the short drive are zero: 81 mm is the mesh without backlash
     bare = short_case(KIND, tmp_path)
-    alone = drawn(
-        bare.__class__(**{**vars(bare), "drive": bare.drive._replace(centre_distance=None)}),
-        table(),
-        0.05,
-        2,
-        1,
-    )
-    assert [draw.centre_distance for draw in alone] == [None, None]
+    alone = bare.__class__(**{**vars(bare), "drive": bare.drive._replace(centre_distance=None)})
+    assert not ranges_of(alone, table(), 0.05).distances
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ import pytest
 
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies import STUDIES
-from tribodyn.studies.assessment.pair.unknowns import UnknownsTable, drawn
-from tribodyn.studies.motion.pair.resonances import HARMONICS, error_harmonics, resonance_speeds
+from tribodyn.studies.assessment.unknowns import UnknownsTable, drawn, ranges_of
 from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.resonances import HARMONICS, error_harmonics, resonance_speeds
 from tribodyn.studies.protocol.evaluated import evaluated
 from tribodyn.studies.protocol.load import load_scenario
 
@@ -78,7 +78,7 @@ def test_bearings_less_known_widen_the_range_of_vibration():
     def width(factor: float) -> float:
         keys = {"deviations": False, "bearings": factor, "damping_ratio": [0.05, 0.05]}
         most = []
-        for draw in drawn(case, UnknownsTable.model_validate(keys), 0.05, 6, 1):
+        for draw in drawn(ranges_of(case, UnknownsTable.model_validate(keys), 0.05), 6, 1):
             given = {"bearings": bearings, **draw.keys(bearings)}
             speeds = resonance_speeds(load_scenario(NAME, given), (150.0, 600.0), 1)
             at = [load_scenario(NAME, given | {"operating.pinion_speed": f"{speeds[0]} rad/s"})]

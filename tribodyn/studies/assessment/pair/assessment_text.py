@@ -13,7 +13,7 @@ from tribodyn.record.reader import Record
 from tribodyn.studies.assessment.pair import parts
 from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.assessment.pair.parts import Part
-from tribodyn.studies.assessment.pair.unknowns import described
+from tribodyn.studies.assessment.unknowns import described, ranges_of
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.oil import oil_values
 
@@ -58,7 +58,7 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     sentences += bearing_remarks(shafts_of_pair(case), case.lubricant)
     scatter = ""
     if settings.samples:
-        varied = described(case, settings.unknowns, settings.damping_ratio)
+        varied = described(ranges_of(case, settings.unknowns, settings.damping_ratio))
         scatter = f"; its scatter is over {settings.samples} samples of {varied}"
     sentences.append(
         "The simulation has accurate teeth but for modifications and misalignment of the scenario and its "

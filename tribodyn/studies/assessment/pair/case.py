@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 from pydantic import Field
 
@@ -10,10 +10,9 @@ from tribodyn.cases import cost
 from tribodyn.gears.case import GearCase, LubricatedCase, OiledCase
 from tribodyn.gears.prepare import with_chosen_laws
 from tribodyn.geometry.body import GEOMETRY
-from tribodyn.input.quantity import NotNegative, Positive, Text, written
+from tribodyn.input.quantity import NotNegative, Positive, Text
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.studies.assessment.pair.unknowns import UnknownsTable
 from tribodyn.studies.assessment.settings import AssessedTable
 from tribodyn.tribology.law import AUTO, FrictionData
 
@@ -44,11 +43,6 @@ class AssessmentTable(AssessedTable):
 
     standard: Literal["iso", "agma"] = "iso"
     torque_shares: tuple[Positive, ...] = Field((0.25, 0.5, 0.75, 1.0, 1.25), min_length=2, max_length=50)
-    speed_range: tuple[Positive, Positive] = (0.2, 2.5)
-    speeds: Annotated[int, Field(strict=True, ge=8)] = 46
-    samples: Annotated[int, Field(strict=True, ge=0, le=1000)] = 16
-    seed: Annotated[int, Field(strict=True, ge=0, le=10**9)] = 1
-    unknowns: UnknownsTable = written({})
     friction_laws: tuple[Text, ...] = Field(
         (AUTO, "masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),
         min_length=1,

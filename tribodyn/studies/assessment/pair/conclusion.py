@@ -19,7 +19,7 @@ from tribodyn.studies.assessment.pair.margins import (
     simulated_part,
 )
 from tribodyn.studies.assessment.pair.reasons import compared
-from tribodyn.studies.assessment.pair.scatter import Conclusion
+from tribodyn.studies.assessment.scatter import Conclusion
 
 
 class ByStandard(NamedTuple):

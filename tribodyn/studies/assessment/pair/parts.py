@@ -1,19 +1,28 @@
 """The studies that take part in the assessment of a pair of gears, and what it asks of them."""
 
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.cases.assessment_part import Contribution, Findings, Request, Task, TaskResult
+from tribodyn.cases.assessment_part import (
+    PAIR,
+    TEETH,
+    Contribution,
+    Findings,
+    Request,
+    Task,
+    TaskResult,
+)
 from tribodyn.gears.by_standard import base_pitch_deviation, running_in_of
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import reference_radius
 from tribodyn.geometry.families import family
 from tribodyn.studies import STUDIES
 from tribodyn.studies.assessment.pair.case import AssessmentCase
-from tribodyn.studies.assessment.pair.unknowns import Draw, drawn
+from tribodyn.studies.assessment.settings import AssessedTable
+from tribodyn.studies.assessment.unknowns import Draw, drawn, ranges_of
 from tribodyn.studies.protocol.study import Study
 from tribodyn.tribology.law import AUTO
 
@@ -30,8 +39,6 @@ class Part(NamedTuple):
 def request_of(case: AssessmentCase) -> Request:
     """What a case asks the studies."""
     data, settings = tomllib.loads(case.toml), case.settings
-    first, last = settings.speed_range
-    speeds = np.linspace(first, last, settings.speeds) * case.operating.pinion_speed
     names = ("drive", "lubricant", "bearings", "shaft", "mesh", "losses")
     tables = {name: data[name] for name in names if name in data}
     tables |= {
@@ -55,12 +62,18 @@ def request_of(case: AssessmentCase) -> Request:
         case.operating.pinion_speed,
         case.operating.gear_torque,
         tuple(case.operating.gear_torque * share for share in settings.torque_shares),
-        tuple(sorted({*map(float, speeds), case.operating.pinion_speed})),
+        speeds_of(settings, case.operating.pinion_speed),
         tuple(dict.fromkeys((first, *(name for name in settings.friction_laws[1:] if name != AUTO)))),
         pitch_deviation,
         tuple(draw.keys(tables["bearings"]) for draw in draws_of(case)),
         () if settings.face_load_factor else other_torques(case),
     )
+
+
+def speeds_of(settings: AssessedTable, duty: float) -> tuple[float, ...]:
+    """Speeds of the steady states, rad/s, increasing; that of the duty is one of them."""
+    speeds = np.linspace(*settings.speed_range, settings.speeds) * duty
+    return tuple(sorted({*map(float, speeds), duty}))
 
 
 def other_torques(case: AssessmentCase) -> tuple[float, ...]:
@@ -79,16 +92,16 @@ def faces_of(case: AssessmentCase, quantities: Mapping[str, Any]) -> list[float]
 def draws_of(case: AssessmentCase) -> list[Draw]:
     """Samples of what is not known of a case."""
     settings = case.settings
-    return drawn(case, settings.unknowns, settings.damping_ratio, settings.samples, settings.seed)
+    return drawn(ranges_of(case, settings.unknowns, settings.damping_ratio), settings.samples, settings.seed)
 
 
-def parts(request: Request, of_teeth: bool = False) -> tuple[Part, ...]:
-    """Studies of the registry that take part, in order, with their tasks; those `of_teeth` alone, or all."""
+def parts(request: Request, of: Collection[str] = (TEETH, PAIR)) -> tuple[Part, ...]:
+    """Studies of the registry that take part in what is assessed, in order, with their tasks."""
     roles = [(study, role) for _, study in STUDIES.items() if (role := study.role()) is not None]
     return tuple(
         Part(study, role, tuple(role.tasks(request)), request)
         for study, role in sorted(roles, key=lambda pair: pair[1].order)
-        if role.of_teeth or not of_teeth
+        if role.of in of
     )
 
 

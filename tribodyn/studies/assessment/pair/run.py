@@ -2,7 +2,6 @@
 
 import tomllib
 from collections.abc import Collection, Mapping
-from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -32,7 +31,8 @@ from tribodyn.studies.assessment.pair.assessment_text import assumed, extrapolat
 from tribodyn.studies.assessment.pair.case import LAYOUT, AssessmentCase
 from tribodyn.studies.assessment.pair.conclusion import by_standard, concluded
 from tribodyn.studies.assessment.pair.margins import LocalValues
-from tribodyn.studies.assessment.pair.scatter import put_in, samples_of
+from tribodyn.studies.assessment.scatter import Conclusion, put_in, samples_of
+from tribodyn.studies.assessment.unknowns import Draw
 from tribodyn.studies.drive_file import sheet_of
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.scratch import scratch
@@ -157,8 +157,11 @@ def assessed(
         **outcome.judged,
     }
     if rows:
-        like = partial(concluded, accurate=outcome)
-        samples = samples_of(case, parts.draws_of(case), rows, (along, quantities), like)
+
+        def like(draw: Draw, path: Mapping[str, Any], found: Mapping[str, Any]) -> Conclusion:
+            return concluded(draw.of(case), path, found, accurate=outcome)
+
+        samples = samples_of(parts.draws_of(case), rows, (along, quantities), like)
         summary = put_in(summary, samples)
     summary |= {
         "assumed": numbered(assumed(case, standard is not None)),

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated, ClassVar, Literal
 
-from tribodyn.errors import InputError, unknown_name
+from tribodyn.errors import InputError
 from tribodyn.gears.rating.american import broken_agma
 from tribodyn.gears.rating.capacity import required
 from tribodyn.gears.rating.limits import OilLimits, Pressure
@@ -30,9 +30,7 @@ from tribodyn.input.tables.losses import LossesTable, TemperatureTable
 from tribodyn.input.tables.oil.lubricant import lubricant_of
 from tribodyn.input.tables.supports.bearings import Bearings
 from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.assessment.pair.unknowns import broken_unknowns
-from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import AUTO
+from tribodyn.studies.assessment.settings import broken_settings
 
 Length = Annotated[float, InUnit(units.positive(units.LENGTH), "5 um")]
 
@@ -135,18 +133,4 @@ def _broken_settings(scenario: Scenario) -> Iterator[InputError]:
             yield InputError(
                 "assessment.torque_shares", f"{higher:g}", rule, "write them in increasing order"
             )
-    yield from broken_unknowns(settings.unknowns, settings.damping_ratio, "assessment.unknowns")
-    first, last = settings.speed_range
-    if not first < last:
-        rule = "the last speed must be above the first"
-        yield InputError("assessment.speed_range", f"[{first:g}, {last:g}]", rule, "write [0.2, 2.5]")
-    for name in settings.friction_laws:
-        if name == AUTO:
-            continue
-        if name not in FRICTION_LAWS:
-            yield unknown_name("assessment.friction_laws", name, FRICTION_LAWS, FRICTION_LAWS.what)
-            continue
-        needed = [key.name for key in FRICTION_LAWS[name].keys if key.default is None]
-        if name == "none" or needed:
-            rule = f"has keys of its own ({', '.join(needed)})" if needed else "has no losses"
-            yield InputError("assessment.friction_laws", f'"{name}"', rule, "leave it out")
+    yield from broken_settings(settings, settings.damping_ratio, "assessment.damping_ratio")

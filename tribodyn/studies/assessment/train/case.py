@@ -2,14 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 from pydantic import Field
 
 from tribodyn.cases import cost
 from tribodyn.cases.assessment_part import WholeDrive
 from tribodyn.gears.rating.settings import AtLeastOne
-from tribodyn.input.quantity import Positive, Text
+from tribodyn.input.quantity import Text
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.assessment.settings import AssessedTable
@@ -27,8 +27,6 @@ SAMPLES: dict[str, Variable] = {
     "power_friction_mean": Variable(_ALONG, "W", "mean power of tooth friction in all meshes"),
     "hertz_pressure_max": Variable(_ALONG, "Pa", "largest Hertz pressure of all meshes"),
     "film_parameter_min": Variable(_ALONG, "1", "smallest film over roughness of all meshes"),
-    "S_B": Variable(_ALONG, "1", "smallest safety against scuffing of all meshes, simulated"),
-    "S_lambda": Variable(_ALONG, "1", "smallest safety against micropitting of all meshes, simulated"),
 }
 
 LAYOUT = Layout(SPEED, SAMPLES)
@@ -43,10 +41,6 @@ class TrainRatingTable(AssessedTable):
     """What is asked beyond the duty, and what the standards need to know of every mesh."""
 
     face_load_factors: dict[Text, AtLeastOne] = Field({})
-    mesh_load_factor: AtLeastOne | None = None
-    speed_range: tuple[Positive, Positive] = (0.5, 1.25)
-    speeds: Annotated[int, Field(strict=True, ge=0, le=200)] = 4
-    friction_laws: tuple[Text, ...] = Field((), max_length=10)
 
     def face_of(self, mesh: str) -> float | None:
         """K_Hβ of a mesh: by the longest name that it has or begins with, else that of all, where given."""
@@ -71,10 +65,19 @@ class TrainAssessmentCase(CaseHead):
 
 
 def estimate(case: TrainAssessmentCase) -> cost.Estimate:
-    """What a run of a case takes: that of the train, as often as it runs."""
+    """What a run of a case takes: that of the train by every friction law, and steady states."""
     settings = case.settings
-    runs = 1 + settings.speeds + len(settings.friction_laws)
+    runs = 1 + len(settings.friction_laws)
     one = case.subject.study.estimate(case.subject.case)
-    drivers = (cost.CostKey("assessment.speeds", settings.speeds, 4),)
-    whole = one._replace(record=runs * one.record, seconds=runs * one.seconds)
-    return whole._replace(drivers=(*whole.drivers, *drivers))
+    meshes = len(case.whole.meshes(case.subject.case))
+    steady = cost.steady_states(float(meshes * settings.speeds), 0.0, float(meshes * settings.samples))
+    drivers = (
+        cost.CostKey("assessment.speeds", settings.speeds, 46),
+        cost.CostKey("assessment.samples", settings.samples, 16),
+    )
+    return one._replace(
+        memory=one.memory + steady.memory,
+        record=runs * one.record,
+        seconds=runs * one.seconds + steady.seconds,
+        drivers=(*one.drivers, *drivers),
+    )

@@ -119,10 +119,10 @@ def _asked(case: TrainAssessmentCase, summary: Mapping[str, Any]) -> str:
 
 
 def _tiles(summary: Mapping[str, Any]) -> str:
-    lost = summary.get("contact_loss_input_speed_from")
+    lost = summary.get("contact_loss_speed_from")
     highest = ""
     if "dynamic_factor_max" in summary:
-        at = summary["dynamic_factor_max_input_speed"] * _RPM
+        at = summary["dynamic_factor_max_speed"] * _RPM
         highest = f"; up to {summary['dynamic_factor_max']:.2f} at {at:.4g} rpm"
     spread = ""
     if "efficiency_lowest" in summary:
@@ -153,7 +153,7 @@ def _tiles(summary: Mapping[str, Any]) -> str:
             )
         )
     shown.append(
-        ("none", "loss of contact at the speeds run")
+        ("none", "loss of contact at these speeds")
         if lost is None
         else (f"{lost * _RPM:.4g} rpm", "contact is lost from this input speed")
     )

@@ -19,8 +19,8 @@ REPORTED: Reported = {
     "Train": quantities("train_ratio", "input_speed", "power_in_mean", "power_friction_mean", "efficiency"),
     "Other friction laws": quantities("efficiency_lowest", "efficiency_highest"),
     "Vibration": quantities(
-        *("dynamic_factor", "dynamic_factor_max", "dynamic_factor_max_input_speed"),
-        *("contact_loss_input_speed_from", "normal_load_max"),
+        *("dynamic_factor", "dynamic_factor_max", "dynamic_factor_max_speed"),
+        *("contact_loss_speed_from", "normal_load_max"),
     ),
     "Planets": quantities("mesh_load_factor", "mesh_load_factor_max", "planet_load_factor_max"),
     "Film": quantities("film_min", "film_parameter_min", "hertz_pressure_max", "contact_temperature_max"),
@@ -157,13 +157,13 @@ def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
     if "dynamic_factor" in values:
         text = f"Vibration raises the tooth forces to at most {values['dynamic_factor']:.2f} times their mean"
         if (highest := values.get("dynamic_factor_max", 0.0)) > values["dynamic_factor"]:
-            at = with_unit("dynamic_factor_max_input_speed", values["dynamic_factor_max_input_speed"])
+            at = with_unit("dynamic_factor_max_speed", values["dynamic_factor_max_speed"])
             text += f", to {highest:.2f} times at {at} of the input"
-        lost = values.get("contact_loss_input_speed_from")
+        lost = values.get("contact_loss_speed_from")
         apart = (
-            "the teeth stay in contact at every speed that was run"
+            "the teeth stay in contact at every speed that was looked at"
             if lost is None
-            else f"teeth separate from {with_unit('contact_loss_input_speed_from', lost)} of the input"
+            else f"teeth separate from {with_unit('contact_loss_speed_from', lost)} of the input"
         )
         yield f"{text}; {apart}."
     if (share := values.get("mesh_load_factor")) is not None:

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.cases.assessment_part import Task, TaskResult
+from tribodyn.cases.assessment_part import GEARBOX, Findings, Request, Task, TaskResult
 from tribodyn.gears.rating.bearings import bearing_part, bearing_remarks
 from tribodyn.gears.rating.limits import SAFETIES, judged, not_judged, with_unlimited
 from tribodyn.gears.rating.rating_text import factors_said, life_said, numbered, ring_said
@@ -20,15 +20,24 @@ from tribodyn.post.verdict import outside
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
 from tribodyn.studies.assessment.pair import parts
+from tribodyn.studies.assessment.pair.parts import Part
+from tribodyn.studies.assessment.scatter import put_in
 from tribodyn.studies.assessment.train.case import LAYOUT, SAMPLES, TrainAssessmentCase
-from tribodyn.studies.assessment.train.meshes import STAGES, assessed_mesh, pairs_of, parts_of, worst_margins
+from tribodyn.studies.assessment.train.meshes import (
+    STAGES,
+    Scatter,
+    assessed_mesh,
+    contact_of,
+    samples_of_train,
+    worst_margins,
+)
+from tribodyn.studies.assessment.train.pairs import MeshPair, pairs_of, parts_of
+from tribodyn.studies.assessment.unknowns import Draw, drawn, ranges_of_gearbox
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.scratch import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
 
 DUTY = "duty"
-#: Share of the time without contact that counts.
-_LOST = 1e-6
 #: Of the run at the duty, of the train.
 _OF_TRAIN = (
     *("train_ratio", "power_in_mean", "power_friction_mean", "power_damping_mean", "efficiency"),
@@ -66,33 +75,54 @@ def quantities_of(case: TrainAssessmentCase) -> dict[str, Any]:
         return assessed(case, folder)[1]
 
 
-def name_at(factor: float) -> str:
-    """Name of the run at a share of the speed: no two shares have one."""
-    return f"speed-{factor:.12g}"
-
-
-def tasks_of(case: TrainAssessmentCase) -> list[tuple[Study, Task]]:
-    """The train's run at the duty, those at other speeds, and those with other friction laws."""
-    subject, settings = case.subject, case.settings
-    scenario = tomllib.loads(subject.case.toml)
-    tasks = [Task(DUTY, "motion at the duty", scenario)]
-    for factor in factors_of(case):
-        about = f"motion at {factor:.12g} of the speed"
-        other = case.whole.at_speed(subject.case, scenario, factor)
-        tasks.append(Task(name_at(factor), about, other, needed=False))
-    for law in settings.friction_laws:
-        about, other = f"motion with friction by {law}", {**scenario, "friction": {"law": law}}
-        tasks.append(Task(f"friction-{law}", about, other, needed=False))
-    every = [part for of_mesh in parts_of(pairs_of(case)).values() for part in of_mesh]
-    return [*((subject.study, task) for task in tasks), *parts.tasks_of(every)]
-
-
-def factors_of(case: TrainAssessmentCase) -> list[float]:
-    """Speeds of the further runs over that of the duty."""
-    if not case.settings.speeds:
+def draws_of(case: TrainAssessmentCase, pairs: Mapping[str, MeshPair]) -> list[Draw]:
+    """Samples of what is not known of a train; none of a bare model."""
+    if not pairs:
         return []
-    factors = np.linspace(*case.settings.speed_range, case.settings.speeds)
-    return [float(f"{factor:.6g}") for factor in factors if abs(factor - 1.0) > 1e-6]
+    settings, scenario = case.settings, tomllib.loads(case.subject.case.toml)
+    ranges = ranges_of_gearbox(scenario, [pair.mesh for pair in pairs.values()], settings.unknowns)
+    return drawn(ranges, settings.samples, settings.seed)
+
+
+def motion_parts(case: TrainAssessmentCase, draws: Sequence[Draw]) -> tuple[Part, ...]:
+    """The studies that are asked for the motion over the speed; none, where neither is asked for."""
+    subject, whole, settings = case.subject.case, case.whole, case.settings
+    if not settings.speeds and not draws:
+        return ()
+    scenario, speed = whole.at_torque(subject, tomllib.loads(subject.toml)), whole.speed(subject)
+    samples = tuple(draw.keys(scenario.get("bearings", {})) for draw in draws)
+    speeds, marched = parts.speeds_of(settings, speed), whole.marched(subject)
+    request = Request(case.title, scenario, speed, 0.0, (), speeds, (), 0.0, samples, marched=marched)
+    return parts.parts(request, (GEARBOX,))
+
+
+class Asked(NamedTuple):
+    """What is asked of the studies."""
+
+    pairs: Mapping[str, MeshPair]
+    draws: Sequence[Draw]
+    motion: tuple[Part, ...]
+    teeth: Mapping[str, tuple[Part, ...]]  # of every group of meshes
+    tasks: Sequence[tuple[Study, Task]]  # the train's runs at the duty, and all of these
+
+
+def asked_of(case: TrainAssessmentCase) -> Asked:
+    """The train's run at the duty, those with other friction laws, its motion over the speed, its teeth."""
+    study, scenario = case.subject.study, tomllib.loads(case.subject.case.toml)
+    runs = [Task(DUTY, "motion at the duty", scenario)]
+    for law in case.settings.friction_laws:
+        about, other = f"motion with friction by {law}", {**scenario, "friction": {"law": law}}
+        runs.append(Task(f"friction-{law}", about, other, needed=False))
+    pairs = pairs_of(case)
+    draws = draws_of(case, pairs)
+    motion, teeth = motion_parts(case, draws), parts_of(pairs, draws)
+    every = parts.tasks_of([*motion, *(part for of_mesh in teeth.values() for part in of_mesh)])
+    return Asked(pairs, draws, motion, teeth, [*((study, task) for task in runs), *every])
+
+
+def tasks_of(case: TrainAssessmentCase) -> Sequence[tuple[Study, Task]]:
+    """Every task with its study."""
+    return asked_of(case).tasks
 
 
 def assessed(
@@ -103,47 +133,49 @@ def assessed(
     Raises InputError or SimulationError if the run at the duty fails; see also `tasks.results`.
     """
     begun = perf_counter()
-    every = tasks_of(case)
-    done = tasks.results(every, folder, progress, force=force)
-    duty_summary = done[DUTY].summary
-    along = _over_speed(case, done)
-    subject, whole = case.subject.case, case.whole
-    pairs = pairs_of(case)
-    duties = max((len(pair.rated.spectrum) for pair in pairs.values()), default=0)
-    asked = parts_of(pairs)
+    asked = asked_of(case)
+    done = tasks.results(asked.tasks, folder, progress, force=force)
+    duty_summary, subject, whole = done[DUTY].summary, case.subject.case, case.whole
+    over_speed = [answer for answer in parts.answers(asked.motion, done) if answer]
+    quantities = {name: value for found in over_speed for name, value in found.quantities.items()}
+    rows = {name: values for found in over_speed for name, values in found.spread.items()}
+    along = _over_speed(case, over_speed, duty_summary)
+    duties = max((len(pair.rated.spectrum) for pair in asked.pairs.values()), default=0)
+    scatter, meshes, scattered = Scatter(asked.draws, rows), {}, {}
     with Record(done[DUTY].path) as record:
-        meshes = {
-            mesh.name: assessed_mesh(
-                case,
-                mesh,
-                pairs.get(mesh.name),
-                duty_summary,
-                (asked.get(mesh.alike or mesh.name, ()), done),
-                record,
+        for mesh in whole.meshes(subject):
+            group = mesh.alike or mesh.name
+            contact = contact_of(group, asked.teeth.get(group, ()), done)
+            meshes[mesh.name], samples = assessed_mesh(
+                case, mesh, asked.pairs.get(mesh.name), duty_summary, contact, record, scatter
             )
-            for mesh in whole.meshes(subject)
-        }
+            if samples is not None:
+                scattered[mesh.name] = samples
     oil = whole.meshes(subject)[0].pair.lubricant
+    application = case.settings.application_factor
     summary: dict[str, Any] = {
         "input_speed": case.whole.speed(case.subject.case),
+        **quantities,
         **{name: duty_summary[name] for name in _OF_TRAIN if duty_summary.get(name) is not None},
-        **_extremes(along),
+        **_mesh_load_factor_max(along),
         **_losses(case, done),
         **worst_margins(meshes),
         **bearing_part(whole.shafts(subject), oil),
         STAGES: duty_summary.get(STAGES, {}),
         MESHES: meshes,
         "limits": with_unlimited(
-            judged(case.limits, _values(duty_summary, meshes, case.settings.application_factor)),
+            judged(case.limits, _values(duty_summary, meshes, application)),
             worst_margins(meshes),
         ),
         "not_judged": _not_judged(case),
         "in_doubt": numbered(_in_doubt(duty_summary)),
         "assumed": numbered(list(_assumed(case, meshes, duties))),
-        "extrapolated": numbered([*_extrapolated(every, done), *_outside(meshes)]),
+        "extrapolated": numbered([*_extrapolated(asked.tasks, done), *_outside(meshes)]),
         **{name: duty_summary[name] for name in (TRUST, REASONS) if duty_summary.get(name)},
         "wall_time": perf_counter() - begun,
     }
+    if scattered:
+        summary = put_in(summary, samples_of_train(scatter, meshes, scattered))
     return along, {name: value for name, value in summary.items() if value not in ({}, [], "")}
 
 
@@ -163,31 +195,22 @@ def _in_doubt(duty_summary: Mapping[str, Any]) -> list[str]:
     return [f"Mesh {', '.join(names)}: {line[0].lower()}{line[1:]}" for line, names in meshes_by_line.items()]
 
 
-def _over_speed(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[str, np.ndarray]:
-    """The recorded quantities over the speed of the runs that were done."""
-    speed = case.whole.speed(case.subject.case)
-    runs = {factor: done[name_at(factor)].summary for factor in factors_of(case)} | {1.0: done[DUTY].summary}
-    factors = sorted(factor for factor, summary in runs.items() if summary)
-    curves = {"input_speed": speed * np.array(factors)}
-    for name in SAMPLES:
-        values = [runs[factor].get(name) for factor in factors]
-        curves[name] = np.array([math.nan if value is None else float(value) for value in values])
-    return curves
+def _over_speed(
+    case: TrainAssessmentCase, found: Sequence[Findings], duty_summary: Mapping[str, Any]
+) -> dict[str, Any]:
+    """The recorded quantities over the speed, those of the run at the duty where no others are."""
+    if found:
+        curves = dict(found[0].over_speed)
+        return {"input_speed": curves["speed"], **{name: curves[name] for name in SAMPLES}}
+    at_duty = {name: duty_summary.get(name) for name in SAMPLES}
+    values = {name: math.nan if value is None else float(value) for name, value in at_duty.items()}
+    values["input_speed"] = case.whole.speed(case.subject.case)
+    return {name: np.array([value]) for name, value in values.items()}
 
 
-def _extremes(along: Mapping[str, np.ndarray]) -> dict[str, Any]:
-    """Largest factors over the speed, and where contact is lost."""
-    speed, largest = along["input_speed"], dict[str, Any]()
-    if np.any(np.isfinite(along["dynamic_factor"])):
-        place = int(np.nanargmax(along["dynamic_factor"]))
-        largest["dynamic_factor_max"] = float(along["dynamic_factor"][place])
-        largest["dynamic_factor_max_input_speed"] = float(speed[place])
-    if np.any(np.isfinite(along["mesh_load_factor"])):
-        largest["mesh_load_factor_max"] = float(np.nanmax(along["mesh_load_factor"]))
-    lost = np.nan_to_num(along["contact_loss_fraction"]) > _LOST
-    if np.any(lost):
-        largest["contact_loss_input_speed_from"] = float(speed[lost][0])
-    return largest
+def _mesh_load_factor_max(along: Mapping[str, np.ndarray]) -> dict[str, float]:
+    known = along["mesh_load_factor"][np.isfinite(along["mesh_load_factor"])]
+    return {"mesh_load_factor_max": float(np.max(known))} if known.size else {}
 
 
 def _losses(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[str, Any]:

@@ -7,16 +7,16 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, create_model
 
-from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.errors import InputError, quoted
 from tribodyn.gears.rating.capacity import required
 from tribodyn.gears.rating.limits import OilLimits
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Positive, Table, scenario_file, written
 from tribodyn.studies import study_of
+from tribodyn.studies.assessment.settings import broken_settings
 from tribodyn.studies.assessment.train.case import TrainAssessmentCase, TrainRatingTable, of_mesh
 from tribodyn.studies.protocol.load import broken_rules as rules_broken_by
 from tribodyn.studies.protocol.load import load_data, schema_inside
-from tribodyn.tribology.friction import FRICTION_LAWS
 
 #: The kind, and what a file may write for it.
 KIND, SHORT = "train-assessment", "assessment"
@@ -88,16 +88,8 @@ def broken_rules(scenario: Any) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks."""
     inner, settings = scenario.scenario, scenario.assessment
     yield from _of_subject(inner)
-    first, last = settings.speed_range
-    if not first < last:
-        rule = "the last speed must be above the first"
-        yield InputError("assessment.speed_range", f"[{first:g}, {last:g}]", rule, "write [0.5, 1.25]")
-    for name in settings.friction_laws:
-        if name not in FRICTION_LAWS:
-            yield unknown_name("assessment.friction_laws", name, FRICTION_LAWS, FRICTION_LAWS.what)
-        elif needed := [key.name for key in FRICTION_LAWS[name].keys if key.default is None]:
-            rule = f"has keys of its own ({', '.join(needed)})"
-            yield InputError("assessment.friction_laws", quoted(name), rule, "leave it out")
+    damping = getattr(getattr(inner, "mesh", None), "damping_ratio", None)
+    yield from broken_settings(settings, damping, "scenario.mesh.damping_ratio")
 
 
 def _of_subject(inner: Any) -> Iterator[InputError]:

@@ -29,9 +29,15 @@ def meshes(case: Gearbox) -> list[MeshAtDuty]:
         for m in meshes_of_member(case, gearset, member)
     }
     return [
-        MeshAtDuty(mesh.name, mesh.pair, alike, stages.get(m, ""), _meshing(case, mesh))
+        MeshAtDuty(mesh.name, mesh.pair, alike, stages.get(m, ""), _meshing(case, mesh), _distance(mesh))
         for m, (mesh, alike) in enumerate(zip(case.meshes, alike_of(case), strict=True))
     ]
+
+
+def _distance(mesh: TrainMesh) -> str:
+    """The key of the centre distance of two shafts; "" where none is given, or the mesh is of a set."""
+    given = mesh.pair.drive.centre_distance is not None and mesh.carrier < 0
+    return f"{mesh.key}.centre_distance" if given and not mesh.key.startswith("mesh.") else ""
 
 
 def _meshing(case: Gearbox, mesh: TrainMesh) -> tuple[Meshing, Meshing]:
@@ -46,14 +52,25 @@ def _meshing(case: Gearbox, mesh: TrainMesh) -> tuple[Meshing, Meshing]:
     return meshings[0], meshings[1]
 
 
-def at_speed(case: Gearbox, scenario: Mapping[str, Any], factor: float) -> dict[str, Any]:
-    """The scenario at another speed, given at the input, and with its torque in place of a power."""
+def at_torque(case: Gearbox, scenario: Mapping[str, Any]) -> dict[str, Any]:
+    """The scenario with its speed given at the input, and with its torque in place of a power."""
     operating = under_one_name(scenario["operating"])
     operating.pop("output_speed", None)
     if operating.pop("power", None) is not None and case.loads:
         operating["output_torque"] = f"{case.loads[0].torque!r} N*m"
-    operating["input_speed"] = f"{factor * case.source.speed!r} rad/s"
+    operating["input_speed"] = f"{case.source.speed!r} rad/s"
     return {**scenario, "operating": operating}
+
+
+#: Mesh cycles of all meshes in a common period above which a steady state takes far longer than a run.
+_LONG_PERIOD = 100
+
+
+def marched(case: Gearbox) -> int:
+    """Mesh cycles of a run where meshes or teeth do not repeat, or after so many cycles alone; 0: they do."""
+    differ = any(any(pair.teeth) for pair in case.pairs)
+    longest = min(case.max_period, max(_LONG_PERIOD // len(case.meshes), 1))
+    return case.solver.cycles if differ or case.period > longest else 0
 
 
 #: Tables of a train's scenario that all pairs have alike.
@@ -184,5 +201,13 @@ def loads(record: Record, case: Gearbox, name: str) -> ToothLoads | None:
 
 
 WHOLE = WholeDrive(
-    meshes, at_speed, lambda case: case.source.speed, pair_of, meshes_of_gear, duties, shafts, loads
+    meshes,
+    at_torque,
+    marched,
+    lambda case: case.source.speed,
+    pair_of,
+    meshes_of_gear,
+    duties,
+    shafts,
+    loads,
 )

@@ -12,10 +12,9 @@ from tribodyn.gears.rating.capacity import Capacity, safeties, shorter_life
 from tribodyn.gears.rating.limits import least, over_samples, worst
 from tribodyn.gears.rating.standard import Standard
 from tribodyn.quantities.catalogue import SPREAD, scatter
-from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.assessment.pair.margins import LocalValues
-from tribodyn.studies.assessment.pair.unknowns import Draw
 from tribodyn.studies.assessment.simulated_strength import SimulatedStrength
+from tribodyn.studies.assessment.unknowns import Draw
 
 #: Quantity of the simulation -> its name by the standards.
 _NAMES = {"dynamic_factor": "K_v", "transverse_load_factor": "K_Halpha", "face_load_factor": "K_Hbeta"}
@@ -53,8 +52,8 @@ class Conclusion(NamedTuple):
         return self.strength.times(flank, root)
 
 
-#: (case, arrays along the path, quantities) -> outcome
-Evaluate = Callable[[AssessmentCase, Mapping[str, Any], Mapping[str, Any]], Conclusion]
+#: (sample, arrays along the path, quantities) -> outcome
+Evaluate = Callable[[Draw, Mapping[str, Any], Mapping[str, Any]], Conclusion]
 
 
 class SampleValues(NamedTuple):
@@ -69,7 +68,6 @@ class SampleValues(NamedTuple):
 
 
 def samples_of(
-    case: AssessmentCase,
     draws: Sequence[Draw],
     rows: Mapping[str, np.ndarray],
     accurate: tuple[Mapping[str, Any], Mapping[str, Any]],
@@ -88,13 +86,9 @@ def samples_of(
         if np.all(np.isfinite(list(path.values()))) and not _missing(sample) & set(quantities) - set(_PLACES):
             finite = {name: value for name, value in sample.items() if name not in _missing(sample)}
             with suppress(InputError, SimulationError):
-                outcome = evaluate(draw.of(case), {**along, **path}, {**quantities, **finite})
+                outcome = evaluate(draw, {**along, **path}, {**quantities, **finite})
         outcomes.append(outcome)
-    finite = {
-        name: values
-        for name, values in rows.items()
-        if np.ndim(values) == 1 and (name in _PLACES or np.any(np.isfinite(values)))
-    }
+    finite = numbers_of(rows)
     contact = [math.nan if one is None else _contact_temperature(one) for one in outcomes]
     simulated = _by_name([None if one is None else one.simulated for one in outcomes])
     finite |= {"contact_temperature_max": np.array(contact)}
@@ -110,7 +104,7 @@ def samples_of(
     ]
     named = {_NAMES.get(name, name): finite[name] for name in (*_NAMES, *_ERRORS) if name in finite}
     return SampleValues(
-        _drawn(draws),
+        drawn_values(draws),
         finite,
         simulated | margins["simulated"] | named,
         _by_name([None if one is None else one.iso for one in outcomes]) | margins["iso"],
@@ -119,6 +113,13 @@ def samples_of(
 
 
 _ERRORS = ("loaded_transmission_error_peak_to_peak", "transmission_error_peak_to_peak")
+
+
+def numbers_of(rows: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Quantities of the samples that are known of some of them."""
+    numbers = {name: values for name, values in rows.items() if np.ndim(values) == 1}
+    known = {name for name, values in numbers.items() if name in _PLACES or np.any(np.isfinite(values))}
+    return {name: values for name, values in numbers.items() if name in known}
 
 
 def _of_one(values: Mapping[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, float]]:
@@ -160,17 +161,19 @@ def _numbers(values: Mapping[str, Any]) -> dict[str, float]:
     }
 
 
-def _drawn(draws: Sequence[Draw]) -> dict[str, np.ndarray]:
-    pinion, gear = np.array([draw.bearings for draw in draws]).T
+def drawn_values(draws: Sequence[Draw]) -> dict[str, np.ndarray]:
+    """What was drawn of every sample, by name."""
+    first = draws[0]
     variables = {
-        "bearing_stiffness_factor_pinion": pinion,
-        "bearing_stiffness_factor_gear": gear,
-        "damping_ratio": np.array([draw.damping_ratio for draw in draws]),
+        f"bearing_stiffness_factor_{name}": np.array([draw.bearings[name] for draw in draws])
+        for name in first.bearings
     }
-    if draws[0].deviation is not None:
+    variables["damping_ratio"] = np.array([draw.damping_ratio for draw in draws])
+    if first.deviation is not None:
         variables["deviation_sample"] = np.array([draw.deviation for draw in draws], dtype=float)
-    if draws[0].centre_distance is not None:
-        variables["centre_distance"] = np.array([draw.centre_distance for draw in draws])
+    for key in first.distances:
+        name = key if len(first.distances) > 1 else "centre_distance"
+        variables[name] = np.array([draw.distances[key] for draw in draws])
     return variables
 
 
@@ -195,17 +198,11 @@ def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
         for name, values in samples.quantities.items()
         if name not in _PLACES
     }
-    parts = {
-        part: {**summary[part], "spread": _ranges(values)}
-        for part, values in (("simulated", samples.simulated), ("iso", samples.iso))
-        if summary.get(part)
-    }
     safeties = {name: samples.simulated[name] for name in ("S_B", "S_lambda") if name in samples.simulated}
     safeties |= {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
     by_sample = samples.drawn | samples.quantities | safeties
     return {
-        **summary,
-        **parts,
+        **with_ranges(summary, samples),
         **spread,
         "limits": over_samples(summary["limits"], samples.limits),
         "sample_counts": counts(samples),
@@ -214,6 +211,15 @@ def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
             "limit_values": {name: list(map(float, values)) for name, values in samples.limits.items()},
         },
     }
+
+
+def with_ranges(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
+    """A summary of a pair with the ranges of what is simulated and by the standards."""
+    parts = (("simulated", samples.simulated), ("iso", samples.iso))
+    ranges = {
+        name: {**summary[name], "spread": _ranges(values)} for name, values in parts if summary.get(name)
+    }
+    return {**summary, **ranges}
 
 
 def _ranges(samples: Mapping[str, np.ndarray]) -> dict[str, dict[str, float]]:
