@@ -6,12 +6,16 @@ from html import escape
 from importlib import resources
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tribodyn.cases.assessment_part import TaskResult
+from tribodyn.cases.results import TextTable
 from tribodyn.gears.rating.bearings import bearing_rows
 from tribodyn.gears.rating.limits import LIMITS, on_limits, written_limit
 from tribodyn.post.page.assembled import document
 from tribodyn.post.page.page import summary_tables, verdict_list, warnings_of
 from tribodyn.post.style import inline
+from tribodyn.quantities.catalogue import scatter
 from tribodyn.record.reader import Record
 from tribodyn.studies.pages import overview
 from tribodyn.studies.protocol.study import Study
@@ -178,3 +182,17 @@ def origin(record: Record) -> str:
         f'<section class="break"><h2>Scenario and origin</h2><p class="quiet">scenario sha256 {digest}</p>'
         f"<details><summary>Scenario file</summary><pre>{scenario}</pre></details></section>"
     )
+
+
+def range_over(values: Any, digits: str, factor: float = 1.0, offset: float = 0.0) -> str:
+    """5 and 95 % of values over the samples, in another unit; nothing where none is known."""
+    if values is None or not np.any(np.isfinite(np.asarray(values, dtype=float))):
+        return ""
+    ends = (factor * (float(scatter(values)[end]) + offset) for end in ("p5", "p95"))
+    return f"samples {' to '.join(format(end, digits) for end in ends)}"
+
+
+def folded_sums(tables: Sequence[TextTable]) -> str:
+    """Miner's sums duty by duty, folded; "" without a load spectrum."""
+    shown = "".join(numbers_table(*each, " points") for each in tables)
+    return f"<details><summary>Miner's sum, duty by duty</summary>{shown}</details>" if shown else ""

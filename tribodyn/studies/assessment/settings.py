@@ -48,3 +48,10 @@ def broken_settings(settings: AssessedTable, damping_ratio: float | None, of: st
         if name == "none" or needed:
             rule = f"has keys of its own ({', '.join(needed)})" if needed else "has no losses"
             yield InputError("assessment.friction_laws", quoted(name), rule, "leave it out")
+
+
+def without_data_sheet(table: str) -> InputError:
+    """The oil of a table has no data sheet."""
+    rule = "missing: temperatures and margins need the oil over temperature, by its data sheet"
+    remedy = "give type, viscosity_40, viscosity_100 and density_15"
+    return InputError(f"{table}.viscosity_40", rule=rule, remedy=remedy)

@@ -136,7 +136,7 @@ def test_a_load_spectrum_of_a_train_is_that_of_the_pair(pair: Any, tmp_path: Pat
         text = STUDIES["train-assessment"].own_page()(record)
     assert "Bearings" in titles
     assert sum("Miner's sum" in title for title in titles) == 2
-    assert "Load spectrum, duty by duty" in text
+    assert "Miner's sum, duty by duty" in text
 
 
 def test_what_one_per_cent_of_stress_costs_is_the_slope_of_the_life_factor(pair: Any):

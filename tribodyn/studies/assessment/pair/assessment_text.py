@@ -1,19 +1,18 @@
 """What an assessment says in words: what is assumed, and what is extrapolated."""
 
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from tribodyn.cases.assessment_part import TaskResult
+from tribodyn.cases.assessment_part import Task, TaskResult
 from tribodyn.gears.rating.bearings import bearing_remarks, shafts_of_pair
 from tribodyn.gears.rating.rating_text import factors_said, life_said
 from tribodyn.gears.rating.strength import metal_remarks
 from tribodyn.post.report import EXCEEDED
 from tribodyn.record.reader import Record
-from tribodyn.studies.assessment.pair import parts
 from tribodyn.studies.assessment.pair.case import AssessmentCase
-from tribodyn.studies.assessment.pair.parts import Part
 from tribodyn.studies.assessment.unknowns import described, ranges_of
+from tribodyn.studies.protocol.study import Study
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.oil import oil_values
 
@@ -82,13 +81,13 @@ def _of_models(table: Mapping[str, Any]) -> Iterator[str]:
             yield from _of_models(inner)
 
 
-def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, TaskResult]) -> list[str]:
-    """Where laws are used outside their range, and what could not be computed."""
+def extrapolated(every: Sequence[tuple[Study, Task]], done: Mapping[str, TaskResult]) -> list[str]:
+    """Where laws are used outside their range, and what could not be computed, of all tasks."""
     remarks, compared = [], []
     # of a law that is needed the parts that need it say where it is used outside its range
-    needed = [task.name for _, task in parts.tasks_of(taking_part) if task.needed]
+    needed = [task.name for _, task in every if task.needed]
     laws = {done[name].summary.get("friction_law") for name in needed}
-    for study, task in parts.tasks_of(taking_part):
+    for study, task in every:
         result = done[task.name]
         remarks += result.failures
         if result.summary and not task.needed:

@@ -1,7 +1,7 @@
 """Pictures of an assessment: those of its record, and those of the first page of its report."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -70,13 +70,18 @@ def draw_losses(axes: Axes, record: Record) -> None:
     iso = record.summary.get("iso", {}).get("loss")
     if iso is not None:
         losses["ISO/TR 15144-1"] = float(iso)
-    names = sorted(losses, key=lambda name: losses[name])
+    draw_bars(axes, {name: losses[name] for name in sorted(losses, key=losses.__getitem__)})
+    axes.set(title="Loss to tooth friction by law (W)")
+
+
+def draw_bars(axes: Axes, losses: Mapping[str, float]) -> None:
+    """Losses by name, the first at the bottom."""
+    names = list(losses)
     axes.barh(names, [losses[name] for name in names], color=PALETTE[5], height=0.62)
     for number, name in enumerate(names):
         axes.text(losses[name], number, f" {float(f'{losses[name]:.3g}'):,g}", va="center", fontsize=7)
     axes.grid(visible=False, axis="y")
-    axes.set(title="Loss to tooth friction by law (W)")
-    axes.set_xlim(0.0, 1.15 * max(losses.values()))
+    axes.set_xlim(0.0, 1.2 * max(max(losses.values()), 1e-12))
 
 
 def along_path(records: Sequence[Record], _view: View) -> Figure:

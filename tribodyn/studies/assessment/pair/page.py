@@ -16,12 +16,17 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
 from tribodyn.post.page.page import table
 from tribodyn.post.style import inline
-from tribodyn.quantities.catalogue import SPREAD, quantities, scatter
+from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import first_page
-from tribodyn.studies.assessment.first_page import limits_table, listed, numbers_table
+from tribodyn.studies.assessment.first_page import (
+    limits_table,
+    listed,
+    numbers_table,
+    range_over,
+)
 from tribodyn.studies.assessment.pair import parts
 from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.assessment.pair.figures import pictures
@@ -72,7 +77,7 @@ def page(record: Record) -> str:
         f'<div class="pictures"><p>{picture}</p></div>',
         _points(summary),
         _factors(summary),
-        _duties(summary),
+        first_page.folded_sums(spectrum_tables(summary.get("spectrum", {}))),
         first_page.bearings_table(summary),
         *(
             first_page.part_section(part.study, part.role.title, [done[task.name] for task in part.tasks])
@@ -97,13 +102,6 @@ def _factors(summary: Mapping[str, Any]) -> str:
     if american := rating_rows(summary.get("agma", {})):
         page += numbers_table("Rating by AGMA 2101", COLUMNS, american)
     return page
-
-
-def _duties(summary: Mapping[str, Any]) -> str:
-    """Miner's sum duty by duty, folded; "" without a load spectrum."""
-    tables = spectrum_tables(summary.get("spectrum", {}))
-    inside = "".join(numbers_table(*each, " points") for each in tables)
-    return f"<details><summary>Miner's sum, duty by duty</summary>{inside}</details>" if tables else ""
 
 
 def _asked(case: AssessmentCase) -> str:
@@ -139,7 +137,7 @@ def _tiles(summary: Mapping[str, Any]) -> str:
     roots = [samples[name] for name in ("pinion_root_tension_max", "gear_root_tension_max") if samples]
 
     def over(name: str, digits: str, factor: float = 1.0, offset: float = 0.0) -> str:
-        return _range(samples.get(name), digits, factor, offset)
+        return range_over(samples.get(name), digits, factor, offset)
 
     shown = (
         (
@@ -170,7 +168,7 @@ def _tiles(summary: Mapping[str, Any]) -> str:
         (
             f"{root * 1e-6:.0f} MPa",
             "maximum root tension, slow rotation without K_A",
-            _range(np.max(roots, axis=0), ".0f", 1e-6) if roots else "",
+            range_over(np.max(roots, axis=0), ".0f", 1e-6) if roots else "",
         ),
         (
             f"{error * 1e6:.2f} µm",
@@ -184,14 +182,6 @@ def _tiles(summary: Mapping[str, Any]) -> str:
         ),
     )
     return first_page.tiles(shown)
-
-
-def _range(values: Any, digits: str, factor: float = 1.0, offset: float = 0.0) -> str:
-    """5 and 95 % of values over the samples, in another unit; nothing where none is known."""
-    if values is None or not np.any(np.isfinite(np.asarray(values, dtype=float))):
-        return ""
-    percentiles = scatter(values)
-    return f"samples {' to '.join(format(factor * (percentiles[end] + offset), digits) for end in _ENDS)}"
 
 
 def _by_standard(summary: Mapping[str, Any]) -> str:

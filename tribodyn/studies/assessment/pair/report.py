@@ -65,14 +65,7 @@ def shown(summary: Mapping[str, Any]) -> Iterator[str]:
     """What moves, presses and is lost."""
     summary = numbers(summary)
     if "dynamic_factor" in summary:
-        parts = [f"Vibration raises the tooth forces to {summary['dynamic_factor']:.2f} times their mean"]
-        highest, where = (summary.get(f"dynamic_factor_max{end}") for end in ("", "_speed"))
-        if highest is not None and where is not None:
-            speed = with_unit("dynamic_factor_max_speed", where)
-            parts[0] += f", at {speed} to {highest:.2f} times"
-        if (lost := summary.get("contact_loss_speed_from")) is not None:
-            parts.append(f"the teeth separate from {with_unit('contact_loss_speed_from', lost)}")
-        yield f"{'; '.join(parts)}."
+        yield vibration(summary)
     if {"specific_film_min", "hertz_pressure_max", "contact_temperature_max"} <= set(summary):
         pressure = with_unit("hertz_pressure_max", summary["hertz_pressure_max"])
         hot = with_unit("contact_temperature_max", summary["contact_temperature_max"])
@@ -81,3 +74,14 @@ def shown(summary: Mapping[str, Any]) -> Iterator[str]:
     if {"efficiency", "efficiency_lowest", "efficiency_highest"} <= set(summary):
         ends = " to ".join(f"{100.0 * summary[f'efficiency_{end}']:.2f}" for end in ("lowest", "highest"))
         yield f"The mesh is {100.0 * summary['efficiency']:.2f} % efficient; by other friction laws {ends} %."
+
+
+def vibration(summary: Mapping[str, Any], of: str = "") -> str:
+    """How much vibration raises the loads, and where contact is lost; `of` is what turns at the speeds."""
+    text = f"Vibration raises the tooth forces to {summary['dynamic_factor']:.2f} times their mean"
+    highest, where = (summary.get(f"dynamic_factor_max{end}") for end in ("", "_speed"))
+    if highest is not None and where is not None:
+        text += f", at {with_unit('dynamic_factor_max_speed', where)}{of} to {highest:.2f} times"
+    if (lost := summary.get("contact_loss_speed_from")) is not None:
+        text += f"; the teeth separate from {with_unit('contact_loss_speed_from', lost)}{of}"
+    return f"{text}."

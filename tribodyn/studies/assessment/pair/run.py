@@ -122,7 +122,8 @@ def assessed(
     begun = perf_counter()
     request = parts.request_of(case)
     taking_part = parts.parts(request)
-    done = tasks.results(parts.tasks_of(taking_part), folder, progress, force=force)
+    every = parts.tasks_of(taking_part)
+    done = tasks.results(every, folder, progress, force=force)
     quantities: dict[str, Any] = {}
     along: dict[str, Any] = {}
     motion: dict[str, Any] = {}
@@ -165,8 +166,8 @@ def assessed(
         summary = put_in(summary, samples)
     summary |= {
         "assumed": numbered(assumed(case, standard is not None)),
-        "extrapolated": numbered([*extrapolated(taking_part, done), *_outside(outcome.capacity)]),
-        **_trust(done, {task.name for _, task in parts.tasks_of(taking_part) if task.needed}),
+        "extrapolated": numbered([*extrapolated(every, done), *_outside(outcome.capacity)]),
+        **_trust(done, {task.name for _, task in every if task.needed}),
         "wall_time": perf_counter() - begun,
     }
     summary = {name: value for name, value in summary.items() if value not in ({}, [], "")}

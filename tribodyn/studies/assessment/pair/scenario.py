@@ -30,7 +30,7 @@ from tribodyn.input.tables.losses import LossesTable, TemperatureTable
 from tribodyn.input.tables.oil.lubricant import lubricant_of
 from tribodyn.input.tables.supports.bearings import Bearings
 from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.assessment.settings import broken_settings
+from tribodyn.studies.assessment.settings import broken_settings, without_data_sheet
 
 Length = Annotated[float, InUnit(units.positive(units.LENGTH), "5 um")]
 
@@ -105,11 +105,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
             remedy="add quality = 6 to [drive]",
         )
     if not data_sheet:
-        yield InputError(
-            "lubricant.viscosity_40",
-            rule="missing: temperatures and margins need the oil over temperature, by its data sheet",
-            remedy="give type, viscosity_40, viscosity_100 and density_15",
-        )
+        yield without_data_sheet("lubricant")
     yield from broken_driving_rules(
         scenario.operating,
         (drive.pinion.teeth, drive.gear.teeth),

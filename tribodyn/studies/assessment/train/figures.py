@@ -12,6 +12,7 @@ from tribodyn.post.figures.drawing import Drawing, single
 from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.assessment.pair.figures import draw_bars
 from tribodyn.studies.assessment.train.report import groups_of
 
 _RPM = 30.0 / math.pi
@@ -54,13 +55,8 @@ def _losses(axes: Axes, record: Record) -> None:
         * sum(float(meshes[name]["simulated"]["power_friction_mean"]) for name in names)
         for group, names in groups_of(meshes).items()
     }
-    names = list(lost)[::-1]
-    axes.barh(names, [lost[name] for name in names], color=PALETTE[5], height=0.62)
-    for place, name in enumerate(names):
-        axes.text(lost[name], place, f" {lost[name]:.3g}", va="center", fontsize=7)
-    axes.grid(visible=False, axis="y")
+    draw_bars(axes, dict(reversed(lost.items())))
     axes.set(title="Loss to tooth friction, of all meshes of a kind (kW)")
-    axes.set_xlim(0.0, 1.2 * max(max(lost.values()), 1e-12))
 
 
 def _safeties(axes: Axes, record: Record) -> None:

@@ -59,7 +59,7 @@ def mesh_load_factor(case: TrainAssessmentCase, mesh: MeshAtDuty, own: Mapping[s
     return float(own.get(STAGES, {}).get(mesh.stage, {}).get("mesh_load_factor", 1.0))
 
 
-class Contact(NamedTuple):
+class TeethFindings(NamedTuple):
     """What was found of the teeth of a group of meshes."""
 
     along: Mapping[str, Any]  # arrays along the path of contact; empty: nothing is known
@@ -67,7 +67,7 @@ class Contact(NamedTuple):
     spread: Mapping[str, np.ndarray]  # of samples
 
 
-def contact_of(group: str, every: Sequence[Part], done: Mapping[str, TaskResult]) -> Contact:
+def contact_of(group: str, every: Sequence[Part], done: Mapping[str, TaskResult]) -> TeethFindings:
     """What the studies of the teeth say of a group of meshes; of one that failed there is nothing."""
     along, quantities, spread = dict[str, Any](), dict[str, Any](), dict[str, np.ndarray]()
     for part in every:
@@ -78,7 +78,7 @@ def contact_of(group: str, every: Sequence[Part], done: Mapping[str, TaskResult]
             along |= found.along
             quantities |= found.quantities
             spread |= found.spread
-    return Contact(along, {"face_load_factor": 1.0} | quantities, spread)
+    return TeethFindings(along, {"face_load_factor": 1.0} | quantities, spread)
 
 
 class Scatter(NamedTuple):
@@ -119,7 +119,7 @@ def assessed_mesh(
     mesh: MeshAtDuty,
     pair: MeshPair | None,
     own: Mapping[str, Any],
-    contact: Contact,
+    contact: TeethFindings,
     record: Record,
     scatter: Scatter,
 ) -> tuple[dict[str, Any], SampleValues | None]:

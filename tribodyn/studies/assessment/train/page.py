@@ -24,6 +24,7 @@ from tribodyn.studies.assessment.first_page import (
     limits_table,
     listed,
     numbers_table,
+    range_over,
 )
 from tribodyn.studies.assessment.train.case import TrainAssessmentCase
 from tribodyn.studies.assessment.train.report import (
@@ -66,7 +67,7 @@ def page(record: Record) -> str:
         _meshes(summary, "simulated"),
         _meshes(summary, "iso"),
         _reasons(summary),
-        _spectrum(summary),
+        first_page.folded_sums(spectrum_tables_of(summary)),
         first_page.bearings_table(summary),
         first_page.part_section(study, "Motion at the duty", [done[DUTY]] if done else []),
         "<section><h2>Gears and oil</h2>"
@@ -86,12 +87,6 @@ def _reasons(summary: Mapping[str, Any]) -> str:
         found += [f"Mesh {group}: {text}" for text in mesh.get("reasons", {}).values()]
     heading = "Where standard and simulation part by more than 5 %"
     return listed(heading, numbered(found)) if found else ""
-
-
-def _spectrum(summary: Mapping[str, Any]) -> str:
-    """Miner's sums of all meshes duty by duty; "" without a load spectrum."""
-    shown = "".join(numbers_table(*each, " points") for each in spectrum_tables_of(summary))
-    return f"<details><summary>Load spectrum, duty by duty</summary>{shown}</details>" if shown else ""
 
 
 def _asked(case: TrainAssessmentCase, summary: Mapping[str, Any]) -> str:
@@ -119,7 +114,7 @@ def _asked(case: TrainAssessmentCase, summary: Mapping[str, Any]) -> str:
 
 
 def _tiles(summary: Mapping[str, Any]) -> str:
-    lost = summary.get("contact_loss_speed_from")
+    lost, samples = summary.get("contact_loss_speed_from"), summary.get("by_sample", {})
     highest = ""
     if "dynamic_factor_max" in summary:
         at = summary["dynamic_factor_max_speed"] * _RPM
@@ -128,10 +123,14 @@ def _tiles(summary: Mapping[str, Any]) -> str:
     if "efficiency_lowest" in summary:
         ends = (f"{100.0 * summary[f'efficiency_{end}']:.2f}" for end in ("lowest", "highest"))
         spread = f"; {' to '.join(ends)} % by other laws"
-    shown = [
+    shown: list[tuple[str, ...]] = [
         (f"{100.0 * summary['efficiency']:.2f} %", f"efficiency by tooth friction alone{spread}"),
         (f"{summary['power_friction_mean'] * 1e-3:.4g} kW", "lost to tooth friction"),
-        (f"{summary['dynamic_factor']:.2f}", f"largest dynamic factor{highest}"),
+        (
+            f"{summary['dynamic_factor']:.2f}",
+            f"largest dynamic factor{highest}",
+            range_over(samples.get("dynamic_factor"), ".2f"),
+        ),
     ]
     if "mesh_load_factor" in summary:
         shown.append((f"{summary['mesh_load_factor']:.3f}", "K_γ, load of the planet with most"))
@@ -144,7 +143,8 @@ def _tiles(summary: Mapping[str, Any]) -> str:
     ):
         if name in summary:
             where = summary.get("worst_of", {}).get(name, "")
-            shown.append((f"{summary[name]:.2f}", f"{QUANTITIES[name].symbol}, {text}, in {where}"))
+            said = f"{QUANTITIES[name].symbol}, {text}, in {where}"
+            shown.append((f"{summary[name]:.2f}", said, range_over(samples.get(name), ".2f")))
     if "hertz_pressure_max" in summary:
         shown.append(
             (

@@ -14,6 +14,7 @@ from tribodyn.post.verdict import numbers, with_unit
 from tribodyn.quantities.catalogue import QUANTITIES, quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.assessment.pair.report import vibration
 
 REPORTED: Reported = {
     "Train": quantities("train_ratio", "input_speed", "power_in_mean", "power_friction_mean", "efficiency"),
@@ -155,17 +156,7 @@ def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
             f"train is {100.0 * values['efficiency']:.2f} % efficient."
         )
     if "dynamic_factor" in values:
-        text = f"Vibration raises the tooth forces to at most {values['dynamic_factor']:.2f} times their mean"
-        if (highest := values.get("dynamic_factor_max", 0.0)) > values["dynamic_factor"]:
-            at = with_unit("dynamic_factor_max_speed", values["dynamic_factor_max_speed"])
-            text += f", to {highest:.2f} times at {at} of the input"
-        lost = values.get("contact_loss_speed_from")
-        apart = (
-            "the teeth stay in contact at every speed that was looked at"
-            if lost is None
-            else f"teeth separate from {with_unit('contact_loss_speed_from', lost)} of the input"
-        )
-        yield f"{text}; {apart}."
+        yield vibration(values, " of the input")
     if (share := values.get("mesh_load_factor")) is not None:
         yield f"The planet with most carries {share:.3f} times its share (K_γ)."
     least = summary.get("worst_of", {})

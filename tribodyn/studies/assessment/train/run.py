@@ -15,11 +15,11 @@ from tribodyn.gears.rating.bearings import bearing_part, bearing_remarks
 from tribodyn.gears.rating.limits import SAFETIES, judged, not_judged, with_unlimited
 from tribodyn.gears.rating.rating_text import factors_said, life_said, numbered, ring_said
 from tribodyn.gears.rating.strength import metal_remarks
-from tribodyn.post.report import EXCEEDED
 from tribodyn.post.verdict import outside
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
 from tribodyn.studies.assessment.pair import parts
+from tribodyn.studies.assessment.pair.assessment_text import extrapolated
 from tribodyn.studies.assessment.pair.parts import Part
 from tribodyn.studies.assessment.scatter import put_in
 from tribodyn.studies.assessment.train.case import LAYOUT, SAMPLES, TrainAssessmentCase
@@ -170,7 +170,7 @@ def assessed(
         "not_judged": _not_judged(case),
         "in_doubt": numbered(_in_doubt(duty_summary)),
         "assumed": numbered(list(_assumed(case, meshes, duties))),
-        "extrapolated": numbered([*_extrapolated(asked.tasks, done), *_outside(meshes)]),
+        "extrapolated": numbered([*extrapolated(asked.tasks, done), *_outside(meshes)]),
         **{name: duty_summary[name] for name in (TRUST, REASONS) if duty_summary.get(name)},
         "wall_time": perf_counter() - begun,
     }
@@ -285,15 +285,3 @@ def _outside(meshes: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """What of the meshes lies outside the limits of the standards."""
     remarks = [(name, text) for name, mesh in meshes.items() for text in mesh.get("outside", {}).values()]
     return [f"Mesh {name}: {text}" for name, text in remarks]
-
-
-def _extrapolated(every: Sequence[tuple[Study, Task]], done: Mapping[str, TaskResult]) -> list[str]:
-    """Where laws are used outside their range at the duty, and what could not be computed."""
-    remarks = []
-    for study, task in every:
-        result = done[task.name]
-        remarks += result.failures
-        if task.name == DUTY:
-            with Record(result.path) as record:
-                remarks += [line for line in study.sentences(record) if line.startswith(EXCEEDED)]
-    return list(dict.fromkeys(remarks))

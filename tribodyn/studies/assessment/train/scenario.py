@@ -13,7 +13,7 @@ from tribodyn.gears.rating.limits import OilLimits
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Positive, Table, scenario_file, written
 from tribodyn.studies import study_of
-from tribodyn.studies.assessment.settings import broken_settings
+from tribodyn.studies.assessment.settings import broken_settings, without_data_sheet
 from tribodyn.studies.assessment.train.case import TrainAssessmentCase, TrainRatingTable, of_mesh
 from tribodyn.studies.protocol.load import broken_rules as rules_broken_by
 from tribodyn.studies.protocol.load import load_data, schema_inside
@@ -105,9 +105,7 @@ def _of_subject(inner: Any) -> Iterator[InputError]:
         yield InputError(f"scenario.{error.key}", error.value, error.rule, error.remedy, error.file)
     train: Any = inner
     if train.lubricant.viscosity_40 is None:
-        rule = "missing: temperatures and margins need the oil over temperature, by its data sheet"
-        remedy = "give type, viscosity_40, viscosity_100 and density_15"
-        yield InputError("scenario.lubricant.viscosity_40", rule=rule, remedy=remedy)
+        yield without_data_sheet("scenario.lubricant")
     elif train.operating.oil_temperature is None:
         rule = "missing: margins are those of an oil that enters at a temperature"
         yield InputError(
