@@ -16,7 +16,7 @@ from tribodyn.solve import ensemble
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.jax import ensemble as jax_ensemble
-from tribodyn.studies.motion.pair.report import SWEPT
+from tribodyn.studies.motion.report import SWEPT
 
 pytestmark = pytest.mark.slow
 

@@ -14,7 +14,7 @@ from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.motion.batch.gearboxes import KEPT, OF_MESH
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.motion.report import swept_of
+from tribodyn.studies.motion.report import SWEPT
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.studies.sweeping.batch import Chunk
@@ -44,7 +44,7 @@ def test_steady_states_are_those_of_long_runs(tmp_path):
     assert np.all(rows["multiplier_max"] < 1.0)
     for i, speed in enumerate((1480, 1950)):
         long = run(case_at(speed, **{"solver.cycles": 240, "solver.rtol": 1e-8}), tmp_path / f"{speed}.h5")
-        for name in (quantity.name for quantity in swept_of(named=True)):
+        for name in (quantity.name for quantity in SWEPT):
             if long.summary.get(name) is not None:
                 assert rows[name][i] == pytest.approx(long.summary[name], rel=2e-4, abs=1e-9), name
         for name in KEPT:

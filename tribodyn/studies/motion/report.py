@@ -56,8 +56,8 @@ OF_A_MESH: tuple[Quantity, ...] = (
 OF_A_STAGE: tuple[Quantity, ...] = quantities(
     *("mesh_load_factor", "planet_load_factor_max", "power_in_mean", "power_friction_mean", "efficiency")
 )
-#: One number per case, from its steady window; of several meshes the worst.
-_SWEPT = (
+#: What a sweep keeps: one number per case, from its steady window; of several meshes the worst.
+SWEPT = (
     *quantities(
         *("mesh_frequency", "transmission_error_rms", "transmission_error_peak_to_peak"),
         "transmission_error_mean",
@@ -69,8 +69,6 @@ _SWEPT = (
     *quantities("contact_loss_fraction", "closure_in_range_fraction", "friction_in_range_fraction"),
     *quantities("mesh_load_factor", "planet_load_factor_max"),
 )
-#: Of these what a sweep keeps only where files name the meshes, which may be of planets.
-_OF_PLANETS = "mesh_load_factor", "planet_load_factor_max"
 #: What a sweep prints, minimum and maximum of each.
 SWEEP_TABLE = quantities(
     *("transmission_error_rms", "transmission_error_peak_to_peak", "dynamic_factor", "normal_load_max"),
@@ -83,11 +81,6 @@ PANELS = (
 )
 #: Meshes beside each other in a table, and named one by one in a sentence.
 ACROSS, NAMED = 4, 3
-
-
-def swept_of(*, named: bool) -> tuple[Quantity, ...]:
-    """Of these quantities what a sweep keeps where files name the meshes, and where not."""
-    return tuple(quantity for quantity in _SWEPT if named or quantity.name not in _OF_PLANETS)
 
 
 def tables(record: Record) -> list[TextTable]:

@@ -28,7 +28,7 @@ from tribodyn.studies.motion.batch.swept import SweepSettings, layout_of, row_by
 from tribodyn.studies.motion.case import refuse_long_period
 from tribodyn.studies.motion.estimate import cost_keys, marching_of
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.motion.report import swept_of
+from tribodyn.studies.motion.report import SWEPT
 from tribodyn.studies.sweeping.batch import Batch, Chunk
 from tribodyn.studies.sweeping.signals import SignalRequest
 
@@ -60,7 +60,7 @@ class MotionBatch:
 
     def layout(self, settings: SweepSettings) -> SweepLayout:
         """What is recorded of every case."""
-        return layout_of(settings, swept_of(named=bool(settings.meshes)), OF_MESHES)
+        return layout_of(settings, SWEPT, OF_MESHES)
 
     def sharing(self, case: Any) -> Hashable:
         """Cases for which this is equal have the same tables."""

@@ -48,7 +48,7 @@ from tribodyn.studies.motion.batch.steady import (
 from tribodyn.studies.motion.batch.swept import UNSTABLE_QUANTITIES, SweepSettings
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.motion.report import swept_of
+from tribodyn.studies.motion.report import SWEPT
 from tribodyn.studies.motion.summary import meshes_of_run
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
@@ -78,8 +78,7 @@ def window_quantities(
     judge.take({"efficiency": quantities["efficiency"]})
     for each in judged:
         judge_tribology(judge, each)
-    swept = swept_of(named=prepared.case.named)
-    values = ((quantity.name, quantities.get(quantity.name)) for quantity in swept)
+    values = ((quantity.name, quantities.get(quantity.name)) for quantity in SWEPT)
     by_name = {name: float("nan") if value is None else value for name, value in values}
     return by_name, of_meshes, judge.summary()
 
