@@ -126,6 +126,27 @@ def test_a_reducer_whose_teeth_part_has_an_unstable_motion_too(tmp_path: Path):
     assert np.all(error[there] > found["transmission_error_rms"][0, direction])
 
 
+@pytest.mark.soak
+def test_planets_have_two_motions_at_one_speed(tmp_path: Path):
+    """About a resonance, where teeth part: up they keep to the small one, down to the large one."""
+    planetary = GEARBOXES["planetary"]
+    file = written(
+        tmp_path,
+        "planetary",
+        gear={name: gear | {"thickness_allowance": "-60 um"} for name, gear in planetary["gear"].items()},
+        mesh=planetary["mesh"] | {"damping_ratio": 0.02},
+        operating=planetary["operating"] | {"output_torque": "200 N*m"},
+        friction={"law": "none"},
+    )
+    speeds = {"operating.input_speed": ["4500 rpm", "5000 rpm", "5500 rpm"]}
+    found = td.sweep(file, speeds, direction="both", output=tmp_path / "both.h5")
+    ends = np.any(found.end_kind.values > 0, axis=-1)  # (speed, direction)
+    assert ends.tolist() == [[False, True], [False, False], [True, False]]
+    up, down = found.dynamic_factor.values.T
+    assert up[0] == pytest.approx(down[0], rel=1e-4)
+    assert down[1] > 1.5 * up[1]
+
+
 @pytest.mark.parametrize("gearbox", REDUCERS)
 def test_data_sets_hold_sound_and_damaged_gears(gearbox: str, tmp_path: Path):
     damage = [{"gear": PLACES[gearbox][1], "tooth": 2, "kind": "spall", **SPALL}]
