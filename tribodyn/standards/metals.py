@@ -1,7 +1,7 @@
 """What gear materials endure by ISO 6336-5:2016: allowable stress numbers, and how they depend on cycles.
 
 From memory of the standards, not transcribed from them; the worked example of a published design report
-confirms what it uses of case-hardened steel (`tests/validation/test_rating.py`). A material's own σ_Hlim and
+confirms what it uses of case-hardened steel (`tests/validation/test_books.py`). A material's own σ_Hlim and
 σ_Flim, from the standard or from tests, take the place of the table.
 """
 
