@@ -1,7 +1,7 @@
 """Pieces of the first page of an assessment: verdict, tiles, tables of numbers, sentences, origin."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from importlib import resources
 from typing import Any, NamedTuple
@@ -13,7 +13,7 @@ from tribodyn.cases.results import TextTable
 from tribodyn.gears.rating.bearings import bearing_rows
 from tribodyn.gears.rating.limits import LIMITS, on_limits, written_limit
 from tribodyn.post.page.assembled import document
-from tribodyn.post.page.page import summary_tables, verdict_list, warnings_of
+from tribodyn.post.page.page import summary_tables, table, verdict_list, warnings_of
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import scatter
 from tribodyn.record.reader import Record
@@ -29,11 +29,38 @@ def header(record: Record, what: str) -> str:
     return f"<header><h1>{escape(_title(record))}</h1><p>{escape(origin_text)}</p></header>"
 
 
-def written(record: Record, body: Sequence[str]) -> str:
-    """The page of these pieces."""
+class Front(NamedTuple):
+    """What stands on the first page, and first behind it."""
+
+    verdict: Sequence[str]  # its lines
+    holds: str
+    asked: str
+    tiles: str
+    beside_limits: str
+
+
+def written(record: Record, what: str, front: Front, body: Sequence[str], sheets: Iterable[TextTable]) -> str:
+    """The page: of these pieces the first page, the `body` behind it, sheets of gears and oil, the origin."""
+    summary = record.summary
+    pieces = [
+        header(record, what),
+        verdict_of(record, front.verdict),
+        front.holds,
+        f"<section><h2>Duty</h2>{front.asked}</section>",
+        '<div class="columns">',
+        f"<div>{listed('Assumed', summary.get('assumed', {}))}</div>",
+        f"<div>{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
+        "</div>",
+        '<div class="break"></div>',
+        front.tiles,
+        f'<div class="columns"><div>{limits_table(summary)}</div><div>{front.beside_limits}</div></div>',
+        *body,
+        f"<section><h2>Gears and oil</h2>{''.join(table(*sheet) for sheet in sheets)}</section>",
+        origin(record),
+    ]
     style = resources.files(__package__ or "").joinpath("page.css").read_text(encoding="utf-8")
     policy = "style-src 'unsafe-inline'; img-src data:"
-    return document(_title(record), style, "\n".join(body) + "\n", policy)
+    return document(_title(record), style, "\n".join(pieces) + "\n", policy)
 
 
 def _title(record: Record) -> str:

@@ -1,6 +1,7 @@
 """What is not known: drawn over its range, the same for the same seed, and not at all where it is known."""
 
 import math
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +18,11 @@ from tribodyn.studies.assessment.unknowns import (
     distances,
     drawn,
     ranges_of,
+    ranges_of_gearbox,
     stiffened,
 )
+from tribodyn.studies.motion.train.assessable import WHOLE
+from tribodyn.studies.protocol.load import load_scenario
 
 KIND, SAMPLES = "assessment", 16
 KNOWN: dict[str, Any] = {"deviations": False, "bearings": 1.0, "damping_ratio": [0.05, 0.05]}
@@ -82,6 +86,28 @@ def test_the_centre_distance_has_the_tolerance_of_its_js_class(tmp_path: Path, g
     """Half of IT7 (35 µm) and of IT9 (87 µm) from 80 to 120 mm: ISO 286-1; js7 where no class is given."""
     case = short_case(KIND, tmp_path, drive__centre_distance="81.1 mm", **grade)
     assert distances(case, table()) == pytest.approx((81.1e-3 - tolerance, 81.1e-3 + tolerance), abs=1e-12)
+
+
+def test_bearings_and_centre_distances_of_a_train_are_drawn_by_name():
+    """Half of IT7 from 120 to 180 mm, 40 µm: ISO 286-1; all bearings of one table are as stiff."""
+    key, given = "stage.0.centre_distance", {"stage.0.centre_distance": "138.5 mm"}
+    train = load_scenario("two-stage-reducer", given)
+    scenario = tomllib.loads(train.toml)
+    ranges = ranges_of_gearbox(scenario, WHOLE.meshes(train), table())
+    assert not ranges.deviations  # the gears have no tolerance class
+    assert ranges.bearings == {"default": 4.5}
+    assert list(ranges.distances) == [key]
+    assert ranges.distances[key] == pytest.approx((138.48e-3, 138.52e-3), abs=1e-12)
+    draw = drawn(ranges, 4, 1)[0]
+    sample = load_scenario("two-stage-reducer", draw.keys(scenario["bearings"]))
+    assert sample.meshes[0].pair.drive.centre_distance == pytest.approx(draw.distances[key], abs=1e-12)
+    for held, other in zip(train.links, sample.links, strict=True):
+        assert other.stiffness[:2] == pytest.approx(
+            [draw.bearings["default"] * k for k in held.stiffness[:2]]
+        )
+    assert {mesh.pair.mesh.damping_ratio for mesh in sample.meshes} == {draw.damping_ratio}
+    assert set(draw.of_teeth(key)) == {OF_PAIR}
+    assert not draw.of_teeth("")
 
 
 def test_all_stiffnesses_of_bearings_are_multiplied():

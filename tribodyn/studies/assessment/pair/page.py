@@ -14,7 +14,6 @@ from tribodyn.gears.rating.standard import ZERO_CELSIUS
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
-from tribodyn.post.page.page import table
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
@@ -22,7 +21,6 @@ from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import first_page
 from tribodyn.studies.assessment.first_page import (
-    limits_table,
     listed,
     numbers_table,
     range_over,
@@ -60,18 +58,10 @@ def page(record: Record) -> str:
     answers = parts.answers(taking_part, done) if done is not None else ()
     curves = [curve for answer in answers for curve in answer.curves]
     picture = inline(pictures(record, curves), "error, vibration, film, losses")
+    front = first_page.Front(
+        verdict(record), holds(summary), _asked(case), _tiles(summary), _scatter(summary)
+    )
     body = [
-        first_page.header(record, "Assessment"),
-        first_page.verdict_of(record, verdict(record)),
-        holds(summary),
-        "<section><h2>Duty</h2>" + _asked(case) + "</section>",
-        '<div class="columns">',
-        f"<div>{listed('Assumed', summary.get('assumed', {}))}</div>",
-        f"<div>{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
-        "</div>",
-        '<div class="break"></div>',
-        _tiles(summary),
-        f'<div class="columns"><div>{limits_table(summary)}</div><div>{_scatter(summary)}</div></div>',
         _by_standard(summary),
         _reasons(summary),
         f'<div class="pictures"><p>{picture}</p></div>',
@@ -84,12 +74,8 @@ def page(record: Record) -> str:
             for part in taking_part
             if done
         ),
-        "<section><h2>Gears and oil</h2>"
-        + "".join(table(*sheet) for sheet in check(case).tables)
-        + "</section>",
-        first_page.origin(record),
     ]
-    return first_page.written(record, body)
+    return first_page.written(record, "Assessment", front, body, check(case).tables)
 
 
 def _factors(summary: Mapping[str, Any]) -> str:

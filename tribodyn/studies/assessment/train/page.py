@@ -12,7 +12,6 @@ from tribodyn.gears.rating.rating_text import numbered
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
 from tribodyn.input.names import under_one_name
-from tribodyn.post.page.page import table
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import MESHES, Record
@@ -21,7 +20,6 @@ from tribodyn.studies.assessment.first_page import (
     Judged,
     holds_table,
     judged_cell,
-    limits_table,
     listed,
     numbers_table,
     range_over,
@@ -51,18 +49,9 @@ def page(record: Record) -> str:
     done = tasks.kept(tasks_of(case), tasks.folder_of(Path(record.path)))
     study = case.subject.study
     picture = inline(overview(record), "factors, efficiency, losses, safeties")
+    asked, stages = _asked(case, summary), _stages(summary)
+    front = first_page.Front(verdict(record), _holds(summary), asked, _tiles(summary), stages)
     body = [
-        first_page.header(record, "Assessment of a train"),
-        first_page.verdict_of(record, verdict(record)),
-        _holds(summary),
-        "<section><h2>Duty</h2>" + _asked(case, summary) + "</section>",
-        '<div class="columns">',
-        f"<div>{listed('Assumed', summary.get('assumed', {}))}</div>",
-        f"<div>{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
-        "</div>",
-        '<div class="break"></div>',
-        _tiles(summary),
-        f'<div class="columns"><div>{limits_table(summary)}</div><div>{_stages(summary)}</div></div>',
         f'<div class="pictures"><p>{picture}</p></div>',
         _meshes(summary, "simulated"),
         _meshes(summary, "iso"),
@@ -70,12 +59,9 @@ def page(record: Record) -> str:
         first_page.folded_sums(spectrum_tables_of(summary)),
         first_page.bearings_table(summary),
         first_page.part_section(study, "Motion at the duty", [done[DUTY]] if done else []),
-        "<section><h2>Gears and oil</h2>"
-        + "".join(table(*sheet) for sheet in study.check(case.subject.case, allow_large=True).every)
-        + "</section>",
-        first_page.origin(record),
     ]
-    return first_page.written(record, body)
+    sheets = study.check(case.subject.case, allow_large=True).every
+    return first_page.written(record, "Assessment of a train", front, body, sheets)
 
 
 def _reasons(summary: Mapping[str, Any]) -> str:

@@ -32,7 +32,7 @@ from tribodyn.studies.assessment.train.meshes import (
     worst_margins,
 )
 from tribodyn.studies.assessment.train.pairs import MeshPair, pairs_of, parts_of
-from tribodyn.studies.assessment.unknowns import Draw, drawn, ranges_of_gearbox
+from tribodyn.studies.assessment.unknowns import Draw, described, drawn, ranges_of_gearbox
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.scratch import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
@@ -75,15 +75,6 @@ def quantities_of(case: TrainAssessmentCase) -> dict[str, Any]:
         return assessed(case, folder)[1]
 
 
-def draws_of(case: TrainAssessmentCase, pairs: Mapping[str, MeshPair]) -> list[Draw]:
-    """Samples of what is not known of a train; none of a bare model."""
-    if not pairs:
-        return []
-    settings, scenario = case.settings, tomllib.loads(case.subject.case.toml)
-    ranges = ranges_of_gearbox(scenario, [pair.mesh for pair in pairs.values()], settings.unknowns)
-    return drawn(ranges, settings.samples, settings.seed)
-
-
 def motion_parts(case: TrainAssessmentCase, draws: Sequence[Draw]) -> tuple[Part, ...]:
     """The studies that are asked for the motion over the speed; none, where neither is asked for."""
     subject, whole, settings = case.subject.case, case.whole, case.settings
@@ -101,6 +92,7 @@ class Asked(NamedTuple):
 
     pairs: Mapping[str, MeshPair]
     draws: Sequence[Draw]
+    varied: str  # what is not known, and how far
     motion: tuple[Part, ...]
     teeth: Mapping[str, tuple[Part, ...]]  # of every group of meshes
     tasks: Sequence[tuple[Study, Task]]  # the train's runs at the duty, and all of these
@@ -113,11 +105,14 @@ def asked_of(case: TrainAssessmentCase) -> Asked:
     for law in case.settings.friction_laws:
         about, other = f"motion with friction by {law}", {**scenario, "friction": {"law": law}}
         runs.append(Task(f"friction-{law}", about, other, needed=False))
-    pairs = pairs_of(case)
-    draws = draws_of(case, pairs)
+    pairs, settings = pairs_of(case), case.settings
+    meshes = [pair.mesh for pair in pairs.values()]  # of a bare model there are none
+    ranges = ranges_of_gearbox(scenario, meshes, settings.unknowns) if meshes else None
+    draws = drawn(ranges, settings.samples, settings.seed) if ranges else []
     motion, teeth = motion_parts(case, draws), parts_of(pairs, draws)
     every = parts.tasks_of([*motion, *(part for of_mesh in teeth.values() for part in of_mesh)])
-    return Asked(pairs, draws, motion, teeth, [*((study, task) for task in runs), *every])
+    varied = described(ranges) if ranges else ""
+    return Asked(pairs, draws, varied, motion, teeth, [*((study, task) for task in runs), *every])
 
 
 def tasks_of(case: TrainAssessmentCase) -> Sequence[tuple[Study, Task]]:
@@ -152,7 +147,8 @@ def assessed(
             if samples is not None:
                 scattered[mesh.name] = samples
     oil = whole.meshes(subject)[0].pair.lubricant
-    application = case.settings.application_factor
+    application, count = case.settings.application_factor, len(asked.draws)
+    scatter_said = f"; its scatter is over {count} samples of {asked.varied}" if scattered else ""
     summary: dict[str, Any] = {
         "input_speed": case.whole.speed(case.subject.case),
         **quantities,
@@ -169,7 +165,7 @@ def assessed(
         ),
         "not_judged": _not_judged(case),
         "in_doubt": numbered(_in_doubt(duty_summary)),
-        "assumed": numbered(list(_assumed(case, meshes, duties))),
+        "assumed": numbered(list(_assumed(case, meshes, duties, scatter_said))),
         "extrapolated": numbered([*extrapolated(asked.tasks, done), *_outside(meshes)]),
         **{name: duty_summary[name] for name in (TRUST, REASONS) if duty_summary.get(name)},
         "wall_time": perf_counter() - begun,
@@ -245,7 +241,7 @@ def _values(
 
 
 def _assumed(
-    case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]], duties: int
+    case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]], duties: int, scatter: str
 ) -> Iterator[str]:
     settings, subject, whole = case.settings, case.subject.case, case.whole
     pairs = [mesh.pair for mesh in whole.meshes(subject)]
@@ -257,7 +253,7 @@ def _assumed(
         "motion runs without K_A; stresses, film, temperatures and safeties, simulated too, count with it "
         "and with K_γ of planetary stages."
     )
-    yield "Accurate teeth in the simulation but for modifications and pin errors of the scenario."
+    yield f"Accurate teeth in the simulation but for modifications and pin errors of the scenario{scatter}."
     rated = [name for name, mesh in meshes.items() if "iso" in mesh]
     if len(rated) < len(meshes):
         yield (
