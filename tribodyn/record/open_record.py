@@ -19,6 +19,11 @@ from tribodyn.record.withheld_efficiency import samples_withheld
 #: Dataset (time, pair) of the deflection along a pair's normal, its older name, and one beside both.
 NORMAL, OLDER, BESIDE = "transmission_error_normal", "transmission_error", "transmission_error_rotational"
 _SPEEDS = {f"contact_loss_{end}": f"contact_loss_speed_{end}" for end in ("from", "to")}
+#: Of an assessment of a train, as of a pair.
+_OF_INPUT = {
+    "dynamic_factor_max_input_speed": "dynamic_factor_max_speed",
+    "contact_loss_input_speed_from": "contact_loss_speed_from",
+}
 _OF_A_MESH = re.compile(r"(back_)?transmission_error_(rotational_)?(mean|peak_to_peak|max|min)")
 
 
@@ -41,7 +46,7 @@ def summary_of_today(summary: Mapping[str, Any], names: Collection[str]) -> dict
         return _without_normal(summary)
     if "dynamic_factor_max_speed" in summary:  # speeds at which contact is lost, elsewhere frequencies
         return {_SPEEDS.get(name, name): value for name, value in summary.items()}
-    return dict(summary)
+    return {_OF_INPUT.get(name, name): value for name, value in summary.items()}
 
 
 def _without_normal(summary: Mapping[str, Any]) -> dict[str, Any]:

@@ -150,6 +150,8 @@ def test_speeds_at_which_contact_is_lost_are_no_frequencies():
     today = {"dynamic_factor_max_speed": 3.0, "contact_loss_speed_from": 1.0, "contact_loss_speed_to": 2.0}
     assert summary_of_today(older, ()) == summary_of_today(today, ()) == today
     assert summary_of_today({"contact_loss_from": 0.6}, ()) == {"contact_loss_from": 0.6}
+    of_train = {"dynamic_factor_max_input_speed": 3.0, "contact_loss_input_speed_from": 1.0}
+    assert summary_of_today(of_train, ()) == {name: today[name] for name in list(today)[:2]}
 
 
 @pytest.mark.slow
