@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
     Design: type[Run]
     design: Callable[..., Run]
-    judge: Callable[..., Finding]
+    compare_laws: Callable[..., Finding]
 
 __all__ = [
     "Design",
@@ -73,6 +73,7 @@ __all__ = [
     "WearLaw",
     "__version__",
     "check",
+    "compare_laws",
     "constraints",
     "design",
     "differentiable",
@@ -80,7 +81,6 @@ __all__ = [
     "gear",
     "gradient",
     "identify",
-    "judge",
     "line_contact",
     "open",
     "run",

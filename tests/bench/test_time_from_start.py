@@ -82,7 +82,10 @@ TWICE = {
         ["sweep", "crc-23-47", "--vary", "operating.pinion_speed=100:400:2.5rad/s"],
         "sweep('crc-23-47', {'operating.pinion_speed': '100:400:2.5rad/s'})",
     ),
-    "judge": (["judge", "involute-18-36", "--positions", "6"], "judge('involute-18-36', positions=6)"),
+    "compare-laws": (
+        ["compare-laws", "involute-18-36", "--positions", "6"],
+        "compare_laws('involute-18-36', positions=6)",
+    ),
     "validate": (["validate", "efremenkov-2024"], "validate('efremenkov-2024')"),
 }
 

@@ -36,7 +36,7 @@ VERBS: tuple[tuple[str, ...], ...] = (
     ("sweep", "efficiency-involute-18-36", "--vary", "operating.gear_torque=100:200:50N*m", "-o", "sweep.h5"),
     ("check", "crc-23-47"),
     ("gear", "involute-18-36", "-o", "drawings"),
-    ("judge", "crc-23-47", "--positions", "4", "-o", "judged.png"),
+    ("compare-laws", "crc-23-47", "--positions", "4", "-o", "judged.png"),
     ("assess", "drive.toml", *shortened("assessment"), "-o", "assessed"),
     ("list",),
     ("init", "mine"),

@@ -28,7 +28,7 @@ class Verbs(TyperGroup):
         from tribodyn.cli.study_verbs import command_of, study_verbs
 
         for name, offered in study_verbs():
-            if name == cmd_name:
+            if cmd_name in (name, offered.alias):
                 alone = typer.Typer(
                     rich_markup_mode=None, add_completion=False, pretty_exceptions_enable=False
                 )

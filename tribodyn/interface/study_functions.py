@@ -22,8 +22,9 @@ if TYPE_CHECKING:
 def offered(name: str) -> Any:
     """The function of a study's verb, or the class of a study's runs, by its name; None: there is none."""
     for kind, verbs in STUDIES.each(lambda study: study.verbs()):
-        if name in verbs:
-            return _function(verbs[name])
+        for verb_name, verb in verbs.items():
+            if name in (verb_name.replace("-", "_"), verb.alias):
+                return _function(verb)
         if verbs and run_class(kind).__name__ == name:
             return run_class(kind)
     return None

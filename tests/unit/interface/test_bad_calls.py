@@ -63,7 +63,7 @@ SHORT = {"solver.cycles": 2}
         ("gradient", (CASE, "nope", TORQUE), {}, "nope"),
         ("validate", (None,), {}, "paper"),
         ("validate", ("helical-report-2017", 3), {}, "progress"),
-        ("judge", (CASE, 3), {}, "overrides"),
+        ("compare_laws", (CASE, 3), {}, "overrides"),
         ("design", (CASE, 3), {}, "free = 3: is neither a mapping"),
         ("identify", (CASE, {"e": [0.0]}, {"mesh.damping_ratio": (0.0, 1.0)}), {"workers": 0}, "workers"),
     ],

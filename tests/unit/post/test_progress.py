@@ -17,7 +17,7 @@ from tribodyn.studies.protocol.load import load_scenario
 SWEEP = (
     "import tribodyn as td\ntd.sweep('backlash-oscillator', {'damping': [0.05, 0.08]}, progress=PROGRESS)\n"
 )
-JUDGE = "import tribodyn as td\ntd.judge('crc-23-47', positions=4, progress=PROGRESS)\n"
+JUDGE = "import tribodyn as td\ntd.compare_laws('crc-23-47', positions=4, progress=PROGRESS)\n"
 #: What a notebook's kernel has: IPython is no dependency, and this says what the bar needs of it.
 NOTEBOOK = """
 import builtins, sys, types

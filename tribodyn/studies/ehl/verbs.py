@@ -1,4 +1,4 @@
-"""`tribodyn judge` and `td.judge`: every film and friction law beside the solved contact."""
+"""`tribodyn compare-laws` and `td.compare_laws`: every film and friction law beside the solved contact."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
@@ -11,15 +11,15 @@ if TYPE_CHECKING:
 
 EXAMPLES = (
     "\b\nExamples:\n"
-    "  tribodyn judge crc-23-47\n"
-    "  tribodyn judge my-drive.toml --map -o judged.png\n"
-    '  tribodyn judge involute-23-47 --set operating.gear_torque="100 N*m"'
+    "  tribodyn compare-laws crc-23-47\n"
+    "  tribodyn compare-laws my-drive.toml --map -o laws.png\n"
+    '  tribodyn compare-laws involute-23-47 --set operating.gear_torque="100 N*m"'
 )
 #: Positions of the pair, at least and at most.
 FEWEST, MOST = 4, 2000
 
 
-def judge(
+def compare_laws(
     case: Any,
     *,
     positions: Annotated[int, Option("Positions of the pair along its way.", min=FEWEST, max=MOST)] = 24,
@@ -58,4 +58,4 @@ def judge(
     return judgement(case, positions, FACTORS if map else (), progress)
 
 
-VERBS = {"judge": Verb(judge, EXAMPLES, answers=True)}
+VERBS = {"compare-laws": Verb(compare_laws, EXAMPLES, answers=True, alias="judge")}

@@ -65,8 +65,10 @@ class Verb(NamedTuple):
         values alike.
     examples : what stands at the end of its help
     answers : whether it answers at once, without a record
+    alias : another name, on the command line and in Python, that no list shows
     """
 
     function: Callable[..., Any]
     examples: str
     answers: bool = False
+    alias: str = ""

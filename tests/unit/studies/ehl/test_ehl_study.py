@@ -65,7 +65,7 @@ def test_regressions_stand_beside_it(run):
 
 @pytest.fixture(scope="module")
 def judged():
-    return td.judge("crc-23-47", positions=5)
+    return td.compare_laws("crc-23-47", positions=5)
 
 
 def test_laws_are_judged_by_the_study_of_any_scenario(run, judged):
@@ -114,7 +114,7 @@ def test_what_has_no_oil_is_not_judged():
 @pytest.mark.parametrize("positions", [0, 3, 2001, 4.0, True, "8", float("nan")])
 def test_positions_that_are_none(positions):
     with pytest.raises(td.InputError) as caught:
-        td.judge("crc-23-47", positions=positions)
+        td.compare_laws("crc-23-47", positions=positions)
     assert caught.value.key == "positions"
 
 
