@@ -150,7 +150,7 @@ def assessed_mesh(
         name: of_run[name] for name in _FOR_PAIR if of_run.get(name) is not None
     }
     names = found["driver"], found["driven"]
-    outcome, beside = _beside(rating, contact.along, quantities, loads, names)
+    outcome, beside = _beside(rating, contact.along, quantities, loads, names, planetary=bool(mesh.stage))
     found["simulated"] |= beside.pop("simulated")
     found |= beside
     rows = contact.spread and scatter.rows
@@ -187,9 +187,18 @@ def _by_name(case: TrainAssessmentCase, rated: AssessmentCase, by: ByStandard) -
 
 
 def _beside(
-    rating: _Rating, along: Mapping[str, Any], quantities: Mapping[str, Any], loads: Any, names: Sequence[str]
+    rating: _Rating,
+    along: Mapping[str, Any],
+    quantities: Mapping[str, Any],
+    loads: Any,
+    names: Sequence[str],
+    *,
+    planetary: bool,
 ) -> tuple[Conclusion, dict[str, Any]]:
-    """The simulation of a mesh beside its rating: from the contact of its teeth and their loads in motion."""
+    """The simulation of a mesh beside its rating: from the contact of its teeth and their loads in motion.
+
+    Those of a planet are brought to the mean load that K_γ multiplies.
+    """
     rated, pressed = rating.rated, rating.pressed
     turned = pressed is not rated
     if turned:
@@ -197,7 +206,7 @@ def _beside(
     places = along["roll_angle"]
     positions = round(float(assembled(pressed).pitch_angle) / float(places[1] - places[0]))
     mean = float(np.sum(along["normal_load"])) / positions
-    loads = loads.of_load(mean, quantities["dynamic_factor"])
+    loads = loads.of_load(mean if planetary else loads.mean_load, quantities["dynamic_factor"])
     outcome = concluded(pressed, along, quantities, loads._asdict(), rated=rating.seen())
     simulated = outcome.judged["margins"]["simulated"] | outcome.simulated
     simulated |= {name: quantities[name] for name in _OF_CONTACT if name in quantities}
