@@ -169,7 +169,7 @@ def train_assessment_faults(record: Record) -> Iterator[str]:
     for name, mesh in summary["meshes"].items():
         for part in ("iso", "simulated"):
             margins = {key: least(value) for key, value in mesh.get(part, {}).items() if key.startswith("S_")}
-            if not all(value >= 0.0 for value in margins.values()):
+            if not all(value is None or value >= 0.0 for value in margins.values()):
                 yield f"margins of {name}, {part}: {margins}"
 
 
