@@ -103,7 +103,8 @@ def test_the_steady_state_is_that_without_play_a_tooth_further():
 def test_energy_closes_where_play_opens_and_both_methods_agree(tmp_path):
     found = {}
     for method in ("dopri5", "rodas4"):
-        keys = {**LIGHT, "solver.method": method, "solver.rtol": 1e-9}
+        # a sample beside an impact is as far off as its instant, which the tolerance decides
+        keys = {**LIGHT, "solver.method": method, "solver.rtol": 1e-10}
         record = run(reducer(keys), tmp_path / f"{method}.h5")
         assert record.status == "complete"
         assert abs(record.summary["energy_residual"]) < 1e-8

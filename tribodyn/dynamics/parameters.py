@@ -6,7 +6,7 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.links.chain import BY_TABLE
 from tribodyn.train.schedule import Schedule
 from tribodyn.train.structure import Bodies, GearMesh, Links, TrainLayout
-from tribodyn.tribology.film.numbers import FilmNumbers
+from tribodyn.tribology.film.numbers import FilmNumbers, film_by_number
 from tribodyn.tribology.friction import none
 from tribodyn.tribology.law import (
     ActiveLaw,
@@ -107,9 +107,7 @@ def with_shared_code(model: Model) -> Model:
     """
     film, friction = model.options.film, model.options.friction
     if not friction.reads_film and all(isinstance(mesh.film, FilmNumbers) for mesh in model.meshes):
-        from tribodyn.tribology.film.by_number import film_by_number
-
-        film = film._replace(film=film_by_number)
+        film = film._replace(film=film_by_number())
     film = film._replace(in_range=film_range_not_stated)
     friction = friction._replace(in_range=range_not_stated)
     return model._replace(options=model.options._replace(film=film, friction=friction))

@@ -1,11 +1,13 @@
 """What film laws by formula read of a contact, whatever its load and speed."""
 
+from collections.abc import Callable
+from importlib import import_module
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import log
 from tribodyn.tribology.law import LawInput
 
-#: Numbers of the laws, by which `by_number.film_by_number` tells them apart.
+#: Numbers of the laws, by which `film_by_number` tells them apart.
 MASJEDI_KHONSARI, DOWSON_HIGGINSON, MOES = range(3)
 
 
@@ -34,3 +36,8 @@ def film_numbers(inputs: LawInput, number: int, asperity_log_factor: float = 447
         log_asperity_factor=log(asperity_log_factor),
         number=float(number),
     )
+
+
+def film_by_number() -> Callable[..., Any]:
+    """Return the function of all laws by formula; by name, so that no kernel without it depends on them."""
+    return import_module("tribodyn.tribology.film.by_number").film_by_number
