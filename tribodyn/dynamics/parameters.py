@@ -7,7 +7,7 @@ from tribodyn.train.links.chain import BY_TABLE
 from tribodyn.train.schedule import Schedule
 from tribodyn.train.structure import Bodies, GearMesh, Links, TrainLayout
 from tribodyn.tribology.film.numbers import FilmNumbers, film_by_number
-from tribodyn.tribology.friction import none
+from tribodyn.tribology.friction.none import LAW, NO_FRICTION
 from tribodyn.tribology.law import (
     ActiveLaw,
     Closure,
@@ -115,6 +115,6 @@ def with_shared_code(model: Model) -> Model:
 
 def frictionless(model: Model) -> Model:
     """Return the model without friction."""
-    options = model.options._replace(friction=none.LAW.functions)
-    meshes = tuple(mesh._replace(friction=none.NO_FRICTION) for mesh in model.meshes)
+    options = model.options._replace(friction=LAW.functions)
+    meshes = tuple(mesh._replace(friction=NO_FRICTION) for mesh in model.meshes)
     return model._replace(meshes=meshes, options=options)
