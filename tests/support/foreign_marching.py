@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.parameters import Model, with_shared_code
 from tribodyn.kernels.native import packed
 from tribodyn.solve.right_hand_side import engage, rhs, work_array
 
@@ -78,7 +78,7 @@ def oscillator_march(
 def gear_march(model: Model, state: np.ndarray, cycles: int, atol: np.ndarray) -> np.ndarray:
     """States (cycles, states) of a gear pair behind the engagement that ends every mesh cycle."""
     place, rates, work = np.empty_like(state), np.empty_like(state), work_array(model)
-    arguments = [packed(item) for item in (place, model, work, rates)]
+    arguments = [packed(item) for item in (place, with_shared_code(model), work, rates)]
 
     def slope(phase, y, interval):
         place[:] = y

@@ -12,10 +12,12 @@ from tribodyn.studies.protocol.run import run
 
 #: Kinds whose runs take long even when they are short.
 FINITE_ELEMENTS = ("load-contact", "design", "assessment")
+#: A law whose machine code many tests have.
+COULOMB: dict[str, Any] = {"friction.law": "coulomb", "friction.coefficient": 0.05}
 #: Kind -> overrides under which its template takes seconds; that of another kind is taken as it stands.
 SHORT: dict[str, dict[str, Any]] = {
     "gear-pair": {"solver.cycles": 4, "output.samples_per_cycle": 40},
-    "gear-train": {"solver.cycles": 4, "output.samples_per_cycle": 40, "friction.law": "xu"},
+    "gear-train": {"solver.cycles": 4, "output.samples_per_cycle": 40, **COULOMB},
     "efficiency": {"output.samples_per_cycle": 40},
     "load-contact": {"output.positions_per_cycle": 12, "mesh.slices": 7},
     "wear": {
@@ -50,7 +52,7 @@ SHORT: dict[str, dict[str, Any]] = {
     "train-assessment": {
         "scenario.solver.cycles": 4,
         "scenario.output.samples_per_cycle": 40,
-        "scenario.friction.law": "xu",
+        **{f"scenario.{key}": value for key, value in COULOMB.items()},
         "assessment.speeds": 2,
         "assessment.samples": 2,
     },

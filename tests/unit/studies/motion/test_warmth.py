@@ -36,7 +36,8 @@ def test_quasi_static_losses_heat_one_oil():
 
 
 def test_a_run_settles_at_the_losses_of_its_motion(tmp_path):
-    keys = {**NETWORK, "solver.cycles": 12, "output.samples_per_cycle": 40, "friction.law": "xu"}
+    keys = {**NETWORK, "solver.cycles": 12, "output.samples_per_cycle": 40}
+    keys |= {"friction.law": "coulomb", "friction.coefficient": 0.05}
     found = run(load_scenario("two-stage-reducer", keys), tmp_path / "warm.h5").summary["meshes"]
     oil, gears = expected([mesh["power_friction_mean"] for mesh in found.values()])
     for mesh, own in zip(found.values(), gears, strict=True):

@@ -123,7 +123,13 @@ def scenario_of(kind: str, keys: dict[str, Any]) -> Gearbox:
         operating["duty"] = 2
     drive = keys.pop("drive", {})
     drive = drive if isinstance(drive, str) else INVOLUTE | drive
-    base = {"title": kind, "kind": kind, "mesh": MESH, "friction": {"law": "xu"}, "bearings": "rigid-1e9"}
+    base = {
+        "title": kind,
+        "kind": kind,
+        "mesh": MESH,
+        "friction": {"law": "coulomb", "coefficient": 0.05},
+        "bearings": "rigid-1e9",
+    }
     return load_data(
         base | OIL | SHORT | {"drive": drive, "operating": operating} | keys, kind
     ).case.gearbox()
