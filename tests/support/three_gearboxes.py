@@ -27,7 +27,7 @@ INVOLUTE: dict[str, Any] = {
 ALIKE: dict[str, Any] = {
     "lubricant": {"like": "iso-vg-220-mineral", "fzg_micropitting_stage": 9},
     "mesh": MESH,
-    "friction": {"law": "xu"},
+    "friction": {"law": "niemann"},
     "solver": {"cycles": 4},
     "output": {"samples_per_cycle": 80},
 }

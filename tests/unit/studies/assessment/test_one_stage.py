@@ -56,7 +56,7 @@ TRAIN = {
     "bearings": "rigid-1e9",
     "operating": {"input": "pinion", "output": "wheel", "input_speed": "1480 rpm", **DUTY},
     "mesh": {"damping_ratio": 0.05},
-    "friction": {"law": "xu"},
+    "friction": {"law": "niemann"},
 }
 
 
@@ -211,7 +211,7 @@ def test_stresses_of_the_simulation_are_those_of_the_pair(tmp_path: Path):
         "drive": {"family": "involute", **FLANKS, **teeth, **sides},
         "bearings": "rigid-1e9",
         "operating": {"pinion_speed": "1480 rpm", **DUTY},
-        "assessment": asked | {"speeds": 8, "samples": 0, "friction_laws": ["xu"]},
+        "assessment": asked | {"speeds": 8, "samples": 0, "friction_laws": ["niemann"]},
     }
     other = run(load_data(pair, "y").case, tmp_path / "y.h5").summary
     for name in ("sigma_H", "sigma_F", "S_H", "S_F"):
