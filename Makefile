@@ -1,7 +1,7 @@
 # make demo   run a spur pair: record, summary, picture and a page for the browser in ./demo
 # make test   lint, types and all tests, the slow ones and the speed ratios included
 # make quick  the shortest tests, under a minute (docs/development.md)
-# make soak   512 random drives, duties and options, and other long checks: an hour and three quarters (docs/soak.md)
+# make soak   512 random drives, duties and options, and other long checks: two hours (docs/soak.md)
 # make fuzz   30 000 mutated inputs: scenarios, options, curves, records, the cache (docs/fuzz.md)
 # make elsewhere  the tests as on other machines: other BLAS, vectors, compilers' targets, threads, load (an hour)
 # make docs   the documentation site, into docs/_build/html
