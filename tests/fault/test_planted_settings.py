@@ -61,7 +61,7 @@ def ended(folder: Path, *words: str, **variables: str) -> "subprocess.CompletedP
 
 #: A run is computed by kernels and draws its overview, in a child where there are two cores; a drawing.
 VERBS = (
-    ("run", "irefc", "-o", "one.h5", "--set", "output.samples_per_cycle=8"),
+    ("run", "irefc", "-o", "one.h5", "--force", "--set", "output.samples_per_cycle=8"),
     ("gear", "involute-18-36", "-o", "drawings"),
 )
 #: Pictures of the record that the first leaves.

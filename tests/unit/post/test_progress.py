@@ -14,8 +14,9 @@ from tribodyn.numerics.processes.work import foretold
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario
 
+DAMPING = "[0.02, 0.03, 0.05, 0.08]"
 SWEEP = (
-    "import tribodyn as td\ntd.sweep('backlash-oscillator', {'damping': [0.05, 0.08]}, progress=PROGRESS)\n"
+    f"import tribodyn as td\ntd.sweep('backlash-oscillator', {{'damping': {DAMPING}}}, progress=PROGRESS)\n"
 )
 JUDGE = "import tribodyn as td\ntd.compare_laws('crc-23-47', positions=4, progress=PROGRESS)\n"
 #: What a notebook's kernel has: IPython is no dependency, and this says what the bar needs of it.
@@ -75,7 +76,7 @@ def test_a_terminal_shows_what_is_done_the_rate_and_the_time_left():
 def test_sweeps_and_judgements_show_theirs_and_scripts_none(program: str):
     shown = on_a_terminal(program.replace("PROGRESS", "None"))
     assert re.search(r"\d+%", shown)
-    shorter = program.replace("[0.05, 0.08]", "[0.08]")
+    shorter = program.replace(DAMPING, "[0.08]")
     assert on_a_terminal(shorter.replace("PROGRESS", "False")) == ""
     assert piped(shorter.replace("PROGRESS", "None")) == ""
 
