@@ -44,6 +44,7 @@ class Options(NamedTuple):
     hertz: int = HERTZ_IN_TABLE
     sweeps: int = 1  # over coupled pairs; 1: they are not coupled
     links: Any = BY_TABLE  # functions of the laws of the links, see `train.links.chain`
+    reads_film: int = 1  # 0: the friction law does not depend on the film, which is recorded only
     averaged: int = 0  # 1: radius and entrainment vanish at the pitch point and are averaged over the contact
 
 
@@ -106,7 +107,7 @@ def with_shared_code(model: Model) -> Model:
     are one function.
     """
     film, friction = model.options.film, model.options.friction
-    if not friction.reads_film and all(isinstance(mesh.film, FilmNumbers) for mesh in model.meshes):
+    if not model.options.reads_film and all(isinstance(mesh.film, FilmNumbers) for mesh in model.meshes):
         film = film._replace(film=film_by_number())
     film = film._replace(in_range=film_range_not_stated)
     friction = friction._replace(in_range=range_not_stated)
@@ -115,6 +116,6 @@ def with_shared_code(model: Model) -> Model:
 
 def frictionless(model: Model) -> Model:
     """Return the model without friction."""
-    options = model.options._replace(friction=LAW.functions)
+    options = model.options._replace(friction=LAW.functions, reads_film=0)
     meshes = tuple(mesh._replace(friction=NO_FRICTION) for mesh in model.meshes)
     return model._replace(meshes=meshes, options=options)

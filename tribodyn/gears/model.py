@@ -19,7 +19,7 @@ from tribodyn.numerics.curve import Table, monotone_slopes
 from tribodyn.train.positions import moves_of
 from tribodyn.train.schedule import with_teeth
 from tribodyn.train.structure import GearMesh, TrainLayout
-from tribodyn.tribology.closure import Closure
+from tribodyn.tribology.closure import Closure, laws_of
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
 #: reduces the error by the square of the coupling between two pairs over what each deflects alone.
@@ -127,6 +127,7 @@ def options_of(
         drive=drive,
         hertz=parameters.HERTZ_IN_TABLE if linear else parameters.HERTZ_POWER_LAW,
         sweeps=max(_sweeps(cycle) for cycle in cycles),
+        reads_film=int(laws_of(case)[1].reads_film),
         averaged=int(any(float(cycle.pitch_point_length) > 0.0 for cycle in cycles)),
     )
 

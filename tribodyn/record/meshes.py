@@ -64,8 +64,8 @@ class MeshesOfRecord:
     def over_bodies(self, name: str) -> np.ndarray:
         """Motion (sample, body) in a coordinate: x, y, z, angle, tilt_x or tilt_y, or a rate.
 
-        Rates are x_rate, y_rate, z_rate and speed. Where the meshes have no names of pinion and gear, and NaN
-        of a motor. KeyError where the record does not hold it.
+        Rates are x_rate, y_rate, z_rate and speed. Where the meshes have no names the bodies are pinion and
+        gear, and a motor's values are NaN. KeyError where the record does not hold it.
         """
         if "dof" not in self:
             return self[name]

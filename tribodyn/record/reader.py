@@ -12,7 +12,6 @@ from tribodyn.errors import InputError
 from tribodyn.record import schema, trust
 from tribodyn.record.files.soundness import UNREADABLE
 from tribodyn.record.layout import counted
-from tribodyn.record.meshes import MESHES as MESHES
 from tribodyn.record.meshes import MeshesOfRecord
 from tribodyn.record.open_record import OpenRecord, attributes, stored_name, summary_of_today, todays_name
 from tribodyn.record.sweep_schema import SWEEP

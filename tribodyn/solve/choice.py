@@ -112,6 +112,7 @@ def _places(
                     width = float(model.operation.reversal_width) / slope
                     near = [place_of(m, phase, schedule, interval) for phase in pitch_point + width * about]
                     places += [phase for phase in near if low < phase < high]
+        # np.unique would import numpy.ma, a hundredth of the start of a run
         distinct = sorted(set(np.round(places, DIGITS).tolist()))
         phases += distinct
         passed += [number] * len(distinct)

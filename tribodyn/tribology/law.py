@@ -80,7 +80,6 @@ class FrictionFunctions(NamedTuple):
     coefficient: Callable[..., Any]
     flash_temperature: Callable[..., Any]
     in_range: Callable[..., Any]
-    reads_film: bool
 
 
 class ActiveLaw(NamedTuple):
@@ -181,7 +180,7 @@ class KeyedLaw:
         return (*self.limits[:unjudged], *(f"{limit} (judged)" for limit in self.limits[unjudged:]))
 
     def __post_init__(self) -> None:
-        for function in filter(callable, self.functions):
+        for function in self.functions:
             if not any(function is builtin for builtin in LAWS):
                 law(function)
 
@@ -261,7 +260,7 @@ class FrictionLaw(KeyedLaw):
     @property
     def functions(self) -> FrictionFunctions:
         """The functions that kernels and models hold."""
-        return FrictionFunctions(self.function, self.flash_temperature, self.in_range, self.reads_film)
+        return FrictionFunctions(self.function, self.flash_temperature, self.in_range)
 
 
 @dataclass(frozen=True)

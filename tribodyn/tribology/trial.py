@@ -45,9 +45,7 @@ def _try(law: FilmLaw | FrictionLaw, closure: Closure) -> None:
 
 def refuse_unmarked(key: str, law: KeyedLaw) -> None:
     """Raise InputError of a key if a law calls a function that is not marked as part of one."""
-    for called in {
-        other.__name__ for function in filter(callable, law.functions) for other in _unmarked(function)
-    }:
+    for called in {other.__name__ for function in law.functions for other in _unmarked(function)}:
         rule = f"calls {called}, which is not marked as part of a law"
         raise InputError(key, quoted(law.name), rule, "put @law of tribodyn.numerics.elementary over it")
 

@@ -189,11 +189,8 @@ def _packed(models: Sequence[Model]) -> list[PackedValue]:
             packed_records[id(record)] = packed(record)
         return packed_records[id(record)]
 
-    options = (with_shared_code(model).options for model in models)
-    return [
-        packed(Model(*map(once, model.numbers), options=of))
-        for model, of in zip(models, options, strict=True)
-    ]
+    shared = map(with_shared_code, models)
+    return [packed(Model(*map(once, model.numbers), options=model.options)) for model in shared]
 
 
 def _duals(shape: tuple[int, ...], directions: int) -> Float[Array, "*shape dual"]:

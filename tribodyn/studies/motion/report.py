@@ -12,7 +12,8 @@ from tribodyn.post.page.mechanism import Mechanism
 from tribodyn.post.report import on_closures, on_energy, on_methods
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Quantity, Reported
-from tribodyn.record.reader import MESHES, Record
+from tribodyn.record.meshes import MESHES
+from tribodyn.record.reader import Record
 from tribodyn.record.withheld_efficiency import reasons
 from tribodyn.studies.motion.drivetrain.mesh_groups import between, groups_of, together
 from tribodyn.studies.motion.pictures.rolling_train import rolling_train

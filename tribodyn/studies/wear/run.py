@@ -269,7 +269,7 @@ def _functions_of(case: WearCase) -> list[Callable[..., Any]]:
         for law in laws
         if law.name.startswith(FROM_PYTHON) or not law.function.__module__.startswith(ours)
     ]
-    return [part for law in outside for part in (*law.functions, law.parameters) if callable(part)]
+    return [part for law in outside for part in (*law.functions, law.parameters) if part is not None]
 
 
 def _is_recognised(function: Callable[..., Any]) -> bool:

@@ -74,6 +74,5 @@ LAW = FrictionLaw(
     keys=(
         Parameter("coefficient", "number", "friction coefficient μ", allowed="not negative", example="0.05"),
     ),
-    in_range=range_of_constant,  # none is stated; so that all constant coefficients share machine code
     reads_film=False,
 )

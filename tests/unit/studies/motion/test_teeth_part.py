@@ -6,7 +6,8 @@ import pytest
 
 from tests.support.short_studies import short_case
 from tribodyn.gears.prepare import contact_quantities
-from tribodyn.record.reader import MESHES, Record
+from tribodyn.record.meshes import MESHES
+from tribodyn.record.reader import Record
 from tribodyn.studies.motion.report import verdict
 from tribodyn.studies.motion.run import run
 

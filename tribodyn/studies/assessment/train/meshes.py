@@ -16,7 +16,8 @@ from tribodyn.gears.rating.rating_text import numbered
 from tribodyn.gears.rating.spectrum import spectrum_part
 from tribodyn.gears.rating.standard import factors_by_name, margins_by_standard
 from tribodyn.geometry.drive import SIDES
-from tribodyn.record.reader import MESHES, Record
+from tribodyn.record.meshes import MESHES
+from tribodyn.record.reader import Record
 from tribodyn.studies.assessment.pair import parts
 from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.assessment.pair.conclusion import ByStandard, by_standard, concluded
@@ -156,7 +157,7 @@ def assessed_mesh(
     rows = contact.spread and scatter.rows
     if not rows:
         return found, None
-    number = [each.name for each in case.whole.meshes(case.subject.case)].index(mesh.name)
+    number = record.meshes.index(mesh.name)
     of_mesh = {
         "dynamic_factor": rows["dynamic_factor_of_mesh"][:, number],
         "mesh_load_factor": np.full(len(scatter.draws), share),

@@ -14,7 +14,8 @@ from tribodyn.geometry.rack_section import as_written
 from tribodyn.input.names import under_one_name
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.record.reader import MESHES, Record
+from tribodyn.record.meshes import MESHES
+from tribodyn.record.reader import Record
 from tribodyn.studies.assessment import first_page
 from tribodyn.studies.assessment.first_page import (
     Judged,
