@@ -147,7 +147,7 @@ def train_figure(records: Sequence[Record], view: View) -> Figure:
     grid = figure.add_gridspec(1 + rows, columns, height_ratios=[3.2, *[min(panel_width, 3.0)] * rows])
     whole = figure.add_subplot(grid[0, :])
     draw_train(whole, record, sample)
-    mark_panel(whole, "a", "Train, drawn to scale; colours: sense of rotation; below: teeth and loads")
+    mark_panel(whole, "a", "Train, drawn to scale\ncolours: sense of rotation; below: teeth and loads")
     for number, m in enumerate(meshes):
         axes = figure.add_subplot(grid[1 + number // columns, number % columns])
         draw_mesh(axes, record, m, sample)
