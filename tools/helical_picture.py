@@ -11,7 +11,7 @@ from tools.marked_block import PICTURES as FOLDER
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import family
-from tribodyn.geometry.rack_section import from_written
+from tribodyn.geometry.helix import from_written
 from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.table import MeshData

@@ -12,7 +12,7 @@ from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_throu
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Modifications
+from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications
 from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 

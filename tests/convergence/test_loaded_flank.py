@@ -15,9 +15,9 @@ from tribodyn.compliance.local import hertz_half_width
 from tribodyn.compliance.sharing.load_sharing import contact_deflection, flexibility
 from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point
 from tribodyn.studies.protocol.load import load_scenario

@@ -11,16 +11,16 @@ from tests.support.states import recorded, sampled
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.helix import face_positions
+from tribodyn.geometry.modification import (
     UNMODIFIED,
     FlankModification,
     Misalignment,
     Modifications,
     Relief,
 )
-from tribodyn.geometry.helix import face_positions
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import TransientSettings
 from tribodyn.studies.motion.prepare import prepare

@@ -15,9 +15,9 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.pinned import on_pins
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import thickness_half_angle

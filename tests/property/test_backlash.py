@@ -11,8 +11,8 @@ from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import involute
 from tribodyn.geometry.gauges import Involute, allowance_of_pins, allowance_of_span, over_pins, span
+from tribodyn.geometry.helix import transverse_section
 from tribodyn.geometry.limits.checks import check
-from tribodyn.geometry.rack_section import transverse_section
 from tribodyn.geometry.sheet import geometry_sheet
 
 ALLOWANCES = st.floats(-0.04, 0.0)

@@ -7,17 +7,17 @@ import numpy as np
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.helix import face_positions
+from tribodyn.geometry.modification import (
     FlankModification,
     LeadRelief,
     Misalignment,
     Modifications,
     Relief,
 )
-from tribodyn.geometry.helix import face_positions
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)

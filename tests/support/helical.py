@@ -7,7 +7,7 @@ from tribodyn.compliance.sharing.load_sharing import flexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.rack_section import from_written
+from tribodyn.geometry.helix import from_written
 
 
 def assembly(teeth, helix, width, module=3e-3, shift=(0.0, 0.0), dedendum=1.25, bore=0.3):

@@ -11,9 +11,9 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, extended_roll
 from tribodyn.drawing.cad import tooth_profile
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import gear_polygon, rack_outline
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import contact_ratio, distance_at_radius, kinematics
 from tribodyn.mesh.cycle import polynomials
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static

@@ -12,8 +12,7 @@ from typing import NamedTuple
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData, body_of, reference_radius, tip_circle_radius
-from tribodyn.geometry.helix import base_helix_angle
-from tribodyn.geometry.rack_section import normal_section
+from tribodyn.geometry.helix import base_helix_angle, normal_section
 
 _PER_MM_UM = 1e9  # N/(mm µm) in Pa
 #: C_M, by which measured stiffness falls short of the theory.

@@ -91,12 +91,7 @@ def free_receptance(
     # u = r and 1/r, v = r and 1/r
     stretch = (1.0 + poisson_ratio) / (1.0 - poisson_ratio)
     moved[whole] = [[1, 1, 0, 0], [0, 0, 1, 1], [outside, size, 0, 0], [0, 0, outside, size]]
-    traction[whole] = [
-        [-stretch, 1, 0, 0],
-        [0, 0, 0, 1],
-        [stretch, -(size**2), 0, 0],
-        [0, 0, 0, -(size**2)],
-    ]
+    traction[whole] = [[-stretch, 1, 0, 0], [0, 0, 0, 1], [stretch, -(size**2), 0, 0], [0, 0, 0, -(size**2)]]
     bed = np.where(order < 2, _BED, 0.0)[:, None, None] * np.diag([0.0, 0.0, 1.0, 1.0])
     # tractions outside act on a circle that is `outside` times longer: amplitudes of forces per angle
     loads = traction + bed @ moved

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, internal_side
 from tribodyn.geometry.families import Family, family
 from tribodyn.geometry.families.involute import tight_centre_distance
-from tribodyn.geometry.rack_section import as_written, from_written
+from tribodyn.geometry.helix import as_written, from_written
 from tribodyn.input.specific_keys import si_unit
 from tribodyn.input.tables.gears.drive_data import rounded_distance_of
 from tribodyn.input.tables.gears.internal_gear import rim_radius

@@ -12,9 +12,9 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.modification import UNMODIFIED
 from tribodyn.geometry.helix import curvature_share, line_stretch, normal_slope, pitch_slope
 from tribodyn.geometry.limits.limits import distances
+from tribodyn.geometry.modification import UNMODIFIED
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium

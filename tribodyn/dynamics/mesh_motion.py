@@ -33,13 +33,7 @@ def locate(phase, segment, driver_tooth, driven_tooth, table):
     position = minimum(maximum((phase - start) * cells_per_cycle, 0.0), cells - 1e-9)
     cell = truncate(position)
     return MeshPlace(
-        segment,
-        cell,
-        position - cell,
-        cells_per_cycle / table.pitch_angle,
-        phase,
-        driver_tooth,
-        driven_tooth,
+        segment, cell, position - cell, cells_per_cycle / table.pitch_angle, phase, driver_tooth, driven_tooth
     )
 
 

@@ -14,13 +14,7 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
 from tribodyn.post.verdict import IN_DOUBT
-from tribodyn.tribology.closure import (
-    duty_range,
-    exceeded_limits,
-    law_quantities,
-    laws_of,
-    nominal_line_load,
-)
+from tribodyn.tribology.closure import duty_range, exceeded_limits, law_quantities, laws_of, nominal_line_load
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.high_pressure import contact_viscosity
 from tribodyn.tribology.law import Closure, FilmLaw, FrictionLaw

@@ -23,13 +23,7 @@ _SLACK = 1e-9
 #: Thicknesses of the root by which a crack stays away from the bore.
 _NEAREST = 0.1
 
-_EXAMPLE = {
-    "depth": '"1.5 mm"',
-    "length": '"2 mm"',
-    "diameter": '"1 mm"',
-    "factor": "2.0",
-    "height": "0.5",
-}
+_EXAMPLE = {"depth": '"1.5 mm"', "length": '"2 mm"', "diameter": '"1 mm"', "factor": "2.0", "height": "0.5"}
 
 
 class _Kind(NamedTuple):

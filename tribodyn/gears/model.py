@@ -83,10 +83,7 @@ def _in_mesh(teeth: OwnTeeth, side: Side, case: GearCase, tabulated: Tabulated) 
 
 
 def with_own_teeth(
-    model: parameters.Model,
-    first: Sequence[tuple[int, int]],
-    teeth: Sequence[tuple[int, int]],
-    cycles: int,
+    model: parameters.Model, first: Sequence[tuple[int, int]], teeth: Sequence[tuple[int, int]], cycles: int
 ) -> parameters.Model:
     """The model with the numbers of its teeth over so many cycles, where teeth differ.
 

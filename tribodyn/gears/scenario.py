@@ -242,11 +242,7 @@ def broken_support_keys(scenario: Any) -> Iterator[InputError]:
 
 
 def broken_gear_rules(
-    scenario: Any,
-    *,
-    every_duty: bool = False,
-    oil: bool = True,
-    every_tooth: bool = False,
+    scenario: Any, *, every_duty: bool = False, oil: bool = True, every_tooth: bool = False
 ) -> Iterator[InputError]:
     """Go through the broken rules of drive, duty, oil, temperatures, losses and mesh.
 

@@ -12,8 +12,8 @@ from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.flanks.modification import Misalignment, Modifications, misalignment_of_tilts
 from tribodyn.geometry.helix import pitch_slope
+from tribodyn.geometry.modification import Misalignment, Modifications, misalignment_of_tilts
 from tribodyn.input.tables.duty import duty_of
 from tribodyn.input.tables.gears.drive_data import assembled_on_path
 from tribodyn.input.tables.gears.model_files import DriveTable

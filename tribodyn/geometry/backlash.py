@@ -8,8 +8,7 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, body_of
-from tribodyn.geometry.helix import normal_slope, pitch_slope
-from tribodyn.geometry.rack_section import as_written, from_written
+from tribodyn.geometry.helix import as_written, from_written, normal_slope, pitch_slope
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.elementary import cos, sqrt
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Drive, Side, body_of
 from tribodyn.geometry.families.involute import inverse_involute, involute_function
-from tribodyn.geometry.rack_section import normal_section
+from tribodyn.geometry.helix import normal_section
 
 
 class Involute(NamedTuple):

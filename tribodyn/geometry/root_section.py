@@ -12,8 +12,7 @@ from scipy.optimize import brentq
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import GearBody, Side, body_of, reference_radius, tip_circle_radius
-from tribodyn.geometry.helix import base_helix_angle
-from tribodyn.geometry.rack_section import normal_section
+from tribodyn.geometry.helix import base_helix_angle, normal_section
 from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, fillet_tangent, thickness_half_angle
 
 #: Angle between the tangent and the tooth's axis: external, internal.

@@ -11,19 +11,20 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
 from tribodyn.geometry.backlash import at_limits, circumferential_backlash, normal_backlash
-from tribodyn.geometry.contact_lines import contact_lines
 from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius, tip_circle_radius
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.geometry.gauges import Gauge, Quantity, involute_of, thickness_lines
-from tribodyn.geometry.helix import base_helix_angle, hand_name, lead, overlap_ratio, pitch_slope
-from tribodyn.geometry.limits.internal import (
-    base_circle_margin,
-    radial_assembly,
-    tool_margin,
-    trochoidal_gap,
+from tribodyn.geometry.helix import (
+    as_written,
+    base_helix_angle,
+    contact_lines,
+    hand_name,
+    lead,
+    overlap_ratio,
+    pitch_slope,
 )
+from tribodyn.geometry.limits.limits import base_circle_margin, radial_assembly, tool_margin, trochoidal_gap
 from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.rack_section import as_written
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
 _SAMPLES = 400

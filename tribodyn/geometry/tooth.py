@@ -211,10 +211,7 @@ def _step_to_crossing(
     r = r + (gap_x * sin(fillet_angle) + gap_y * cos(fillet_angle)) / (crossing * flank_rate)
     normal = normal + (gap_x * sin(flank_angle) + gap_y * cos(flank_angle)) / (crossing * fillet_rate)
     lowest = tooth.form_distance + overrun
-    return (
-        within(r, lowest + 0.01 * overrun, lowest + overrun),
-        within(normal, tooth.form_angle, np.pi / 2),
-    )
+    return (within(r, lowest + 0.01 * overrun, lowest + overrun), within(normal, tooth.form_angle, np.pi / 2))
 
 
 def _flank_tangent(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]:
@@ -247,7 +244,8 @@ def fillet_tangent(tooth: Tooth, normal_angle: PerContact) -> FilletTangent:
 
 def flank_point(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]:
     """Point (x, y) of the flank (m) that the rack touches at the signed distance r (m)."""
-    return _in_tooth_frame(tooth, *position(tooth.path, r), tooth.path.rotation(r))
+    point = *position(tooth.path, r), tooth.path.rotation(r)
+    return _in_tooth_frame(tooth.path.pinion_pitch_radius, tooth.half_angle, *point)
 
 
 def fillet_point(tooth: Tooth, normal_angle: PerContact) -> tuple[PerContact, PerContact]:
@@ -256,10 +254,12 @@ def fillet_point(tooth: Tooth, normal_angle: PerContact) -> tuple[PerContact, Pe
     The tool's point touches the body when its normal passes through the pitch point; the angle runs from
     π/2 (root circle) to `tooth.form_angle` (junction with the flank).
     """
+    pitch_radius = tooth.path.pinion_pitch_radius
     corner = _corner_on_normal(normal_angle, -tooth.corner_y, tooth.tool_curvature)
     r = -corner.distance - tooth.corner_radius
-    rotation = (-corner.arc - tooth.corner_x) / tooth.path.pinion_pitch_radius
-    return _in_tooth_frame(tooth, r * cos(normal_angle), r * sin(normal_angle), rotation)
+    rotation = (-corner.arc - tooth.corner_x) / pitch_radius
+    point = r * cos(normal_angle), r * sin(normal_angle), rotation
+    return _in_tooth_frame(pitch_radius, tooth.half_angle, *point)
 
 
 def polar(x: PerContact, y: PerContact, pitch_radius: Any) -> tuple[PerContact, PerContact]:
@@ -272,11 +272,10 @@ def polar(x: PerContact, y: PerContact, pitch_radius: Any) -> tuple[PerContact, 
 
 
 def _in_tooth_frame(
-    tooth: Tooth, x: PerContact, y: PerContact, rotation: PerContact
+    pitch_radius: Any, half_angle: Any, x: PerContact, y: PerContact, rotation: PerContact
 ) -> tuple[PerContact, PerContact]:
-    pitch_radius = tooth.path.pinion_pitch_radius
     distance, angle = polar(x, y, pitch_radius)
-    chi = tooth.half_angle + angle - rotation
+    chi = half_angle + angle - rotation
     return distance * cos(chi), distance * sin(chi)
 
 
@@ -296,10 +295,7 @@ def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact
     Path and signed distance r (m) are in the body's own view, r of the drive for the pinion, −r for the gear;
     the half thickness angle (rad) is that on the working pitch circle.
     """
-    pitch_radius = body_path.pinion_pitch_radius
-    x, y = position(body_path, r)
     rotation = body_path.rotation(r)
-    distance, angle = polar(x, y, pitch_radius)
-    chi = pitch_half_angle + angle - rotation
-    load_angle = body_path.pressure_angle(r) - pitch_half_angle + rotation
-    return ToothContact(distance * cos(chi), distance * sin(chi), load_angle)
+    point = *position(body_path, r), rotation
+    x, y = _in_tooth_frame(body_path.pinion_pitch_radius, pitch_half_angle, *point)
+    return ToothContact(x, y, body_path.pressure_angle(r) - pitch_half_angle + rotation)

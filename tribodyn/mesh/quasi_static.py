@@ -121,9 +121,7 @@ def quasi_static(
 
 
 def cycle_mean(
-    cycle: MeshCycle,
-    values: Float[Array, "segment node *pair"],
-    weight: Float[Array, " node"] | None = None,
+    cycle: MeshCycle, values: Float[Array, "segment node *pair"], weight: Float[Array, " node"] | None = None
 ) -> Float[Array, "*pair"]:
     """Mean over one mesh cycle of values (S, N, …) at the nodes: the integral of the table's splines.
 

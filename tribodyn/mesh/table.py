@@ -9,9 +9,8 @@ from tribodyn.compliance.foundation import Foundation, Support
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Drive, body_of
-from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
-from tribodyn.geometry.path import Kinematics
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.modification import UNMODIFIED, Modifications
+from tribodyn.geometry.path import Kinematics, pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import Table, check_cover, interpolate
 from tribodyn.numerics.elementary import cos, is_jax, maximum, minimum, namespace, within

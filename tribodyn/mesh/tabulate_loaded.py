@@ -21,9 +21,9 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import check_contact, check_resolved, check_torque, reach
 from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
-from tribodyn.geometry.flanks.modification import back_flanks, uneven_teeth
+from tribodyn.geometry.modification import back_flanks, uneven_teeth
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.slices.loaded import tabulate_loaded_slices
 from tribodyn.mesh.table import (

@@ -88,10 +88,7 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
         ends = ((layout.driver[m], mesh.driver_radius), (layout.driven[m], mesh.driven_radius))
         for body, radius in ends:
             velocity = deflection * frequency[m]
-            shift[body], shift_rate[body] = (
-                min(shift[body], deflection),
-                min(shift_rate[body], velocity),
-            )
+            shift[body], shift_rate[body] = (min(shift[body], deflection), min(shift_rate[body], velocity))
             turn[body] = min(turn[body], deflection / abs(float(radius)))
             turn_rate[body] = min(turn_rate[body], velocity / abs(float(radius)))
     of_body = shift, shift_rate, turn, turn_rate

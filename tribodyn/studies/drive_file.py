@@ -16,11 +16,10 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, Side, body_of, internal_side
 from tribodyn.geometry.families import family
-from tribodyn.geometry.families.spline import FEWEST, MOST
+from tribodyn.geometry.families.spline import FEWEST, MOST, fit_spline, flank_deviation
 from tribodyn.geometry.gauges import Gauge
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.sheet import geometry_sheet
-from tribodyn.geometry.spline_fit import fit_spline, flank_deviation
 from tribodyn.input.messages import Origins, explain
 from tribodyn.input.quantity import Table
 from tribodyn.input.resolve import OVERRIDES, resolve_table, unresolved_keys

@@ -18,15 +18,7 @@ from typing import NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.train.planetary import CARRIER, speeds
 from tribodyn.train.schedule import common_period
-from tribodyn.train.turning import (
-    Joint,
-    Named,
-    SetMembers,
-    Toothed,
-    Turning,
-    driving_in_set,
-    turn_set,
-)
+from tribodyn.train.turning import Joint, Named, SetMembers, Toothed, Turning, driving_in_set, turn_set
 
 
 class TrainSpeeds(NamedTuple):

@@ -109,10 +109,7 @@ def schedule_of(
 
 
 def with_teeth(
-    schedule: Schedule,
-    first: Sequence[tuple[int, int]],
-    teeth: Sequence[tuple[int, int]],
-    cycles: int,
+    schedule: Schedule, first: Sequence[tuple[int, int]], teeth: Sequence[tuple[int, int]], cycles: int
 ) -> Schedule:
     """The schedule of so many reference cycles, or of the hunting period if that is shorter, with its teeth.
 

@@ -9,7 +9,7 @@ from tribodyn.compliance.sharing.load_sharing import contact_deflection, press_p
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.modification import FlankModification, Misalignment, Modifications
+from tribodyn.geometry.modification import FlankModification, Misalignment, Modifications
 from tribodyn.mesh.quasi_static import quasi_static
 
 

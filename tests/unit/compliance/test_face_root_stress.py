@@ -18,7 +18,7 @@ from tribodyn.compliance.sharing.face_root_stress import _of_free_ends, _of_one_
 from tribodyn.compliance.sharing.loaded_contact import _ages
 from tribodyn.compliance.sharing.oblique_faces import oblique_faces
 from tribodyn.compliance.sharing.slices import _add_free_ends, end_modes
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.corner_contact import pair_geometry
 
 POSITIONS, PAIRS, WAVES, POINTS, RADII, SLICES = 2, 4, 5, 2, 3, 4
 SECTORS = 2 * NEIGHBOURS + 1

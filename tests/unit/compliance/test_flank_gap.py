@@ -17,11 +17,11 @@ from tribodyn.compliance.sharing.flank_gap import (
 )
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import cycloidal, family
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.modification import (
     UNMODIFIED,
     FlankModification,
     LeadRelief,

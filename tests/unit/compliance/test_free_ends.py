@@ -26,7 +26,7 @@ from tribodyn.compliance.fem.strips import (
     strip_stiffness,
 )
 from tribodyn.compliance.sharing.slices import pair_harmonics, slice_compliance
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.corner_contact import pair_geometry
 
 TEETH, POISSON = 6, 0.3  # of the teeth of twelve
 

@@ -13,8 +13,9 @@ from tribodyn.compliance.sharing.oblique import oblique_compliance
 from tribodyn.compliance.sharing.oblique_faces import oblique_faces
 from tribodyn.compliance.sharing.slices import PairFlexibility, slice_compliance
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.helix import base_helix_angle, overlap_ratio
+from tribodyn.geometry.modification import (
     FlankModification,
     LeadRelief,
     Misalignment,
@@ -22,7 +23,6 @@ from tribodyn.geometry.flanks.modification import (
     Relief,
     turned_round,
 )
-from tribodyn.geometry.helix import base_helix_angle, overlap_ratio
 
 # ε_β = 1 at 20°
 PAIR, WIDTH, TORQUE = (18, 36), float(np.pi * 3e-3 / np.sin(np.radians(20.0))), 300.0

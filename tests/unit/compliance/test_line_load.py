@@ -6,7 +6,7 @@ import pytest
 from tests.support.closures import known, of_case
 from tests.support.faces_in_slices import CASES, model, table
 from tribodyn.compliance.sharing.slices import friction_ratio, peak_ratio
-from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Modifications
+from tribodyn.geometry.modification import FlankModification, LeadRelief, Modifications
 
 LIKE = {**CASES, "crowned": (Modifications(FlankModification(lead=LeadRelief(crowning=20e-6))), 11)}
 

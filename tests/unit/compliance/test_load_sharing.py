@@ -18,10 +18,10 @@ from tribodyn.compliance.sharing.load_sharing import (
 )
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import cycloidal
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.path import pitch_point
 
 
 def of_overlap(overlap):

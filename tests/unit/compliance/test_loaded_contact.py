@@ -14,10 +14,11 @@ from tribodyn.compliance.sharing.load_sharing import (
 from tribodyn.compliance.sharing.loaded_contact import loaded_error, mean_pairs, reach, roll_through
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.helix import face_positions
+from tribodyn.geometry.modification import (
     UNMODIFIED,
     FlankModification,
     LeadRelief,
@@ -25,7 +26,6 @@ from tribodyn.geometry.flanks.modification import (
     Modifications,
     Relief,
 )
-from tribodyn.geometry.helix import face_positions
 
 ANGLE = np.radians(20.0)
 TORQUE, PITCH = 318.3, 2 * np.pi / 18

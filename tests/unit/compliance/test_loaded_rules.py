@@ -14,7 +14,7 @@ from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.flanks.modification import UNMODIFIED, Misalignment, Modifications
+from tribodyn.geometry.modification import UNMODIFIED, Misalignment, Modifications
 
 ANGLE = np.radians(20.0)
 NONE = GearCompliance(np.empty(0), np.empty(0), np.empty(0), 1e-3)

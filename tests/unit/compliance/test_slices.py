@@ -14,7 +14,7 @@ from tribodyn.compliance.sharing import slices as slices_of_faces
 from tribodyn.compliance.sharing.active_set import press
 from tribodyn.compliance.sharing.load_sharing import half_width, press_pairs
 from tribodyn.compliance.sharing.slices import by_slices, modes, pair_harmonics
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.helix import face_positions
 
 SPRING = 2e-9  # m/N of the whole face

@@ -8,7 +8,7 @@ from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import roll_through
 from tribodyn.compliance.sharing.tooth_stress import tooth_stress
-from tribodyn.geometry.flanks.modification import Misalignment, Modifications
+from tribodyn.geometry.modification import Misalignment, Modifications
 
 POSITIONS, SLICES = 12, 7
 

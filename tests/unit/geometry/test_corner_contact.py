@@ -5,9 +5,9 @@ import pytest
 
 from tests.support.sample_drives import LIU_NI, STANDARD
 from tribodyn.geometry.assembly import assemble, tip_corner_gap
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody, reference_radius
 from tribodyn.geometry.families import crc, involute, spline
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.tooth import fillet_point, flank_point
 
 OFF = (-1.5e-3, -0.4e-3, 0.5e-3, 1.2e-3)

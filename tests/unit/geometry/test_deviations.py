@@ -6,7 +6,7 @@ import pytest
 from tests.support.sample_drives import STANDARD
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.modification import (
     FlankModification,
     Limits,
     Misalignment,

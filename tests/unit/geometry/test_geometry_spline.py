@@ -12,10 +12,16 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive
 from tribodyn.geometry.families import family, involute
-from tribodyn.geometry.families.spline import FAMILY, SplineShape, _advice, even_places
+from tribodyn.geometry.families.spline import (
+    FAMILY,
+    SplineShape,
+    _advice,
+    even_places,
+    fit_spline,
+    flank_deviation,
+)
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.path import kinematics, position
-from tribodyn.geometry.spline_fit import fit_spline, flank_deviation
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 from tribodyn.studies.drive_file import load_drive
 

@@ -9,14 +9,19 @@ import pytest
 from tribodyn.drawing.cad import write_pair
 from tribodyn.errors import InputError
 from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
-from tribodyn.geometry.contact_lines import contact_line_lengths, contact_lines
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.geometry.gauges import involute_of, over_pins, pin_contact_diameter, span, thickness_lines
-from tribodyn.geometry.helix import lead, pitch_slope
+from tribodyn.geometry.helix import (
+    contact_line_lengths,
+    contact_lines,
+    lead,
+    normal_section,
+    pitch_slope,
+    transverse_section,
+)
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.path import position
-from tribodyn.geometry.rack_section import normal_section, transverse_section
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.geometry.tooth import flank_point
 from tribodyn.studies.drive_file import as_spline, load_drive

@@ -16,9 +16,8 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.families.cycloidal import CycloidShape
 from tribodyn.geometry.families.parabolic import ParabolaShape
 from tribodyn.geometry.limits.checks import check
-from tribodyn.geometry.limits.internal import radial_assembly, tool_margin, trochoidal_gap
-from tribodyn.geometry.path import kinematics, position
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.limits.limits import radial_assembly, tool_margin, trochoidal_gap
+from tribodyn.geometry.path import kinematics, pitch_point, position
 from tribodyn.geometry.tooth import flank_point, polar, thickness_half_angle
 
 

@@ -20,7 +20,7 @@ from tribodyn.geometry.body import gear_polygon, mass_and_inertia
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
 from tribodyn.geometry.limits.checks import check
-from tribodyn.geometry.limits.internal import radial_assembly, trochoidal_gap
+from tribodyn.geometry.limits.limits import radial_assembly, trochoidal_gap
 from tribodyn.geometry.path import distance_at_radius, kinematics, radius
 from tribodyn.geometry.tooth import Tooth, fillet_point
 

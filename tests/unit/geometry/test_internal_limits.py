@@ -7,7 +7,7 @@ import pytest
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Drive, GearBody, tip_radius
 from tribodyn.geometry.families import family
-from tribodyn.geometry.limits.internal import base_circle_margin, radial_assembly, trochoidal_gap
+from tribodyn.geometry.limits.limits import base_circle_margin, radial_assembly, trochoidal_gap
 
 #: z_p, |z_r|, α in degrees
 PAIRS = ((36, 93, 20.0), (20, 36, 20.0), (22, 40, 20.0), (24, 41, 20.0), (30, 38, 25.0), (60, 68, 25.0))

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.modification import (
     FlankModification,
     LeadRelief,
     Misalignment,

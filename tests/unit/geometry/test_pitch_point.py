@@ -8,8 +8,7 @@ from scipy.integrate import quad
 
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import circular_arc, cycloidal, involute, parabolic
-from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.path import kinematics, pitch_point
 from tribodyn.tribology.contact import averaged_radius, hertz_half_width
 
 MODULUS = 226e9

@@ -7,8 +7,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_circle_radius
-from tribodyn.geometry.helix import base_helix_angle
-from tribodyn.geometry.rack_section import normal_section
+from tribodyn.geometry.helix import base_helix_angle, normal_section
 from tribodyn.geometry.root_section import critical_section
 from tribodyn.geometry.tooth import fillet_point
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.modification import LeadRelief, Misalignment, Relief
+from tribodyn.geometry.modification import LeadRelief, Misalignment, Relief
 from tribodyn.studies.protocol.load import load, load_scenario
 
 STUDY = "load-contact-18-36"

@@ -14,9 +14,9 @@ from tribodyn.compliance.sharing.load_sharing import (
 )
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import roll_at_gap
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.corner_contact import roll_at_gap
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.modification import (
     FlankModification,
     LeadRelief,
     Misalignment,

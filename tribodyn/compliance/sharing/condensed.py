@@ -16,7 +16,7 @@ import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import SharedLoad, contact_deflection, in_batches, press_pairs
 from tribodyn.compliance.sharing.slices import PairFlexibility, friction_ratio, peak_ratio, slice_compliance
-from tribodyn.geometry.flanks.corner_contact import PairGeometry, part_of
+from tribodyn.geometry.corner_contact import PairGeometry, part_of
 from tribodyn.numerics.shapes import Array, Float
 
 # A slice joins in over this share of the mean slice load, so that compliances do not step while the edge of

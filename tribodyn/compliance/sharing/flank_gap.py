@@ -12,9 +12,10 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
-from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.helix import normal_slope
+from tribodyn.geometry.modification import (
     FlankModification,
     LeadRelief,
     Misalignment,
@@ -22,7 +23,6 @@ from tribodyn.geometry.flanks.modification import (
     Relief,
     broken_flank_rules,
 )
-from tribodyn.geometry.helix import normal_slope
 from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.curve import check_cover, interpolate

@@ -19,7 +19,7 @@ from tribodyn.compliance.sharing.oblique import oblique_compliance
 from tribodyn.compliance.sharing.oblique_faces import ObliqueFaces
 from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.compliance.sharing.slices import slice_compliance
-from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry
 from tribodyn.numerics.elementary import sense
 from tribodyn.numerics.processes.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float

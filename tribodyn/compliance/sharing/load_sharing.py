@@ -27,11 +27,11 @@ from tribodyn.compliance.sharing.pinned import check_even, on_pins
 from tribodyn.compliance.sharing.section import elastic_section, is_helical, length_per_width
 from tribodyn.compliance.sharing.slices import PairFlexibility, slice_compliance
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.drive import SIDES, MaterialData, Side, body_of
-from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
-from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
 from tribodyn.geometry.helix import face_positions, pitch_slope, roll_shift
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.modification import UNMODIFIED, Modifications
+from tribodyn.geometry.path import pitch_point
 from tribodyn.numerics.elementary import sense
 from tribodyn.numerics.processes.blas_threads import one_blas_thread
 from tribodyn.numerics.processes.work import steps

@@ -21,9 +21,9 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, SharedLoad, h
 from tribodyn.compliance.sharing.oblique_faces import ObliqueFaces, oblique_faces
 from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.corner_contact import pair_geometry, roll_at_gap
-from tribodyn.geometry.flanks.modification import MINIMUM_SLICES, too_few_slices, vary_along_lead
+from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.helix import roll_shift
+from tribodyn.geometry.modification import MINIMUM_SLICES, too_few_slices, vary_along_lead
 from tribodyn.numerics.processes.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
 
@@ -195,10 +195,7 @@ def loaded_error(
 def _rolled(
     flanks: LoadedFlanks, gear_torque: float, positions: int, cycles: int, friction_coefficient: float
 ) -> tuple[
-    Float[Array, " position"],
-    Float[Array, "position pair"],
-    Float[Array, "position pair slice"],
-    SharedLoad,
+    Float[Array, " position"], Float[Array, "position pair"], Float[Array, "position pair slice"], SharedLoad
 ]:
     """Phase, roll and gap of the pairs at all positions, and the state of their contact."""
     check_contact(flanks, gear_torque)

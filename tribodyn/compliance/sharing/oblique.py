@@ -19,20 +19,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.special import k0
 
-from tribodyn.compliance.fem.gear_compliance import (
-    NEIGHBOURS,
-    GearCompliance,
-    at_radii,
-    half_space_surface,
-)
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance, at_radii, half_space_surface
 from tribodyn.compliance.sharing.section import elastic_section, length_per_width, raised
-from tribodyn.compliance.sharing.slices import (
-    PairFlexibility,
-    end_modes,
-    modes,
-    responses,
-    wave_numbers,
-)
+from tribodyn.compliance.sharing.slices import PairFlexibility, end_modes, modes, responses, wave_numbers
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.tooth import Tooth, flank_point
 from tribodyn.numerics.shapes import Array, Float
@@ -44,9 +33,7 @@ _PROFILE = 401
 
 
 def oblique_compliance(
-    flexible: PairFlexibility,
-    contact: tuple[Float[Array, "position pair slice"], ...],
-    coupled: bool = True,
+    flexible: PairFlexibility, contact: tuple[Float[Array, "position pair slice"], ...], coupled: bool = True
 ) -> Float[Array, "position pair slice pair slice"]:
     """Λ (position, pair, slice, pair, slice), m/N, without the slices' own local deflection.
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.compliance.sharing.section import by_normal_section
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry
 from tribodyn.geometry.helix import curvature_share, line_stretch, normal_slope, pitch_slope
 from tribodyn.numerics.shapes import Array, Float
 

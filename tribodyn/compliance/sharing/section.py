@@ -15,8 +15,7 @@ from typing import Any
 
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radius
-from tribodyn.geometry.helix import base_helix_angle
-from tribodyn.geometry.rack_section import normal_section
+from tribodyn.geometry.helix import base_helix_angle, normal_section
 
 
 def is_helical(assembly: Assembly) -> bool:

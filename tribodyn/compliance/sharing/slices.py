@@ -32,8 +32,8 @@ from tribodyn.compliance.fem.gear_compliance import (
 )
 from tribodyn.compliance.local import freed_of_depth
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.corner_contact import PairGeometry
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.geometry.flanks.corner_contact import PairGeometry
 from tribodyn.geometry.helix import face_positions
 from tribodyn.numerics.shapes import Array, Float
 

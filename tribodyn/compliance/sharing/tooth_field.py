@@ -21,8 +21,8 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, elastic_gear
 from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.compliance.sharing.slices import modes, wave_numbers
 from tribodyn.errors import InputError
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES, Side
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.numerics.processes.blas_threads import one_blas_thread
 from tribodyn.numerics.processes.work import steps
 from tribodyn.numerics.shapes import Array, Float

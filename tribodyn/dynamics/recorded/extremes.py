@@ -103,12 +103,7 @@ def highest_loaded(i, place, mesh, model, work):
     peak = cubic(mesh.table.channel, place.segment, place.cell, i, PEAK, place.u)
     speed_1, speed_2 = work[DRIVER_SPEED, i], work[DRIVEN_SPEED, i]
     return local_contact(
-        work[LINE_LOAD, i] * peak,
-        1.0 / work[RADIUS, i],
-        0.5 * (speed_1 + speed_2),
-        sliding,
-        speed_1,
-        speed_2,
+        work[LINE_LOAD, i] * peak, 1.0 / work[RADIUS, i], 0.5 * (speed_1 + speed_2), sliding, speed_1, speed_2
     )
 
 

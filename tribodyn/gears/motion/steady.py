@@ -17,12 +17,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.helix import overlap_ratio
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.quasi_static import (
-    driving_gear,
-    efficiency,
-    power_put_in,
-    single_pair,
-)
+from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in, single_pair
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
 from tribodyn.train.structure import (
     DAMPING,

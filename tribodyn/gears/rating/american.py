@@ -10,7 +10,7 @@ from tribodyn.gears.rating.capacity import Capacity
 from tribodyn.gears.rating.standard import LoadFactors
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData, Side, body_of, tip_circle_radius
-from tribodyn.geometry.rack_section import normal_section
+from tribodyn.geometry.helix import normal_section
 from tribodyn.standards import agma
 from tribodyn.standards.metals import VICKERS
 

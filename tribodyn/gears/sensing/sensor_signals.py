@@ -95,10 +95,7 @@ def _listen(cases: Sequence[Heard], how: dict[str, Any]) -> list[Sensed | str]:
 
 
 def add(
-    listener: Listener,
-    model: Model,
-    cycles: Float[Array, " sample"],
-    states: Float[Array, "sample state"],
+    listener: Listener, model: Model, cycles: Float[Array, " sample"], states: Float[Array, "sample state"]
 ) -> None:
     """Let a listener hear some states; of these no more is worked out than its sensors need."""
     if not all(kind in _OF_STATES for kind in listener.kinds):

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radii, reference_radius
 from tribodyn.geometry.families import Family
+from tribodyn.geometry.helix import normal_section
 from tribodyn.geometry.path import Path, PerContact
-from tribodyn.geometry.rack_section import normal_section
 from tribodyn.numerics.elementary import arctan2, cos, maximum, namespace, sin, sqrt, tan
 from tribodyn.numerics.iteration import newton
 

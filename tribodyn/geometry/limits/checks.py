@@ -19,8 +19,8 @@ from tribodyn.geometry.assembly import (
 from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, internal_side, tip_circle_radius
 from tribodyn.geometry.families import Family
-from tribodyn.geometry.helix import overlap_ratio
-from tribodyn.geometry.limits.internal import (
+from tribodyn.geometry.helix import as_written, from_written, overlap_ratio
+from tribodyn.geometry.limits.limits import (
     check_cutter,
     check_outside,
     rack_without_flank,
@@ -28,7 +28,6 @@ from tribodyn.geometry.limits.internal import (
     tips_collide,
 )
 from tribodyn.geometry.limits.sizes import advice, boundary, check_sizes, millimetres, replaced, require
-from tribodyn.geometry.rack_section import as_written, from_written
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
 # An overlap below this share of the module is the chord error of the fillet's points.

@@ -8,16 +8,7 @@ then taken to those: a mesh's contacts cost the same, whatever train it is part 
 from llvmlite import ir
 from numba.core import cgutils, types
 
-from tribodyn.kernels.duals.numbers import (
-    BLOCK,
-    SLOPES,
-    DualType,
-    dual_among,
-    each,
-    made,
-    taken_apart,
-    times,
-)
+from tribodyn.kernels.duals.numbers import BLOCK, SLOPES, DualType, dual_among, each, made, taken_apart, times
 from tribodyn.kernels.lanes.arrays import ElementArrayType
 from tribodyn.kernels.lanes.vectors import intrinsic
 from tribodyn.kernels.native.parts import part_instead

@@ -181,9 +181,7 @@ for _symbol, _sign in COMPARISONS.items():
         types.boolean,
     )
 _binary(
-    operator.ne,
-    lambda context, builder, _, a, b: builder.fcmp_unordered("!=", a[0], b[0]),
-    types.boolean,
+    operator.ne, lambda context, builder, _, a, b: builder.fcmp_unordered("!=", a[0], b[0]), types.boolean
 )
 
 

@@ -172,10 +172,7 @@ for _operator, _sign in COMPARISONS.items():
             signature(MASK, INDICES, INDICES),
             lambda builder, a, b, sign=_sign: builder.icmp_signed(sign, a, b),
         ),
-        (
-            signature(MASK, LANES, LANES),
-            lambda builder, a, b, sign=_sign: builder.fcmp_ordered(sign, a, b),
-        ),
+        (signature(MASK, LANES, LANES), lambda builder, a, b, sign=_sign: builder.fcmp_ordered(sign, a, b)),
     )
 _register(
     operator.ne,

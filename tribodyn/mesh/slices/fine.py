@@ -17,8 +17,8 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.geometry.flanks.modification import UNMODIFIED
 from tribodyn.geometry.helix import normal_module, overlap_ratio
+from tribodyn.geometry.modification import UNMODIFIED
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import normal_arms, quasi_static, sliding_side
 from tribodyn.mesh.slices.coupled import near_contact, tabulate_helical

@@ -7,9 +7,9 @@ import numpy as np
 
 from tribodyn.compliance.sharing.flank_gap import oblique_gap
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.flanks.corner_contact import PairGeometry
-from tribodyn.geometry.flanks.modification import UNMODIFIED, back_flanks, uneven_teeth
+from tribodyn.geometry.corner_contact import PairGeometry
 from tribodyn.geometry.helix import normal_slope, roll_shift
+from tribodyn.geometry.modification import UNMODIFIED, back_flanks, uneven_teeth
 from tribodyn.geometry.path import Kinematics, kinematics
 from tribodyn.mesh import table
 from tribodyn.numerics.elementary import namespace, sqrt

@@ -21,9 +21,9 @@ from tribodyn.compliance.sharing.loaded_contact import check_resolved, reach
 from tribodyn.compliance.sharing.oblique import oblique_compliance
 from tribodyn.compliance.sharing.oblique_faces import ObliqueFaces, oblique_faces
 from tribodyn.geometry.assembly import Assembly, assemble
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import back_flanks, turned_round
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.helix import pitch_slope, roll_shift, speed_share
+from tribodyn.geometry.modification import back_flanks, turned_round
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.slices.fine import parts_of_slices, summed_up
 from tribodyn.mesh.slices.helical import slice_layout

@@ -56,10 +56,7 @@ class Change(NamedTuple):
 
 
 def slices_needed(
-    assembly: Assembly,
-    materials: tuple[MaterialData, MaterialData],
-    mesh: MeshData,
-    gear_torque: float,
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: MeshData, gear_torque: float
 ) -> SliceNumber:
     """Choose the number of slices of a helical pair of plain numbers at a torque T_g ≠ 0, N m.
 

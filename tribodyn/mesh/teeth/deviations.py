@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.modification import MOST_WAVES, SPREAD, Limits, sampled
+from tribodyn.geometry.modification import MOST_WAVES, SPREAD, Limits, sampled
 from tribodyn.mesh.teeth.fields import LEADING, FlankPlaces, ToothFields, height_share, sound
 from tribodyn.numerics.formula import FormulaError, evaluated
 from tribodyn.numerics.shapes import Array, Float

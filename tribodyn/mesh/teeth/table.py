@@ -5,14 +5,7 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, cubic
 from tribodyn.mesh.table import MeshData
-from tribodyn.mesh.teeth.fields import (
-    LEADING,
-    TRAILING,
-    FlankPlaces,
-    OwnTeeth,
-    ToothFields,
-    sound,
-)
+from tribodyn.mesh.teeth.fields import LEADING, TRAILING, FlankPlaces, OwnTeeth, ToothFields, sound
 from tribodyn.mesh.teeth.flank_positions import places_of
 from tribodyn.mesh.teeth.lookup import CHANNELS, GAP, Teeth, ToothTable
 from tribodyn.numerics.shapes import Array, Float

@@ -43,7 +43,6 @@ class SystemFamily(Protocol):
 
         Only those that there are count as cases of the map.
         """
-        ...
 
 
 class BranchEnd(NamedTuple):

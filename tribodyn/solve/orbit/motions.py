@@ -52,7 +52,6 @@ class PeriodMap(Protocol):
         self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int, fine: bool
     ) -> Marched:
         """States (R, N) over some periods; `fine` asks for the accuracy that a fixed point needs."""
-        ...
 
     def tangent(
         self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int, fine: bool = True
@@ -61,7 +60,6 @@ class PeriodMap(Protocol):
 
         Otherwise they need be no better than a step of Newton's method asks for.
         """
-        ...
 
 
 def by_differences(

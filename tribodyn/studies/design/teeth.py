@@ -11,10 +11,10 @@ from tribodyn.compliance.sharing.flank_gap import lead_gap, profile_gap
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import Modifications
 from tribodyn.geometry.limits.checks import check
+from tribodyn.geometry.modification import Modifications
 from tribodyn.post.figures.gears_in_mesh import placed
 from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, new_figure

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.path import Kinematics, Path, kinematics
 from tribodyn.mesh.cycle import CHANNELS, MeshCycle, polynomials
 

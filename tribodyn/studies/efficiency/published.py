@@ -17,8 +17,7 @@ import numpy as np
 from tribodyn.geometry.drive import Drive, tip_radius
 from tribodyn.geometry.families import Family
 from tribodyn.geometry.helix import base_helix_angle
-from tribodyn.geometry.path import Path, contact_limits, kinematics
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.path import Path, contact_limits, kinematics, pitch_point
 from tribodyn.mesh.equilibrium import Contacts, settled
 from tribodyn.numerics.elementary import sense
 from tribodyn.standards.loss_factors import equal_loads, hoehn, of_even_lines

@@ -25,7 +25,7 @@ from tribodyn.gears.prepare import (
 )
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.modification import back_flanks
+from tribodyn.geometry.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.geometry.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark, loaded_flanks_of, mesh_cycle_of

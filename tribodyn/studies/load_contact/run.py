@@ -24,7 +24,7 @@ from tribodyn.gears.rating.bearings import bearing_part, opening_part, shafts_of
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.helix import overlap_ratio, pitch_slope, speed_share
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.path import pitch_point
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load

@@ -19,8 +19,7 @@ from tribodyn.compliance.sharing.held_flanks import HeldFlanks
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import face_shift, reach
 from tribodyn.geometry.helix import normal_slope, pitch_slope, speed_share
-from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.path import kinematics, pitch_point
 from tribodyn.numerics.shapes import Array, Bool, Float, Int
 from tribodyn.tribology.wear.depth import specific_slip
 

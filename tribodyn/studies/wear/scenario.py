@@ -25,7 +25,7 @@ from tribodyn.gears.scenario import (
     mesh_data,
     oil_fields,
 )
-from tribodyn.geometry.flanks.modification import uneven_teeth
+from tribodyn.geometry.modification import uneven_teeth
 from tribodyn.input.quantity import Positive, Table, Text, written
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.input.tables.gears.drive_rules import modifications_of

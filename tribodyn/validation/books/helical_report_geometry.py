@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.contact_lines import contact_lines
+from tribodyn.geometry.helix import contact_lines
 from tribodyn.standards.allowances import centre_distance_allowance, thickness_allowances
 
 #: Inputs to the digits of the program's own file of the same minute: 20°, 10°, 1165.9/min, bores to 0.01 mm

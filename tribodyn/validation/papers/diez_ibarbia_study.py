@@ -23,10 +23,10 @@ from tribodyn.compliance.sharing.load_sharing import (
 from tribodyn.compliance.sharing.loaded_contact import check_contact, reach
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, tip_radius
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
+from tribodyn.geometry.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.elementary import cos, sin, sqrt

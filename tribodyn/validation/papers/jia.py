@@ -20,7 +20,7 @@ from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.parabolic import maximum_coefficient
-from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Modifications
+from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications
 from tribodyn.geometry.path import kinematics
 from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.support.helical_pairs import ENERGY, STEEL, helical_pair, sliced
-from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Modifications, Relief
+from tribodyn.geometry.modification import FlankModification, LeadRelief, Modifications, Relief
 from tribodyn.mesh.by_compliance import mesh_cycle_of, with_slices
 from tribodyn.mesh.quasi_static import quasi_static, sliding_side
 from tribodyn.mesh.slices.coupled import couple_slices

@@ -19,7 +19,7 @@ from tests.support.helical_pairs import (
 )
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import crc, cycloidal
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.modification import (
     FlankModification,
     LeadRelief,
     Misalignment,

@@ -10,10 +10,10 @@ from tribodyn.compliance.energy import loaded_tooth, tooth_compliance, under_une
 from tribodyn.compliance.sharing.load_sharing import flexibility
 from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES, Drive, GearBody
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Modifications
+from tribodyn.geometry.modification import FlankModification, LeadRelief, Modifications
 from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.slices.coupled import BODIES_LENGTH, TEETH_LENGTH, couple_slices, spread

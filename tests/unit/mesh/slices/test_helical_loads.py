@@ -23,7 +23,7 @@ from tests.support.helical_pairs import (
 from tribodyn.compliance.iso6336 import theoretical_stiffness
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.flanks.modification import Misalignment, Modifications
+from tribodyn.geometry.modification import Misalignment, Modifications
 from tribodyn.mesh.equilibrium import contacts, elastic, settled, sliding_side
 from tribodyn.mesh.quasi_static import (
     by_pairs,

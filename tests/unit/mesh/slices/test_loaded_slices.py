@@ -7,7 +7,7 @@ import pytest
 
 from tests.support.faces_in_slices import STEEL
 from tests.support.helical import assembly
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.modification import (
     FlankModification,
     LeadRelief,
     Misalignment,

@@ -5,7 +5,7 @@ import pytest
 
 from tests.support.closures import of_case
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.modification import UNMODIFIED
+from tribodyn.geometry.modification import UNMODIFIED
 from tribodyn.record.reader import Record
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.mesh_positions import places

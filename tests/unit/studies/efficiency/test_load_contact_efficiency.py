@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.modification import (
     UNMODIFIED,
     FlankModification,
     Misalignment,

@@ -13,9 +13,9 @@ from tribodyn.compliance.sharing.load_sharing import (
 )
 from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.flanks.corner_contact import pair_geometry, roll_at_gap
 
 PITCH_RADIUS, ANGLE = 27e-3, np.radians(20.0)
 PITCH = 2 * np.pi / 18

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.worn_pairs import COEFFICIENT, DRY, OILED, new, study_of, worn
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.studies.wear.outcome import volumes
 from tribodyn.studies.wear.steps import march, unworn
 

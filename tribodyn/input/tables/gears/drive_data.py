@@ -17,8 +17,8 @@ from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.geometry.families.involute import overlap, shift_sensitivity, tight_centre_distance
+from tribodyn.geometry.helix import from_written
 from tribodyn.geometry.limits.checks import check_path
-from tribodyn.geometry.rack_section import from_written
 from tribodyn.input.quantity import shift_rounding
 from tribodyn.input.tables.gears.material import Material
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.modification import (
     Misalignment,
     Modifications,
     broken_flank_rules,

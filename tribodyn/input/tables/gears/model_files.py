@@ -6,7 +6,7 @@ from pydantic import Field
 
 from tribodyn.geometry.drive import PROFILES
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Relief
+from tribodyn.geometry.modification import FlankModification, LeadRelief, Relief
 from tribodyn.input import quantity, units
 from tribodyn.input.fields import ErrorCurve
 from tribodyn.input.tables.gears.material import Described, MaterialReference

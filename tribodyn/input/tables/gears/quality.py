@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.modification import (
+from tribodyn.geometry.modification import (
     Deviations,
     Limits,
     Modifications,

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.flanks.modification import Limits, shown_count, shown_length
+from tribodyn.geometry.modification import Limits, shown_count, shown_length
 from tribodyn.input.quantity import Draws
 from tribodyn.input.tables.gears.model_files import DriveTable, FlankErrors, Gear
 from tribodyn.input.tables.gears.quality import tolerances_of

@@ -13,7 +13,7 @@ from tribodyn.gears.rating.spectrum import spectrum_tables
 from tribodyn.gears.rating.standard import ZERO_CELSIUS
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
-from tribodyn.geometry.rack_section import as_written
+from tribodyn.geometry.helix import as_written
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity

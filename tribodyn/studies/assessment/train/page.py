@@ -10,7 +10,7 @@ from tribodyn.gears.rating.capacity import shorter_life
 from tribodyn.gears.rating.limits import LIMITS, SAFETIES, least, worst
 from tribodyn.gears.rating.rating_text import numbered
 from tribodyn.geometry.families import family
-from tribodyn.geometry.rack_section import as_written
+from tribodyn.geometry.helix import as_written
 from tribodyn.input.names import under_one_name
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES

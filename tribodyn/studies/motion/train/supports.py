@@ -17,7 +17,7 @@ from tribodyn.gears.supports import (
     matrix_support,
     mean_loads,
 )
-from tribodyn.geometry.flanks.modification import misalignment_of_tilts
+from tribodyn.geometry.modification import misalignment_of_tilts
 from tribodyn.input.tables.supports.bearings import bearing_of
 from tribodyn.input.tables.supports.shafts import drawn_shafts
 from tribodyn.numerics.shapes import Array, Float

@@ -1,1 +1,0 @@
-"""What is taken off flanks and tips: modifications, deviations, rounded tips, corner contact."""
