@@ -19,7 +19,7 @@ from tribodyn.grid.run import run, settings_of
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import read_sensed
 from tribodyn.record.sweep_schema import DONE
-from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.studies.protocol.batch import Chunk
 
 PAIR = {
     "title": "Sound and damaged gears",

@@ -16,9 +16,9 @@ from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
 from tribodyn.studies.motion.batch import BATCH
+from tribodyn.studies.protocol.batch import Chunk
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.studies.sweeping.batch import Chunk
 
 #: What few samples are to give of very many.
 EXACT = 5e-3

@@ -15,9 +15,9 @@ from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.motion.batch.gearboxes import KEPT, OF_MESH
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.report import SWEPT
+from tribodyn.studies.protocol.batch import Chunk
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.studies.sweeping.batch import Chunk
 
 KEYS = {"friction.law": "coulomb", "friction.coefficient": 0.06, "output.samples_per_cycle": 60}
 

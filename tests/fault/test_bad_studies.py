@@ -5,7 +5,7 @@ import pytest
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.reader import Record
-from tribodyn.studies.comparing import compare
+from tribodyn.studies.pages import compare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

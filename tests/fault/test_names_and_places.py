@@ -15,7 +15,7 @@ from tribodyn.gears.rating.margins import bulk_of
 from tribodyn.grid.grid import _put
 from tribodyn.input.sources import file_name
 from tribodyn.studies.motion.batch.signals import SignalBatch, SignalSettings
-from tribodyn.studies.sweeping.signals import SignalRequest
+from tribodyn.studies.protocol.batch import SignalRequest
 
 TAKEN = ("message", "status", "trust", "case", "line", "start_time", "time_100_Hz", "reference_angle_200_Hz")
 

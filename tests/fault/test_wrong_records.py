@@ -25,8 +25,7 @@ from tribodyn.record.files import soundness
 from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
 from tribodyn.studies import pages as of
-from tribodyn.studies.comparing import compare
-from tribodyn.studies.pages import report, sweep_report
+from tribodyn.studies.pages import compare, report, sweep_report
 
 pytestmark = pytest.mark.filterwarnings("ignore")  # numbers beyond all bounds may be warned of
 

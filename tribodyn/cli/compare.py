@@ -52,7 +52,7 @@ def compare(
     from tribodyn.cli.printing import print_files, print_json, print_rich
     from tribodyn.post import compare as comparing
     from tribodyn.record.reader import Record
-    from tribodyn.studies.comparing import compare as compare_records
+    from tribodyn.studies.pages import compare as compare_records
     from tribodyn.studies.pages import names
 
     scenarios = _scenarios(what, overrides(settings))

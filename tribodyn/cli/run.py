@@ -210,8 +210,7 @@ def _side_by_side(done: "Mapping[str, _Done]", full: bool) -> Any:
 
     from tribodyn.post.compare import comparison_table
     from tribodyn.record.reader import Record
-    from tribodyn.studies.comparing import compare
-    from tribodyn.studies.pages import summary_table
+    from tribodyn.studies.pages import compare, summary_table
 
     with ExitStack() as stack:
         records = [stack.enter_context(Record(each.result.path)) for each in done.values()]

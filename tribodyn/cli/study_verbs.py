@@ -88,7 +88,7 @@ def _run(
     **how: Any,
 ) -> None:
     """Run the scenario that a verb makes, and show what became of it, with the options of `tribodyn run`."""
-    from tribodyn.studies.sweeping.cluster import client_of
+    from tribodyn.studies.protocol.cluster import client_of
 
     if scheduler is not None and engine is SearchEngine.native:
         raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")

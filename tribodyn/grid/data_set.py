@@ -13,7 +13,7 @@ from tribodyn.input import units
 from tribodyn.input.units import NotAQuantity, to_si
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.sweep_schema import CASE, Listed, SweepLayout
-from tribodyn.studies.sweeping.signals import RUN_IN, SignalRequest
+from tribodyn.studies.protocol.batch import RUN_IN, SignalRequest
 
 #: Tables of a scenario that labels are made of, and the label of a case that has none.
 DAMAGE, SOUND = "damage", "none"

@@ -10,10 +10,9 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies import STUDIES
-from tribodyn.studies.protocol.evaluated import OneByOne
-from tribodyn.studies.protocol.scratch import kept_in
-from tribodyn.studies.sweeping.batch import Chunk
-from tribodyn.studies.sweeping.cluster import client_of, workers_of
+from tribodyn.studies.protocol.batch import Chunk
+from tribodyn.studies.protocol.cluster import client_of, workers_of
+from tribodyn.studies.protocol.evaluated import OneByOne, kept_in
 
 Block = dict[str, np.ndarray]
 JAX, DASK = "jax", "dask"

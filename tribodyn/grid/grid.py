@@ -15,10 +15,9 @@ from tribodyn.input.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.input.sources import find_scenario, read_toml
 from tribodyn.input.vary import NO_TABLE, VARY, Axis, axes_of, in_si, is_whole
 from tribodyn.studies import study_of
+from tribodyn.studies.protocol.batch import Batch, SignalRequest
 from tribodyn.studies.protocol.evaluated import OneByOne
 from tribodyn.studies.protocol.load import loaded_from, put_chosen, table_of
-from tribodyn.studies.sweeping.batch import Batch
-from tribodyn.studies.sweeping.signals import SignalRequest
 
 #: Cases that are looked at for their structure: of several varied keys together, else of each by itself.
 MOST_STRUCTURES = 64

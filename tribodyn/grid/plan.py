@@ -12,7 +12,7 @@ from tribodyn.errors import InputError
 from tribodyn.grid.grid import Grid
 from tribodyn.input.vary import VARY
 from tribodyn.record.sweep_schema import DONE
-from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
+from tribodyn.studies.protocol.batch import Chunk, NeighbourWay
 
 #: Above this a sweep is refused unless it is asked for: surely a step was mistyped.
 MOST_CASES = 1_000_000

@@ -21,7 +21,7 @@ from tribodyn.input.vary import Axis
 from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, WAITING, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter, values_left
 from tribodyn.record.writer import check_target
-from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.studies.protocol.batch import Chunk
 
 Follow = Callable[[int, int], None]
 """Called with the cases done and to do."""
@@ -38,7 +38,7 @@ class SweepResult(NamedTuple):
 
 
 def settings_of(grid: Grid, transient: int | None = None, engine: str = "native") -> Any:
-    """How the cases of a sweep are evaluated; see `sweeping.batch.Batch.settings`."""
+    """How the cases of a sweep are evaluated; see `protocol.batch.Batch.settings`."""
     return grid.batch.settings(grid.structures(), transient, engine)
 
 

@@ -14,7 +14,7 @@ from tribodyn.identification.unknowns import Unknown, case_at, shares_of
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.sensors import Sensed
 from tribodyn.studies import study_of
-from tribodyn.studies.sweeping.signals import SignalRequest
+from tribodyn.studies.protocol.batch import SignalRequest
 
 
 def turn_of(case: Any) -> float:

@@ -20,7 +20,7 @@ from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.studies import STUDIES
-from tribodyn.studies.sweeping.signals import RUN_IN
+from tribodyn.studies.protocol.batch import RUN_IN
 
 #: Level of the intervals, and starts that are tried beside the scenario's own: a power of two, per unknown.
 LEVEL, STARTS = 0.95, 8

@@ -24,7 +24,7 @@ from tribodyn.record import trust
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
 from tribodyn.studies import study_of
-from tribodyn.studies.sweeping.signals import RUN_IN
+from tribodyn.studies.protocol.batch import RUN_IN
 
 if TYPE_CHECKING:
     import xarray

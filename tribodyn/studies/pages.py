@@ -1,6 +1,7 @@
 """Figures, summaries, comparisons and pages of records and of sweeps, as their studies make them."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Group
 
+    from tribodyn.post.compare import Comparison
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
+    from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.studies.measured import Source
     from tribodyn.studies.protocol.study import TextTable
 
@@ -52,14 +55,36 @@ def drawings(records: Sequence[Record]) -> "Mapping[str, Drawing]":
     return {name: drawing for name, drawing in first.items() if all(name in other for other in others)}
 
 
-def _studies_of(records: Sequence[Record], remedy: str) -> list[Study]:
+def _studies_of(
+    records: Sequence[Record], remedy: str, rule: str = "of kind {}, the first of {}"
+) -> list[Study]:
     """Studies of records, one each; InputError where they share no quantities."""
     studies = [study_of_record(record) for record in records]
     for record, study in zip(records, studies, strict=True):
         if study.quantities != studies[0].quantities:
-            rule = f"of kind {record.kind}, the first of {records[0].kind}"
-            raise InputError("record", str(record.path), rule, remedy)
+            kinds = record.kind, records[0].kind
+            raise InputError("record", str(record.path), rule.format(*kinds), remedy)
     return studies
+
+
+def compare(records: Sequence[Record]) -> "Comparison":
+    """Set complete records side by side; see `tribodyn.post.compare`. InputError where they cannot be."""
+    from tribodyn.post import compare as comparing
+
+    rule = 'kind "{}" and kind "{}" share no quantities to compare'
+    studies = _studies_of(records, "compare records of one kind", rule)
+    for record, study in zip(records, studies, strict=True):
+        if not study.compared:
+            rule = f"{study.about}: it has no means over a run to compare"
+            raise InputError("record", str(record.path), rule, "draw them into one figure")
+    headings: dict[str, dict[str, Quantity]] = {}  # in the order of the first study that has them
+    for study in studies:
+        for heading in study.compared:
+            some = headings.setdefault(heading, {})
+            for quantity in study.reported().get(heading, ()):
+                some.setdefault(quantity.name, quantity)
+    reported: Reported = {heading: tuple(some.values()) for heading, some in headings.items()}
+    return comparing.compare(records, reported)
 
 
 def figure(
@@ -179,8 +204,8 @@ def report(
     """Write the page of one record, or of several side by side: one HTML file that needs no other.
 
     Without `figures` there are only the teeth in mesh on it, and what moves them. `measured`, `align`: see
-    `measured.measured_figure`. Raises InputError for no
-    record, one without samples, and records that share no quantities.
+    `measured.measured_figure`. Raises InputError for no record, one without samples, and records that share
+    no quantities.
     """
     from tribodyn.post.page.page import PageContent, page
     from tribodyn.post.page.sensors import SensedSection, sensed_section
@@ -257,15 +282,11 @@ def sweep_report(record: SweepRecord) -> str:
         remedy = "draw its signals: tribodyn plot FILE signals"
         raise InputError("record", str(record.path), "a data set has no page", remedy)
 
-    study = study_of_record(record)
-    pictures = []
+    study, pictures = study_of_record(record), []
     for name, drawing in study.sweep_drawings().items():
-        if drawing.curves and not more_than_curves(record):
-            continue
-        try:
-            pictures.append((name, drawing.about, sweep_figure(name, [record])))
-        except InputError:  # of a sweep that lacks what the picture shows
-            continue
+        if not drawing.curves or more_than_curves(record):
+            with suppress(InputError):  # of a sweep that lacks what the picture shows
+                pictures.append((name, drawing.about, sweep_figure(name, [record])))
     return sweep_page(record, study.sweep_table(), pictures, sheet(record), _teeth(record))
 
 
@@ -298,9 +319,8 @@ def write_report(
     check_page(path, force)
     sweeps = [record for record in records if isinstance(record, SweepRecord)]
     if sweeps and measured is not None:
-        raise InputError(
-            "measured", None, "lies beside a run, and this is a sweep", "name the record of a run"
-        )
+        rule = "lies beside a run, and this is a sweep"
+        raise InputError("measured", None, rule, "name the record of a run")
     if len(sweeps) == 1 == len(records):
         text = sweep_report(sweeps[0])
     elif sweeps:

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
+from tribodyn.studies.protocol.batch import NothingBetween, case_between
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.sweeping.batch import NothingBetween, case_between
 
 
 def case(speed, **others):

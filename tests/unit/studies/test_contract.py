@@ -27,8 +27,7 @@ from tribodyn.post.verdict import LINES
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.studies import DEFAULT, STUDIES, study_of
-from tribodyn.studies.comparing import compare
-from tribodyn.studies.pages import figure, names, summary_table
+from tribodyn.studies.pages import compare, figure, names, summary_table
 from tribodyn.studies.protocol.load import filled, load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.studies.protocol.study import CaseHead, CheckResult, RunResult, Study

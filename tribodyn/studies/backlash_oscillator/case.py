@@ -7,8 +7,8 @@ from functools import partial
 from tribodyn.cases.cost import CostKey, Estimate, forced_periods, recorded, total
 from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.schema import Layout
+from tribodyn.studies.protocol import branches
 from tribodyn.studies.protocol.study import CaseHead
-from tribodyn.studies.sweeping import branches
 
 
 @dataclass(frozen=True)

@@ -21,8 +21,8 @@ from tribodyn.studies.backlash_oscillator.response import (
     Response,
     frequency_response,
 )
+from tribodyn.studies.protocol.branches import branch_values, end_values
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
-from tribodyn.studies.sweeping.branches import branch_values, end_values
 
 #: Relative difference of the RMS above which the ways up and down count as different branches: hundreds of
 #: times what the residuals leave.

@@ -1,7 +1,15 @@
-"""Quantities of a study by name, and of its cases without a record: for sweeps, searches and Python."""
+"""Quantities of a study by name, and of its cases without a record: for sweeps, searches and Python.
 
-from collections.abc import Hashable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+Parts of such cases, as of an assessment, that do not change from case to case stay in a folder that is kept:
+they are taken up (see `tasks.results`), all others are computed again.
+"""
+
+from collections.abc import Hashable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,15 +21,42 @@ from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, number
 from tribodyn.record.withheld_efficiency import remarked, remarks, warned
-from tribodyn.studies.protocol.scratch import within
+from tribodyn.studies.protocol.batch import Batch, Chunk, SignalRequest
 from tribodyn.studies.protocol.study import Study
-from tribodyn.studies.sweeping.batch import Chunk
-from tribodyn.studies.sweeping.signals import SignalRequest, no_signals
-
-if TYPE_CHECKING:
-    from tribodyn.studies.sweeping.batch import Batch
 
 CONTACT_RATIO = "contact_ratio"
+#: Cases side by side, such as duties, of which each has a folder that is kept: of more there is no room.
+MOST = 8
+_folder: ContextVar[Path | None] = ContextVar("folder", default=None)
+
+
+@contextmanager
+def kept_in(folder: Path | None) -> Iterator[None]:
+    """Keep the parts of the cases inside the block in a folder; None: of none."""
+    token = _folder.set(folder)
+    try:
+        yield
+    finally:
+        _folder.reset(token)
+
+
+@contextmanager
+def within(number: int) -> Iterator[None]:
+    """Take the block for one of several cases, which come again in the same order."""
+    folder = _folder.get()
+    with kept_in(folder / str(number) if folder and number < MOST else None):
+        yield
+
+
+@contextmanager
+def scratch() -> Iterator[Path]:
+    """Give a folder for the parts of a case: the one that is kept, or a temporary one."""
+    if folder := _folder.get():
+        folder.mkdir(parents=True, exist_ok=True)
+        yield folder
+        return
+    with TemporaryDirectory(prefix="tribodyn-") as temporary:
+        yield Path(temporary)
 
 
 def evaluated_quantities(study: Study) -> dict[str, Quantity]:
@@ -57,9 +92,8 @@ def evaluated(
     states, or so many mesh cycles that are marched, evaluated by so many threads, default: one per core;
     `arrays` are datasets of its rows that are kept, too.
     """
-    batch = study.batch()
-    if batch:
-        results = _together(study, batch, cases, workers, marched or None, arrays)
+    if study.batch():
+        results = _together(study, cases, workers, marched or None, arrays)
     else:
         results = [alone(study, case, number) for number, case in enumerate(cases)]
     return [
@@ -83,19 +117,13 @@ def alone(study: Study, case: Any, number: int = 0) -> dict[str, Any] | str:
 
 
 def _together(
-    study: Study,
-    batch: "Batch",
-    cases: Sequence[Any],
-    workers: int | None,
-    marched: int | None,
-    arrays: Sequence[str],
+    study: Study, cases: Sequence[Any], workers: int | None, marched: int | None, arrays: Sequence[str]
 ) -> list[dict[str, Any] | str]:
-    valid = [case for case in cases if not isinstance(case, str)]
-    if not valid:
+    valid, batch = [case for case in cases if not isinstance(case, str)], study.batch()
+    if not valid or batch is None:
         return list(cases)
-    rows = batch.evaluate(
-        Chunk(np.arange(len(cases)), tuple(cases)), batch.settings(valid, marched, "native"), workers
-    )
+    settings = batch.settings(valid, marched, "native")
+    rows = batch.evaluate(Chunk(np.arange(len(cases)), tuple(cases)), settings, workers)
     return [
         {name: float(rows[name][i]) for name in study.swept()} | {name: rows[name][i] for name in arrays}
         if status == DONE
@@ -109,15 +137,14 @@ class NoSettings(NamedTuple):
 
 
 class OneByOne:
-    """Cases of a study without a `batch`, one after the other; see `sweeping.batch.Batch`."""
+    """Cases of a study without a `batch`, one after the other; see `protocol.batch.Batch`."""
 
     states = 0
 
     def __init__(self, study: Study) -> None:
         if not study.swept():
-            raise InputError(
-                "kind", f'"{study.kind}"', "such a study cannot be swept", "run its cases one by one"
-            )
+            rule, remedy = "such a study cannot be swept", "run its cases one by one"
+            raise InputError("kind", f'"{study.kind}"', rule, remedy)
         self.study = study
 
     def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> NoSettings:
@@ -133,9 +160,10 @@ class OneByOne:
         """The same: such cases do not go on from each other."""
         return settings
 
-    def hearing(self, request: SignalRequest) -> "Batch":
+    def hearing(self, request: SignalRequest) -> Batch:
         """Refused: sensors belong to motions."""
-        raise no_signals(self.study.about)
+        rule = f"{self.study.about}: its cases have no sensors"
+        raise InputError("--signals", None, rule, "omit it")
 
     def layout(self, settings: NoSettings) -> SweepLayout:
         """The quantities that the study names."""

@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.reader import Record
+    from tribodyn.studies.protocol.batch import Batch
     from tribodyn.studies.protocol.verb import Verb
-    from tribodyn.studies.sweeping.batch import Batch
 
 #: Part -> the modules in which what it holds may stand, too.
 _ALSO_IN = {
@@ -69,7 +69,7 @@ class Study:
                   ``mechanism``, bodies in motion that are no pair of gears (all optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
-    batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
+    batch         ``BATCH``, how many cases are evaluated together (optional), see `protocol.batch.Batch`
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case or scenario)
     assess        ``ROLE``, its part in an assessment of a drive (optional): `cases.assessment_part`
     assessable    ``WHOLE``, its meshes as pairs of gears (optional): it can be assessed mesh by mesh, see

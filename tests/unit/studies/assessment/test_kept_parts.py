@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tests.support.planet_sets import ASSESSED_SET
 from tribodyn.studies.design.candidates.evaluation import evaluate
-from tribodyn.studies.protocol.scratch import kept_in
+from tribodyn.studies.protocol.evaluated import kept_in
 
 SCENARIO = tomllib.loads(ASSESSED_SET)
 SHORT = {"scenario.solver.cycles": 2, "assessment.speeds": 1, "assessment.samples": 0}

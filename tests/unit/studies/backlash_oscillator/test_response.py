@@ -32,7 +32,7 @@ from tribodyn.studies.backlash_oscillator.run import (
     response_summary,
     rows_of,
 )
-from tribodyn.studies.sweeping.branches import end_values
+from tribodyn.studies.protocol.branches import end_values
 
 
 def case(frequencies, force=0.4, error=0.02, **more):

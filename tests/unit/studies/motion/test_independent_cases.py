@@ -8,8 +8,8 @@ import pytest
 from tribodyn.record.sweep_schema import FAILED
 from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.protocol.batch import Chunk
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.sweeping.batch import Chunk
 
 evaluate = importlib.import_module("tribodyn.studies.motion.batch.evaluate")
 

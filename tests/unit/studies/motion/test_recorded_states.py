@@ -5,8 +5,8 @@ import pytest
 
 from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.protocol.batch import Chunk
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.sweeping.batch import Chunk
 
 SPEED = {"operating.pinion_speed": "20 rad/s", "mesh.damping_ratio": 0.1}
 SHAFT = {

@@ -4,7 +4,7 @@ import pytest
 
 from tribodyn.studies.motion.batch.steady import prepared_between
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.sweeping.batch import NeighbourWay
+from tribodyn.studies.protocol.batch import NeighbourWay
 
 
 @pytest.mark.parametrize("speed", [400.0, 500.0, 650.0])

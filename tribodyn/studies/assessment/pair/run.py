@@ -35,7 +35,7 @@ from tribodyn.studies.assessment.scatter import Conclusion, put_in, samples_of
 from tribodyn.studies.assessment.unknowns import Draw
 from tribodyn.studies.drive_file import sheet_of
 from tribodyn.studies.protocol import tasks
-from tribodyn.studies.protocol.scratch import scratch
+from tribodyn.studies.protocol.evaluated import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 
 #: What is no number, or has the unit of what is compared; what ends the name of a scatter.

@@ -35,7 +35,7 @@ from tribodyn.studies.assessment.train.meshes import (
 from tribodyn.studies.assessment.train.pairs import MeshPair, pairs_of, parts_of
 from tribodyn.studies.assessment.unknowns import Draw, described, drawn, ranges_of_gearbox
 from tribodyn.studies.protocol import tasks
-from tribodyn.studies.protocol.scratch import scratch
+from tribodyn.studies.protocol.evaluated import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
 
 DUTY = "duty"

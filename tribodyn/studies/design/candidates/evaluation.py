@@ -25,10 +25,9 @@ from tribodyn.input.tables.duty import LOADS, SPEEDS
 from tribodyn.numerics.processes import child
 from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.sources import own
-from tribodyn.studies.protocol.evaluated import evaluated
+from tribodyn.studies.protocol.cluster import workers_of
+from tribodyn.studies.protocol.evaluated import evaluated, kept_in, within
 from tribodyn.studies.protocol.load import Loaded, loaded_from, table_of
-from tribodyn.studies.protocol.scratch import kept_in, within
-from tribodyn.studies.sweeping.cluster import workers_of
 
 if TYPE_CHECKING:
     import subprocess

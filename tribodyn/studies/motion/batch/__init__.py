@@ -29,8 +29,7 @@ from tribodyn.studies.motion.case import refuse_long_period
 from tribodyn.studies.motion.estimate import cost_keys, marching_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.report import SWEPT
-from tribodyn.studies.sweeping.batch import Batch, Chunk
-from tribodyn.studies.sweeping.signals import SignalRequest
+from tribodyn.studies.protocol.batch import Batch, Chunk, SignalRequest
 
 #: Mesh cycles that the search for a steady state may take, and points of the section of a motion that has no
 #: period.
@@ -50,7 +49,7 @@ MOST_SAMPLED = 64
 
 
 class MotionBatch:
-    """See `sweeping.batch.Batch`."""
+    """See `protocol.batch.Batch`."""
 
     states = MOST_STATES
 

@@ -50,8 +50,8 @@ from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.report import SWEPT
 from tribodyn.studies.motion.summary import meshes_of_run
-from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
-from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
+from tribodyn.studies.protocol.batch import Chunk, NeighbourWay
+from tribodyn.studies.protocol.branches import MOTIONS, PREFIX, fill_branch, fill_ends
 from tribodyn.train.links.chain import numbers_of
 from tribodyn.train.structure import rotational_error, rotational_error_rate
 

@@ -35,8 +35,7 @@ from tribodyn.studies.motion.batch.stretch import (
 from tribodyn.studies.motion.estimate import cost_keys, marching_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.sensors import listener_of
-from tribodyn.studies.sweeping.batch import Chunk
-from tribodyn.studies.sweeping.signals import SignalRequest
+from tribodyn.studies.protocol.batch import Chunk, SignalRequest
 
 #: Cases that are marched together.
 TOGETHER = 32
@@ -70,7 +69,7 @@ class SignalSettings(NamedTuple):
 
 
 class SignalBatch:
-    """See `sweeping.batch.Batch`."""
+    """See `protocol.batch.Batch`."""
 
     states = 0
 

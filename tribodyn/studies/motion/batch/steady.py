@@ -17,7 +17,7 @@ from tribodyn.solve.orbit.motions import FAILED
 from tribodyn.solve.orbit.periodic import WANDERING, SteadyMotion, refuse_time_dependent, steady_states
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.studies.motion.batch.swept import UNKNOWN
-from tribodyn.studies.sweeping.batch import NeighbourWay, NothingBetween, case_between
+from tribodyn.studies.protocol.batch import NeighbourWay, NothingBetween, case_between
 from tribodyn.train.structure import TrainLayout, works
 
 if TYPE_CHECKING:

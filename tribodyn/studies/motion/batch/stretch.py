@@ -10,7 +10,7 @@ from tribodyn.errors import InputError
 from tribodyn.gears.sensing.sensor_signals import BLOCK
 from tribodyn.signals.resampling import REACH
 from tribodyn.studies.motion.batch.gearboxes import RunSpeed, run_speed_of
-from tribodyn.studies.sweeping.signals import SignalRequest
+from tribodyn.studies.protocol.batch import SignalRequest
 
 #: Samples of the motion for each of a sensor's. What the motion has above half of them folds back; of
 #: accelerations at 20 kHz 0.2 % of the signal, 6 % with 1.5 samples.

@@ -10,7 +10,7 @@ from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_schema import WORD, SweepLayout
 from tribodyn.solve.orbit.motions import MAX_PERIOD
-from tribodyn.studies.sweeping import branches
+from tribodyn.studies.protocol import branches
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
@@ -50,7 +50,7 @@ CASES: dict[str, Variable] = {
         ("state_variable",), "SI", "state at the start of a mesh cycle, from which a neighbour continues"
     ),
 }
-#: Of the unstable motions beyond the ends of branches, beside quantities, see `sweeping.branches`.
+#: Of the unstable motions beyond the ends of branches, beside quantities, see `protocol.branches`.
 _ERROR_OF_UNSTABLE = Variable(
     ("end", "motion", "return"),
     "m",

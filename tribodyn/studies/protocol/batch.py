@@ -8,7 +8,17 @@ import numpy as np
 
 from tribodyn.cases.cost import Estimate
 from tribodyn.record.sweep_schema import SweepLayout
-from tribodyn.studies.sweeping.signals import SignalRequest
+
+#: Turns of the reference body before a signal begins: the run in, after which a start at rest is forgotten.
+RUN_IN = 3.0
+
+
+class SignalRequest(NamedTuple):
+    """Signals of sensors in place of steady states: a data set."""
+
+    duration: float  # s, of every signal
+    run_in: float = RUN_IN  # turns of the reference body before it
+    seed: int = 0  # of the moments at which signals begin, and of the sensors' noise
 
 
 class NeighbourWay(NamedTuple):

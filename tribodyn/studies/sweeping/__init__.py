@@ -1,1 +1,0 @@
-"""What studies say of sweeps: batches, cases between cases, ends of branches."""
