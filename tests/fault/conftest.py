@@ -1,10 +1,6 @@
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
-
-from tribodyn.cli.app import app
 
 SCENARIO = """\
 title = "a scenario"
@@ -34,16 +30,3 @@ def scenario(tmp_path: Path) -> Path:
     path = tmp_path / "mine.toml"
     path.write_text(SCENARIO, encoding="utf-8")
     return path
-
-
-@pytest.fixture
-def refused() -> Callable[..., tuple[int, list[str]]]:
-    """Run a command line in this process that prints no result; exit status and lines of stderr."""
-
-    def run(*arguments: str) -> tuple[int, list[str]]:
-        result = CliRunner().invoke(app, list(arguments))
-        assert result.stdout == ""
-        assert "Traceback" not in result.stderr
-        return result.exit_code, result.stderr.splitlines()
-
-    return run

@@ -24,13 +24,14 @@ def test_too_many_steps(tmp_path, method):
     result = run(tmp_path, **{"solver.method": method, "solver.max_steps": 40, "solver.cycles": 3})
     assert result.status == "failed"
     assert "solver.max_steps" in result.message
-    assert "t = " in result.message
     assert result.path == tmp_path / "out.partial.h5"
     assert not (tmp_path / "out.h5").exists()
     record = Record(result.path)
     assert record.status == "failed"
     assert record.message == result.message
     assert np.all(np.isfinite(record["time"]))
+    stated = float(result.message.split("t = ")[1].split(" s")[0])
+    assert -1e-12 < stated - record["time"][-1] < 2 * (record["time"][1] - record["time"][0])
 
 
 @pytest.mark.parametrize("method", ["dopri5", "rodas4"])
@@ -74,15 +75,6 @@ def test_no_equilibrium_at_the_start(prepared):
     model = altered(model, bodies={"load": np.array([0.0, -100.0])})
     with pytest.raises(SimulationError, match="equilibrium"):
         static_equilibrium(model)
-
-
-def test_failures_name_the_time_they_happen_at(tmp_path):
-    result = run(tmp_path, **{"solver.max_steps": 500, "solver.cycles": 3})
-    record = Record(result.path)
-    assert result.status == "failed"
-    stated = float(result.message.split("t = ")[1].split(" s")[0])
-    assert stated >= record["time"][-1] - 1e-12
-    assert stated < record["time"][-1] + 2 * (record["time"][1] - record["time"][0])
 
 
 def test_a_solution_that_stops_being_finite_is_told(prepared):

@@ -30,11 +30,17 @@ def invoke(*words: object, folder: Path | None = None) -> str:
     return result.stdout
 
 
-def complaint(*words: object, folder: Path | None = None, status: int = 2) -> str:
-    """Run a verb in this process that must fail with a status; its one line of complaint."""
+def complaints(*words: object, folder: Path | None = None, status: int = 2) -> list[str]:
+    """Run a verb that must fail with a status; its lines of complaint. Bad input prints nothing else."""
     result = ended(*words, folder=folder)
     assert result.exit_code == status, f"{words}\n{result.output}\n{result.exception}"
-    (line,) = result.stderr.splitlines()
+    assert status != 2 or result.stdout == ""
+    return result.stderr.splitlines()
+
+
+def complaint(*words: object, folder: Path | None = None, status: int = 2) -> str:
+    """Run a verb in this process that must fail with a status; its one line of complaint."""
+    (line,) = complaints(*words, folder=folder, status=status)
     return line
 
 
