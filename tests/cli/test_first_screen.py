@@ -1,38 +1,32 @@
 """Long answers begin with one screen; the rest is a name or `--full` away."""
 
 import json
-from typing import Any
 
 import pytest
-from typer.testing import CliRunner
 
-from tribodyn.cli.app import app
+from tests.support.verbs import ended, invoke
 
 #: Lines of a usual window.
 SCREEN = 50
 REDUCER = "two-stage-reducer"
 
 
-def said(*words: str) -> Any:
-    return CliRunner().invoke(app, list(words))
-
-
 def test_a_list_of_everything_is_an_overview_of_sorts():
-    brief, full, data = said("list"), said("list", "--full"), json.loads(said("list", "--json").stdout)
-    assert len(brief.stdout.splitlines()) <= SCREEN
+    brief, full, data = invoke("list"), invoke("list", "--full"), json.loads(invoke("list", "--json"))
+    assert len(brief.splitlines()) <= SCREEN
     for sort, names in data.items():
-        assert sort in brief.stdout
-        assert all(name in full.stdout for name in names)
-        assert str(len(names)) in brief.stdout
+        assert sort in brief
+        assert all(name in full for name in names)
+        assert str(len(names)) in brief
 
 
 @pytest.fixture(scope="module")
 def full() -> str:
-    return said("check", REDUCER, "--full").stdout
+    return invoke("check", REDUCER, "--full")
 
 
 def test_a_train_begins_with_the_train(full: str):
-    brief = said("check", REDUCER).stdout
+    brief = invoke("check", REDUCER)
     assert len(brief.splitlines()) <= SCREEN
     assert "Gears, mesh first" not in brief
     assert "--full" in brief
@@ -41,9 +35,8 @@ def test_a_train_begins_with_the_train(full: str):
 
 
 def test_a_mesh_or_a_word_names_what_is_shown(full: str):
-    of_mesh = said("check", REDUCER, "first").stdout
+    of_mesh = invoke("check", REDUCER, "first")
     assert "Gears, mesh first" in of_mesh
     assert "Gears, mesh second" not in of_mesh
-    assert len(said("check", REDUCER, "campbell").stdout.splitlines()) < 25
-    unknown = said("check", REDUCER, "third")
-    assert unknown.exit_code == 2
+    assert len(invoke("check", REDUCER, "campbell").splitlines()) < 25
+    assert ended("check", REDUCER, "third").exit_code == 2

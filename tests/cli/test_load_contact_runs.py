@@ -73,13 +73,6 @@ def test_studies_are_compared_with_what_is_modified(both: dict[str, Path]):
     assert different["drive.pinion.modification.tip_relief"] == ["0 um", "12.4 um"]
 
 
-def test_a_face_that_is_lifted_is_refused(tmp_path: Path):
-    tilted = sets("mesh.misalignment.in_plane=1 deg", "mesh.slices=5")
-    line = complaint("run", PLAIN, *tilted, "-o", tmp_path / "tilted.h5")
-    assert "mesh.misalignment.in_plane = " in line
-    assert list(tmp_path.iterdir()) == []
-
-
 @pytest.mark.parametrize("fails_at", [0, 2])
 def test_a_torque_that_fails_keeps_what_was_before_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, fails_at: int

@@ -68,9 +68,3 @@ def test_a_notebook_runs(
             assert list(tmp_path.iterdir()) == []  # nothing is left in the reader's folder
     finally:
         pyplot.close("all")
-
-
-@pytest.mark.parametrize("page", NOTEBOOKS, ids=lambda page: page.stem)
-def test_links_lead_somewhere(page: Path):
-    for target in re.findall(r"\]\((?!https?://)([^)#\s]+)[^)]*\)", page.read_text(encoding="utf-8")):
-        assert (page.parent / target).resolve().exists(), target

@@ -1,8 +1,6 @@
 """The verb sweep as its user meets it: records, figures, failed cases, what is refused."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -159,20 +157,6 @@ def test_a_load_that_changes_over_time_has_no_steady_state(tmp_path: Path):
     words = ("sweep", "load-step", "--vary", "mesh.damping_ratio=0.04,0.05", "-o", tmp_path / "s.h5")
     assert "operating.gear_torque_table" in complaint(*words)
     assert not list(tmp_path.iterdir())
-
-
-def test_neither_jax_nor_dask_nor_matplotlib_is_imported(tmp_path: Path):
-    program = (
-        "import sys\nfrom tribodyn.cli import main\n"
-        f"sys.argv = ['tribodyn', 'sweep', 'crc-23-47', '--vary', '{SPEEDS}', '-o', 's.h5']\n"
-        "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code\n"
-        "print({'jax', 'dask', 'distributed', 'matplotlib', 'xarray', 'pint'} & set(sys.modules))"
-    )
-    printed = subprocess.check_output([sys.executable, "-c", program], cwd=tmp_path, text=True)
-    assert printed.splitlines()[-1] == "set()"
-    with SweepRecord(tmp_path / "s.h5") as record:
-        assert set(record["solution"]) == {"period-1"}
-        assert (record["multiplier_max"] < 1).all()
 
 
 @pytest.mark.slow

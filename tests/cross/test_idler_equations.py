@@ -20,7 +20,11 @@ from tribodyn.solve.right_hand_side import contacts_of
 TEETH, SHIFTS, MODULE, ALPHA = (24, 37, 41), ((0.25, 0.1), (0.1, -0.15)), 3e-3, np.radians(20.0)
 INERTIA, MASS = (1.1e-3, 6.2e-3, 0.017), (1.3, 2.9, 4.1)
 STIFFNESS, COEFFICIENT = (3.1e8, 4.3e8), 0.07
-BEARINGS = lagrange.SAMPLE.bearing_stiffness, lagrange.SAMPLE.bearing_damping
+#: Stiffness and damping along x and y.
+BEARINGS = (
+    np.array([[1.1e8, 2.3e8], [3.7e8, 4.9e8], [2.2e8, 6.1e8]]),
+    np.array([[510.0, 730.0], [970.0, 1300.0], [840.0, 620.0]]),
+)
 SPEED, TORQUE = 150.0, 310.0
 PLACES = [(0.7, -1.1, 1), (2.9, 2.2, -1), (-3.1, 3.1, 1), (-1.0, -1.0, -1)]
 #: Loads (N) from which on no smoothing of contact acts, and distances (m) at which no vibration turns the

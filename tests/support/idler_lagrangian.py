@@ -19,7 +19,6 @@ from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
 
@@ -45,24 +44,6 @@ class Idler(NamedTuple):
     damping: Float[Array, " mesh"]
     distance: Float[Array, " mesh"]  # of the contact from the pitch point, > 0 in recess
     friction: Float[Array, " mesh"]  # N, on the driver along `tangent`; on the driven gear against it
-
-
-#: One with nothing symmetric in it.
-SAMPLE = Idler(
-    mass=np.array([1.3, 2.9, 4.1]),
-    inertia=np.array([1.1e-3, 6.2e-3, 0.017]),
-    bearing_stiffness=np.array([[1.1e8, 2.3e8], [3.7e8, 4.9e8], [2.2e8, 6.1e8]]),
-    bearing_damping=np.array([[510.0, 730.0], [970.0, 1300.0], [840.0, 620.0]]),
-    torque=np.array([120.0, 0.0, -310.0]),
-    base_radii=np.array([[0.028, 0.042], [0.0423, 0.066]]),
-    pressure_angle=np.radians([20.0, 24.5]),
-    azimuth=np.array([0.7, -1.1]),
-    sense=1.0,
-    stiffness=np.array([3.1e8, 4.3e8]),
-    damping=np.array([900.0, 1400.0]),
-    distance=np.array([2.1e-3, -1.7e-3]),
-    friction=np.array([210.0, -160.0]),
-)
 
 
 def centres(idler: Idler) -> Float[Array, "gear 2"]:

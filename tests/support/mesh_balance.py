@@ -18,9 +18,8 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import cumulative_simpson
 
-from tests.support.train_matrices import DRIVING, Body, Mesh, cross, pitch_motion, towards_driven
+from tests.support.train_matrices import DRIVING, Mesh, cross, pitch_motion, towards_driven
 from tribodyn.numerics.shapes import Array, Float, Int
 
 #: Ends of a mesh in the arrays below.
@@ -111,24 +110,3 @@ def forces_on_bodies(actions: Actions, meshes: Sequence[Mesh], bodies: int) -> F
             total[:, body, :2] += actions.force[:, m, end]
             total[:, body, 2] += actions.moment[:, m, end]
     return total
-
-
-def momentum_residuals(
-    record: Mapping[str, Array],
-    forces: Float[Array, "time body 3"],
-    bodies: Sequence[Body],
-    senses: Int[Array, " body"],
-) -> Float[Array, "body 3"]:
-    """Momentum gained less the impulse of all forces, over the greatest impulse of its kind in the record.
-
-    `forces` are all that act on the bodies, counter-clockwise: `forces_on_bodies`, bearings, links, torques.
-    The impulse is Simpson's: as exact as the samples are dense, and of the first order where forces jump.
-    """
-    velocity = np.array(record["velocity"], dtype=float)
-    velocity[:, :, 2] *= senses
-    masses = np.array([[body.mass, body.mass, body.inertia] for body in bodies])
-    gained = masses * (velocity - velocity[0])
-    impulse = cumulative_simpson(forces, x=record["time"], axis=0, initial=np.zeros((1, *forces.shape[1:])))
-    greatest = np.max(np.abs(impulse), axis=(0, 1))
-    scale = np.array([*2 * [greatest[:2].max()], greatest[2]])
-    return np.max(np.abs(gained - impulse), axis=0) / scale

@@ -59,29 +59,6 @@ def elastic_two_stage(
     return free_chain(list(np.asarray(inertias) * ratios**2), springs)
 
 
-def rigid_two_stage(
-    inertias: Sequence[float], shafts: Sequence[float], ratios: Sequence[float]
-) -> Float[Array, " mode"]:
-    """The same with rigid teeth: four inertias, 0 and the roots of a cubic.
-
-    Ratios are speed of the driven over speed of the driver, per stage. With a, b, c, d the inertias seen from
-    the input and p, q, r the stiffnesses between them, λ = ω²:
-    λ³ − [p(1/a + 1/b) + q(1/b + 1/c) + r(1/c + 1/d)] λ²
-    + [pq (a + b + c)/(abc) + qr (b + c + d)/(bcd) + pr (1/a + 1/b)(1/c + 1/d)] λ
-    − pqr (a + b + c + d)/(abcd) = 0.
-    """
-    i, j = ratios[0], ratios[0] * ratios[1]
-    a, b = inertias[0], inertias[1] + i**2 * inertias[2]
-    c, d = i**2 * inertias[3] + j**2 * inertias[4], j**2 * inertias[5]
-    p, q, r = shafts[0], i**2 * shafts[1], j**2 * shafts[2]
-    squares = p * (1 / a + 1 / b) + q * (1 / b + 1 / c) + r * (1 / c + 1 / d)
-    linear = p * q * (a + b + c) / (a * b * c) + q * r * (b + c + d) / (b * c * d)
-    linear += p * r * (1 / a + 1 / b) * (1 / c + 1 / d)
-    constant = p * q * r * (a + b + c + d) / (a * b * c * d)
-    found = np.sort(np.roots([1.0, -squares, linear, -constant]).real)
-    return np.append(0.0, np.sqrt(found) / (2.0 * np.pi))
-
-
 def torsional_idler(
     inertias: Sequence[float], base_radii: Sequence[float], stiffness: Sequence[float]
 ) -> Float[Array, " mode"]:

@@ -154,16 +154,6 @@ def senses(train: Train) -> list[int]:
     return [found[body] for body in range(len(train.bodies))]
 
 
-def in_own_senses(values: Float[Array, "time coordinate"], train: Train) -> Float[Array, "time body 3"]:
-    """Displacements or velocities with every rotation positive in its body's own sense, as records have them.
-
-    They stay those about uniform rotation.
-    """
-    found = np.array(values).reshape(len(values), -1, 3)
-    found[:, :, 2] *= senses(train)
-    return found
-
-
 def rotations(train: Train) -> list[int]:
     """Coordinates that are rotations: what is free on rigid bearings."""
     return list(range(2, 3 * len(train.bodies), 3))

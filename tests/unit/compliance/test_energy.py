@@ -58,12 +58,6 @@ class TestBeam:
         assert shear == pytest.approx(1.2 * 2 * (1 + nu) * math.cos(angle) ** 2 * length / area, rel=1e-12)
         assert axial == pytest.approx(math.sin(angle) ** 2 * length / area, rel=1e-12)
 
-    def test_load_across_the_end_of_a_prism(self):
-        length, half = 5e-3, 2e-3
-        x = length * (1 + _POINTS) / 2
-        bending, *_ = beam_compliance(section_integrals(x, half + 0 * x, 0.0).sum(axis=0), length, 0.0, 0.3)
-        assert bending == pytest.approx(length**3 / (3 * (2 * half) ** 3 / 12), rel=1e-12)
-
     @pytest.mark.parametrize("tip", [0.3, 0.1])
     def test_wedge_up_to_a_thin_tip(self, tip):
         # y falls linearly from 1 to `tip`; ∫ dx/y³ = (1/tip² − 1)/(2 slope)
@@ -73,49 +67,35 @@ class TestBeam:
         assert totals[0] == pytest.approx(1.5 * (1 / tip**2 - 1) / (2 * slope), rel=1e-7)
         assert totals[3] == pytest.approx(-0.5 * math.log(tip) / slope, rel=1e-9)
 
-    @pytest.mark.parametrize("family", [involute.FAMILY, crc.FAMILY])
-    def test_outline_integrated_point_by_point(self, family):
+    @pytest.mark.parametrize("name", ["involute", "crc", "far from the pitch point"])
+    def test_outline_integrated_point_by_point(self, name):
         pair = drive(22.81, body(23, 0.015), body(47, 0.025))
-        tooth = loaded(family, pair, "pinion")
         r = np.array([-3e-3, 0.0, 4e-3])
+        if name.startswith("far"):  # by a large profile shift all of the flank is on one side
+            pinion = body(60, 0.06)._replace(profile_shift=1.3, addendum=0.8)
+            gear = body(70, 0.06)._replace(profile_shift=-1.3, addendum=2.2)
+            pair = drive(20.0, pinion, gear)
+        tooth = loaded(crc.FAMILY if name == "crc" else involute.FAMILY, pair, "pinion")
+        if name.startswith("far"):
+            radii = np.array([tooth.tooth.form_radius, tooth.tooth.tip_radius])
+            first, last = np.asarray(distance_at_radius(tooth.path, radii))
+            assert first > 0.0
+            r = first + np.array([0.4, 0.9]) * (last - first)
         result = tooth_compliance(tooth, STEEL, 0.02, r)
         outline = tooth_outline(tooth.tooth, 4000, 4000)
         x, y = np.r_[outline.fillet_x, outline.flank_x[1:]], np.r_[outline.fillet_y, outline.flank_y[1:]]
         contact = contact_in_tooth_frame(tooth.path, tooth.pitch_half_angle, r)
-        for i in range(3):
+        for i in range(len(r)):
             below = x < contact.x[i]
             s, half = np.r_[x[below], contact.x[i]], np.r_[y[below], contact.y[i]]
             angle = contact.load_angle[i]
             moment = math.cos(angle) * (contact.x[i] - s) - math.sin(angle) * contact.y[i]
             bending = np.trapezoid(moment**2 / (2 * half**3 / 3), s) / (207e9 * 0.02)
             shear = np.trapezoid(1.2 * math.cos(angle) ** 2 / (2 * half), s) * 2.6 / (207e9 * 0.02)
+            axial = np.trapezoid(math.sin(angle) ** 2 / (2 * half), s) / (207e9 * 0.02)
             assert result.bending[i] == pytest.approx(bending, rel=1e-6)
             assert result.shear[i] == pytest.approx(shear, rel=1e-6)
-            axial = np.trapezoid(math.sin(angle) ** 2 / (2 * half), s) / (207e9 * 0.02)
             assert result.axial[i] == pytest.approx(axial, rel=1e-6)
-
-    def test_flank_that_does_not_reach_the_pitch_point(self):
-        """All of it on one side, by a large profile shift; integrated point by point."""
-        pinion, gear = body(60, 0.06), body(70, 0.06)
-        pair = drive(
-            20.0,
-            pinion._replace(profile_shift=1.3, addendum=0.8),
-            gear._replace(profile_shift=-1.3, addendum=2.2, dedendum=1.25),
-        )
-        tooth = loaded(involute.FAMILY, pair, "pinion")
-        first = float(distance_at_radius(tooth.path, tooth.tooth.form_radius))
-        last = float(distance_at_radius(tooth.path, tooth.tooth.tip_radius))
-        assert first > 0.0
-        r = first + np.array([0.4, 0.9]) * (last - first)
-        result = tooth_compliance(tooth, STEEL, 0.02, r)
-        outline = tooth_outline(tooth.tooth, 4000, 4000)
-        x, y = np.r_[outline.fillet_x, outline.flank_x[1:]], np.r_[outline.fillet_y, outline.flank_y[1:]]
-        contact = contact_in_tooth_frame(tooth.path, tooth.pitch_half_angle, r)
-        for i in range(2):
-            below = x < contact.x[i]
-            s, half = np.r_[x[below], contact.x[i]], np.r_[y[below], contact.y[i]]
-            shear = np.trapezoid(1.2 * math.cos(contact.load_angle[i]) ** 2 / (2 * half), s) * 2.6
-            assert result.shear[i] == pytest.approx(shear / (207e9 * 0.02), rel=1e-6)
 
     @pytest.mark.parametrize("shift", [0.5, 0.55, 0.565])
     def test_tips_down_to_an_edge(self, shift):
@@ -233,13 +213,6 @@ class TestPair:
         later, earlier = (neighbour_coupling(loaded(family, pair, s), STEEL, 1) for s in SIDES)
         np.testing.assert_allclose(later, earlier.T, rtol=1e-8)
 
-    def test_softer_material(self):
-        r = np.zeros(1)
-        soft = replace(STEEL, youngs_modulus=207e9 / 3)
-        assert pair_compliance(involute.FAMILY, drive(), soft, r) == pytest.approx(
-            3 * pair_compliance(involute.FAMILY, drive(), STEEL, r), rel=1e-12
-        )
-
     @pytest.mark.parametrize("family", [involute.FAMILY, crc.FAMILY])
     @pytest.mark.parametrize(("pinion", "gear"), [(23, 47), (30, 60), (50, 50)])
     def test_steel_pairs_are_as_stiff_as_steel_pairs_are(self, family, pinion, gear):
@@ -249,14 +222,6 @@ class TestPair:
 
 
 class TestHertz:
-    def test_linear(self):
-        expected = 4 * (1 - 0.3**2) / (math.pi * 207e9 * 0.0267)
-        assert hertz_linear(STEEL, STEEL, 0.0267) == pytest.approx(expected, rel=1e-14)
-
-    def test_rigid_partner_leaves_half(self):
-        rigid = replace(STEEL, youngs_modulus=1e30)
-        assert hertz_linear(STEEL, rigid, 0.02) == pytest.approx(hertz_linear(STEEL, STEEL, 0.02) / 2)
-
     def test_load_dependent_does_not_know_units(self):
         # the same formula in N and mm
         in_millimetres = 1.275 / (207e3**0.9 * 26.7**0.8) * 1e-3
