@@ -10,7 +10,6 @@ from typing import Any
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.gears.prepare import contact_quantities
 from tribodyn.gears.rating.margins import bulk_of
 from tribodyn.grid.grid import _put
 from tribodyn.input.sources import file_name
@@ -38,12 +37,6 @@ def test_a_sensor_is_not_named_as_something_of_the_data_set(name: str):
 def test_a_key_in_a_table_that_a_case_lacks(key: str):
     with pytest.raises(InputError, match="not all cases have"):
         _put({"damage": [], "title": "a"}, key, "0.1 mm")
-
-
-def test_gears_without_contact_have_no_flash_temperature():
-    oil: Any = SimpleNamespace(temperature=353.15)
-    assert contact_quantities(oil, {}) == {}
-    assert contact_quantities(oil, {"flash_temperature_max": 20.0}) == {"contact_temperature_max": 373.15}
 
 
 def test_friction_that_gives_power_heats_nothing():

@@ -3,7 +3,6 @@
 import jax
 import numpy as np
 import pytest
-from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 
 from tests.support.compile_fast import ONE_CALL
@@ -81,17 +80,6 @@ def test_beyond_the_knots_the_slope_fades_and_the_path_goes_on_straight():
         assert path.pressure_angle_slope(end + way * 1.01 * interval) == 0.0
         rise = path.pressure_angle(end + way * 2 * interval) - path.pressure_angle(end)
         assert rise == pytest.approx(way * slope * interval / 2, rel=1e-9)
-
-
-def test_the_pinion_turns_as_meshing_demands():
-    path = FAMILY.working_path(FREE)
-
-    def rate(s):
-        return 1.0 / (path.pinion_pitch_radius * np.cos(path.pressure_angle(s)))
-
-    for r in (-0.0094, -0.003, 0.004, 0.0094):
-        assert path.rotation(r) == pytest.approx(quad(rate, 0.0, r, points=[0.0])[0], rel=1e-9)
-        assert path.signed_distance(path.rotation(r)) == pytest.approx(r, rel=1e-12)
 
 
 def test_both_gears_and_racks_touch_along_a_common_normal():

@@ -15,7 +15,7 @@ from tests.support.sample_drives import (
     body,
     root_radius,
 )
-from tribodyn.geometry.assembly import assemble, tip_clearance, tip_corner_gap
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import (
     ToothOutline,
     gear_polygon,
@@ -55,26 +55,6 @@ class TestInvolute:
         x, y = flank_point(tooth, np.linspace(tooth.form_distance, tooth.tip_distance, 9))
         at = np.hypot(x, y)
         np.testing.assert_allclose(np.arctan2(y, x), thickness_half_angle(tooth, at), atol=1e-13)
-
-    def test_load_angle(self, drive, side):
-        """The load's line is tangent to the base circle, so its moment about the axis is F r_b."""
-        path = seen_from(involute.FAMILY.working_path(drive), side)
-        tooth = cut_tooth(involute.FAMILY, drive, side)
-        half_angle = thickness_half_angle(tooth, path.pinion_pitch_radius)
-        contact = contact_in_tooth_frame(path, half_angle, np.linspace(-1, 1, 5) * drive.module)
-        moment = contact.x * np.cos(contact.load_angle) - contact.y * np.sin(contact.load_angle)
-        base = reference_radius(drive, side) * np.cos(drive.pressure_angle)
-        np.testing.assert_allclose(moment, base, rtol=1e-13)
-
-    def test_no_backlash_at_the_working_centre_distance(self, drive, side):
-        del side
-        assembly = assemble(involute.FAMILY, drive)
-        thickness = [
-            2 * radius * thickness_half_angle(assembly.tooth(side), radius)
-            for side, radius in zip(SIDES, assembly.path[:2], strict=True)
-        ]
-        pitch = 2 * np.pi * assembly.path.pinion_pitch_radius / drive.pinion.teeth
-        assert sum(thickness) == pytest.approx(pitch, rel=1e-13)
 
 
 @bodies(DRIVES)
@@ -201,16 +181,6 @@ class TestBody:
         assert mass == pytest.approx(7850 * width * area, rel=1e-5)
         assert inertia == pytest.approx(7850 * width * second, rel=2e-5)
 
-    def test_mass_lies_between_root_and_tip_disc(self, family, drive, side):
-        mass, inertia = mass_and_inertia(assemble(family, drive), side, 7850.0)
-        bore = body_of(drive, side).bore_radius
-        for power, value, factor in ((2, mass, np.pi), (4, inertia, np.pi / 2)):
-            small, large = (
-                7850 * 0.02 * factor * (radius**power - bore**power)
-                for radius in (root_radius(drive, side), tip_radius(drive, side))
-            )
-            assert small < value < large
-
 
 def test_polygons_touch_at_the_pitch_point():
     """The body frame is the drive's while a pair touches at P, so both polygons pass through P."""
@@ -230,13 +200,6 @@ def test_section_of_a_plain_ring():
     area, inertia = section_area_and_inertia(ring, teeth, 0.01)
     assert area == pytest.approx(np.pi * (radius**2 - 0.01**2), rel=1e-8)
     assert inertia == pytest.approx(np.pi / 2 * (radius**4 - 0.01**4), rel=1e-8)
-
-
-def test_tip_clearance_of_a_standard_pair_is_a_quarter_module():
-    assembly = assemble(involute.FAMILY, STANDARD)
-    for side in SIDES:
-        assert tip_clearance(assembly, side) == pytest.approx(0.25 * 0.003, rel=1e-10)
-        assert tip_corner_gap(assembly, side) > 0
 
 
 def test_geometry_sheet_of_liu_ni():

@@ -5,11 +5,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
 
 import tribodyn as td
 from tests.support.short_studies import SHORT, shortened, written_template
-from tribodyn.cli.app import app
+from tests.support.verbs import invoke
 from tribodyn.cli.printing import plain
 from tribodyn.input.sources import find_scenario
 from tribodyn.quantities.quantity import SHOWN
@@ -33,9 +32,7 @@ def units_in(data: Any) -> set[str]:
 @pytest.mark.parametrize("kind", sorted(STUDIES))
 def test_python_and_json_say_the_same(kind: str, tmp_path: Path):
     path = written_template(kind, tmp_path)
-    printed = CliRunner().invoke(app, ["check", str(path), "--json", *shortened(kind)])
-    assert printed.exit_code == 0
-    data = json.loads(printed.stdout)
+    data = json.loads(invoke("check", path, "--json", *shortened(kind)))
     assert plain(td.check(path, SHORT.get(kind))) == data
     assert not units_in(data) & NOT_SI
 

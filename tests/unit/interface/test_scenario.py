@@ -78,7 +78,6 @@ def test_errors_name_what_python_has():
 @pytest.mark.parametrize(
     ("source", "said"),
     [
-        (5, "expected a name, a path, a mapping or a case, got int"),
         ("crc-23-74", "crc-23-47"),
         (with_speed(5), "operating.pinion_speed = 5: a number without a unit"),
         (with_speed(5 * UNIT.kg), "operating.pinion_speed"),

@@ -12,12 +12,11 @@ import h5py
 import numpy as np
 import pytest
 import xarray
-from typer.testing import CliRunner
 
 import tribodyn as td
 from tests.support.short_studies import FINITE_ELEMENTS, short_case, written_template
 from tests.support.soak_parameters import all_in_soak
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, invoke
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.input.quantity import Table
@@ -36,12 +35,6 @@ KINDS = tuple(STUDIES)
 RUNS = [pytest.param(kind, marks=pytest.mark.slow) if kind in FINITE_ELEMENTS else kind for kind in KINDS]
 #: What two runs of one case may differ in.
 OF_THE_RUN = {"wall_time", "record"}
-
-
-def called(*words: object, status: int = 0) -> str:
-    ended = CliRunner().invoke(app, [str(word) for word in words])
-    assert ended.exit_code == status, ended.output
-    return ended.stderr if status else ended.stdout
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -93,7 +86,7 @@ def test_a_mistake_is_one_line_and_leaves_nothing(kind: str, verb: str, tmp_path
     monkeypatch.chdir(tmp_path)
     path = written_template(kind, tmp_path)
     path.write_text(f"nonsense = 3\n{path.read_text(encoding='utf-8')}", encoding="utf-8")
-    (line,) = called(verb, path, status=2).splitlines()
+    line = complaint(verb, path)
     assert line.startswith(f"{path}: nonsense = 3: unknown key; known keys: title")
     assert [found.name for found in tmp_path.iterdir()] == [path.name]
 
@@ -143,7 +136,7 @@ def test_a_record_describes_itself(kind: str, short_runs):
 def test_a_quantity_has_one_value(kind: str, short_runs):
     """In the result of the run, the record's summary, the JSON of `show`, and Python's `open`."""
     study, result = STUDIES[kind], short_runs(kind)
-    shown = json.loads(called("show", result.path, "--json"))["summary"]
+    shown = json.loads(invoke("show", result.path, "--json"))["summary"]
     opened = td.open(result.path)
     reported = {quantity.name for group in study.reported().values() for quantity in group}
     with Record(result.path) as record:
@@ -183,8 +176,8 @@ def test_quantities_without_a_record_are_those_of_the_run(kind: str, short_runs,
 @pytest.mark.parametrize("kind", RUNS)
 def test_every_figure_that_is_listed_is_drawn_and_no_other(kind: str, short_runs, tmp_path: Path):
     path = short_runs(kind).path
-    listed = json.loads(called("list", "plots", path, "--json"))["plots"]
-    refused = called("plot", path, "no-such", status=2)
+    listed = json.loads(invoke("list", "plots", path, "--json"))["plots"]
+    refused = complaint("plot", path, "no-such")
     with Record(path) as record:
         assert {*names([record]), "overview"} == set(listed)
         for name in listed:

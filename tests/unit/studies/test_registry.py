@@ -10,10 +10,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 from tests.support.record_samples import block, gear_pair_writer
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, invoke
 from tribodyn.errors import InputError
 from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.record.reader import Record
@@ -100,20 +99,6 @@ def sentences(record):
 SCENARIO = 'title = "A metre"\nkind = "pendulum"\nlength = 1.0\n'
 
 
-def refused(*words: object) -> str:
-    """The one line that a command with bad input ends with."""
-    ended = CliRunner().invoke(app, [str(word) for word in words])
-    assert ended.exit_code == 2, ended.output
-    (line,) = ended.stderr.splitlines()
-    return line
-
-
-def said(*words: object) -> str:
-    ended = CliRunner().invoke(app, [str(word) for word in words])
-    assert ended.exit_code == 0, f"{ended.output}\n{ended.exception}"
-    return ended.stdout
-
-
 @pytest.fixture
 def offered(monkeypatch: pytest.MonkeyPatch):
     """(name=place, …): entry points of studies that an installed package offers, for the time of a test."""
@@ -165,14 +150,14 @@ def test_an_unknown_kind_in_a_scenario_is_one_error(tmp_path: Path):
     with pytest.raises(InputError, match='did you mean "efficiency"') as error:
         load_scenario(path)
     assert (error.value.key, error.value.file) == ("kind", str(path))
-    line = refused("run", path)
+    line = complaint("run", path)
     assert f'{path}: kind = "eficiency": ' in line
     assert 'did you mean "efficiency"' in line
 
 
 def test_an_unknown_kind_to_begin_with_is_one_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
-    line = refused("init", "mine", "--kind", "nonsense")
+    line = complaint("init", "mine", "--kind", "nonsense")
     assert 'kind = "nonsense"' in line
     assert all(kind in line for kind in STUDIES)
     assert list(tmp_path.iterdir()) == []
@@ -198,32 +183,32 @@ def test_a_record_of_an_unknown_kind_can_be_read_but_not_drawn(orphan: Path, tmp
     other = tmp_path / "other.h5"
     shutil.copy(orphan, other)
     for words in (("show", orphan), ("plot", orphan, "-o", tmp_path), ("compare", orphan, other)):
-        assert f'record = {orphan}: a study of kind "nonsense"' in refused(*words)
+        assert f'record = {orphan}: a study of kind "nonsense"' in complaint(*words)
 
 
 def test_a_study_of_another_package_is_listed_checked_and_run(pendulum: Path, tmp_path: Path):
     assert list(STUDIES)[-1] == "pendulum"
-    assert "a pendulum of small swing" in said("list", "kinds")
-    assert "angle over time" in said("list", "plots")
-    assert '"pendulum"' in said("schema")
-    assert '"period": 2.006' in said("check", pendulum, "--json")
+    assert "a pendulum of small swing" in invoke("list", "kinds")
+    assert "angle over time" in invoke("list", "plots")
+    assert '"pendulum"' in invoke("schema")
+    assert '"period": 2.006' in invoke("check", pendulum, "--json")
     path = tmp_path / "metre.h5"
-    shown = said("run", pendulum, "-o", path)
+    shown = invoke("run", pendulum, "-o", path)
     assert "Period" in shown
-    assert "The swing is small." in said("show", path, "--full")
+    assert "The swing is small." in invoke("show", path, "--full")
     with Record(path) as record:
         assert (record.kind, record.axis, list(record)) == ("pendulum", "time", ["time", "angle"])
         assert names([record]) == ("angle",)
-    said("plot", path, "angle", "-o", tmp_path)
+    invoke("plot", path, "angle", "-o", tmp_path)
     assert (tmp_path / "metre-angle.png").exists()
 
 
 def test_a_study_of_another_package_is_begun_and_swept(pendulum: Path, tmp_path: Path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    said("init", "mine", "--kind", "pendulum")
+    invoke("init", "mine", "--kind", "pendulum")
     result = run(load_scenario("mine.toml"), "mine.h5")
     assert result.summary["period"] == pytest.approx(2.00607, abs=1e-5)
-    said("sweep", "mine.toml", "--vary", "length=1,4", "-o", "lengths.h5")
+    invoke("sweep", "mine.toml", "--vary", "length=1,4", "-o", "lengths.h5")
     with h5py.File("lengths.h5") as file:
         np.testing.assert_allclose(file["period"][1] / file["period"][0], 2.0)
 
@@ -242,5 +227,5 @@ def test_a_broken_package_is_one_error_that_names_it(offered, tmp_path: Path):
     assert "uninstall nowhere_to_be_seen:STUDY" in str(error.value)
     path = tmp_path / "metre.toml"
     path.write_text(SCENARIO, encoding="utf-8")
-    assert "nowhere_to_be_seen" in refused("run", path)
-    assert "nowhere_to_be_seen" in refused("init", "mine", "--kind", "pendulum")
+    assert "nowhere_to_be_seen" in complaint("run", path)
+    assert "nowhere_to_be_seen" in complaint("init", "mine", "--kind", "pendulum")

@@ -47,4 +47,4 @@ def test_contact_temperature_is_bulk_and_flash():
         "contact_temperature_max": 390.0
     }
     assert contact_quantities(oil, {"flash_temperature_max": 40.0})["contact_temperature_max"] == 380.0
-    assert contact_quantities(unknown, {"flash_temperature_max": 40.0}) == {}
+    assert contact_quantities(unknown, {"flash_temperature_max": 40.0}) == contact_quantities(oil, {}) == {}

@@ -9,7 +9,6 @@ from tribodyn.errors import SimulationError
 from tribodyn.tribology.bulk_temperature import (
     Heat,
     Network,
-    TemperatureData,
     fixed_point,
     heat_given_off,
     network_temperatures,
@@ -47,16 +46,6 @@ def test_heat_in_is_heat_out_at_every_node(name):
     assert heat_given_off(network, found, 350.0) == pytest.approx(heat.total, rel=1e-12)
 
 
-def test_all_heat_is_counted():
-    assert Heat(1.0, 2.0, 4.0, 8.0).total == 15.0
-    assert Heat(1.0, 2.0).total == 3.0
-    assert [NETWORKS[name].holds_oil for name in NETWORKS] == [True, False, False, False, False]
-    # nothing else leads heat away; surroundings of 20 °C
-    assert Network(20.0, 40.0) == (20.0, 40.0, 0.0, 0.0, 0.0, 293.15)
-    plain = TemperatureData("network", "dip", 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 293.15, None)
-    assert TemperatureData("network") == plain
-
-
 def test_without_heat_all_is_as_warm_as_its_surroundings():
     found = network_temperatures(NETWORKS["housing"], Heat(0.0, 0.0), 350.0)
     assert found == pytest.approx((295.0,) * 4)
@@ -65,16 +54,6 @@ def test_without_heat_all_is_as_warm_as_its_surroundings():
 def test_a_large_oil_flow_holds_the_oil():
     flooded = NETWORKS["both"]._replace(oil_flow=1e9)
     assert network_temperatures(flooded, HEAT, 350.0).oil == pytest.approx(350.0, abs=1e-5)
-
-
-def test_a_fixed_point_is_found_to_a_tenth_of_a_kelvin():
-    # T = 350 + 20 (1 − 0.02 (T − 350)): T = 350 + 20/1.4
-    def step(here):
-        return 350.0 + 20.0 * (1.0 - 0.02 * (here[0] - 350.0)), 350.0
-
-    bulk, oil = fixed_point(step, (350.0, 350.0))
-    assert bulk == pytest.approx(350.0 + 20.0 / 1.4, abs=0.1)
-    assert oil == 350.0
 
 
 @pytest.mark.parametrize("slope", [-4.0, -0.9, 0.3, 0.9, 0.97])

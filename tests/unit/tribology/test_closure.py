@@ -125,12 +125,6 @@ def test_surfaces_of_unlike_steels(case):
     assert (found.pinion_heat_capacity, found.gear_heat_capacity) == (7700.0 * 434.0, 7850.0 * 480.0)
 
 
-def test_friction_changes_sign_over_20_micrometres_unless_told_otherwise():
-    plain = FrictionData("none")
-    assert (plain.sliding, plain.reversal_width, dict(plain.values)) == ("dynamic", 20e-6, {})
-    assert (FilmData().law, dict(FilmData().values)) == (None, {})
-
-
 def test_laws_of_a_case(case):
     """By name or as objects; the film that goes with the friction law where none is chosen."""
     assert laws_of(with_laws(case, friction="solved")) == (FILM_LAWS["solved"], FRICTION_LAWS["solved"])

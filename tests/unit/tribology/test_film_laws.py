@@ -35,19 +35,6 @@ def groups(line_load, curvature, speed):
     )
 
 
-def test_dowson_higginson_in_plain_powers():
-    """1/E' = ½ Σ (1 − ν²)/E: steel on steel E' = E/(1 − ν²), and u is the mean of the speeds."""
-    assert SURFACES.effective_modulus == pytest.approx(2.06e11 / (1 - 0.3**2))
-    W, U, G = groups(4e5, 100.0, 0.5)
-    assert film("dowson-higginson") == pytest.approx(2.65 * U**0.7 * G**0.54 * W**-0.13 / 100.0, rel=1e-12)
-    load = film("dowson-higginson", 8e5) / film("dowson-higginson")
-    assert math.log2(load) == pytest.approx(-0.13)
-    speed = film("dowson-higginson", speed=1.0) / film("dowson-higginson")
-    assert math.log2(speed) == pytest.approx(0.7)
-    radius = film("dowson-higginson", curvature=50.0) / film("dowson-higginson")
-    assert math.log2(radius) == pytest.approx(1 - 0.7 + 0.13)
-
-
 @pytest.mark.parametrize("law", [masjedi_khonsari.LAW, masjedi_khonsari.AS_PRINTED, dowson_higginson.LAW])
 def test_films_in_plain_powers(law):
     """Both laws' groups and powers at contacts that no two of them share."""

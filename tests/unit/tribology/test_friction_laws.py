@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.support.closures import POINT, VECIANA, known, under
+from tests.support.closures import LOCAL_LAWS, POINT, VECIANA, known, under
 from tribodyn.tribology.contact import NominalConditions
 from tribodyn.tribology.friction.benedict_kelley import benedict_kelley
 from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
@@ -121,14 +121,14 @@ def test_every_law_heats_its_own_contact(law):
     assert once.hertz_pressure == known(under("none"), **POINT).hertz_pressure
 
 
-@pytest.mark.parametrize("law", ["xu", "benedict-kelley"])
+@pytest.mark.parametrize("law", LOCAL_LAWS)
 def test_signs_of_speeds_do_not_matter(law):
     state = {name: -POINT[name] for name in ("entrainment", "sliding", "pinion_speed", "gear_speed")}
     ours = known(under(law), **{**POINT, **state})
     np.testing.assert_allclose(ours, known(under(law), **POINT), rtol=1e-14)
 
 
-@pytest.mark.parametrize("law", ["xu", "benedict-kelley"])
+@pytest.mark.parametrize("law", LOCAL_LAWS)
 def test_nothing_overflows_at_the_ends(law):
     laws = under(law)
     with np.errstate(all="raise", under="ignore"):

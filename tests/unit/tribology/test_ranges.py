@@ -62,17 +62,6 @@ def test_friction_in_pure_rolling_is_outside():
     assert {"limit": "Newtonian stress ≥ 0.1 Λ_lim p (judged)", "share": 1.0} in named
 
 
-def test_a_range_is_said_with_its_origin():
-    film, friction = FILM_LAWS["dowson-higginson"], FRICTION_LAWS["xu"]
-    assert film.stated.startswith(film.range)
-    assert "by the solved contact: M ≥ 2" in film.stated
-    assert friction.judged is not None
-    low, _, high = friction.judged.ratio
-    assert f"no range by the solved contact: {low:.2g} to {high:.2g} times it" in friction.stated
-    assert friction.named_limits == friction.limits
-    assert FRICTION_LAWS["coulomb"].stated == ""
-
-
 def test_a_law_may_say_no_more_than_whether_it_is_inside():
     laws = under("none")
     functions = laws.film.functions._replace(in_range=lambda contact, *_: contact.line_load > 1e5)

@@ -6,11 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.support.closures import LIU_NI, MIXED, POINT, known, under
+from tests.support.closures import LIU_NI, MIXED, known, under
 from tribodyn.tribology.contact import (
-    flash_temperature_rise,
-    hertz_half_width,
-    hertz_pressure,
     inlet_heating,
     local_contact,
 )
@@ -66,15 +63,6 @@ def by_hand(w, rho, u, v, u1, u2, c, factor=4470, limited=True, heat=None, slid=
     return mu, lam, h, dT, math.sqrt(w * E / (2 * math.pi * rho))
 
 
-@pytest.mark.parametrize("load", [2e4, 3.85e5, 1.5e6])
-@pytest.mark.parametrize("speed", [0.1, 0.134, 5.0])
-@pytest.mark.parametrize("sliding", [1e-6, 0.02, 0.9])
-def test_mixed_film_is_the_printed_law(load, speed, sliding):
-    ours = known(LAWS, load, 1 / 8.98e-3, speed, sliding * speed, speed * 1.2, speed * 0.8)
-    theirs = by_hand(load, 8.98e-3, speed, sliding * speed, speed * 1.2, speed * 0.8, LIU_NI)
-    np.testing.assert_allclose(ours[:5], theirs, rtol=1e-9, atol=1e-14)
-
-
 STEEL = LIU_NI.materials[0]
 UNLIKE = LIU_NI._replace(
     surfaces=LIU_NI.surfaces._replace(gear_conductivity=37.0, gear_heat_capacity=2.9e6, roughness=6e-7),
@@ -98,6 +86,8 @@ def test_variants_are_what_they_say(law, variant):
         (3.7e4, 7.1e-3, 0.31, -0.05),
         (2.9e5, 9.7e-3, 0.083, 0.021),
         (3e5, 6e-3, 2.6, 1.9),
+        (2e4, 8.98e-3, 5.0, 4.5),
+        (1.5e6, 8.98e-3, 0.1, 1e-7),
     ):
         found = known(under(law, UNLIKE), load, 1 / rho, u, v, u + v / 2, u - v / 2)
         theirs = by_hand(load, rho, u, v, u + v / 2, u - v / 2, UNLIKE, **variant)
@@ -145,57 +135,6 @@ def test_friction_is_between_nothing_and_its_limits(rng):
             1 - share
         )
         assert 0.0 <= mu <= limit * (1 + 1e-12)
-
-
-def test_signs_of_speeds_do_not_matter():
-    a = known(LAWS, 3.85e5, 111.0, 0.3, 0.05, 0.3, 0.25)
-    b = known(LAWS, 3.85e5, 111.0, -0.3, -0.05, -0.3, -0.25)
-    np.testing.assert_allclose(a, b, rtol=1e-14)
-
-
-def test_nothing_overflows_at_the_ends():
-    with np.errstate(all="raise", under="ignore"):
-        for load in (0.0, 1e-3, 1e9):
-            for curvature in (1e-3, 1e9):
-                for speed in (0.0, 1e3):
-                    values = known(LAWS, load, curvature, speed, speed, speed, speed)
-                    assert np.all(np.isfinite(values))
-
-
-def test_laws_dispatch():
-    none = known(under("none"), **POINT)
-    coulomb = known(under("coulomb", coefficient=0.06), **POINT)
-    mixed = known(LAWS, **POINT)
-    assert none[0] == 0.0
-    assert none[3] == 0.0
-    assert coulomb[0] == 0.06
-    assert none[2] == coulomb[2] == mixed[2]
-    # the mean heat of a Coulomb contact: μ v p with p = w/(2a), the same conduction as every law's
-    half = hertz_half_width(POINT["line_load"], POINT["curvature"], LIU_NI.surfaces.effective_modulus)
-    heat = 0.06 * POINT["sliding"] * POINT["line_load"] / (2 * half)
-    rise = flash_temperature_rise(heat, half, POINT["pinion_speed"], POINT["gear_speed"], LIU_NI.surfaces)
-    assert coulomb[3] == pytest.approx(rise, rel=1e-12)
-
-
-def test_hertz_line_contact_closed_forms():
-    """Maximum pressure is 4/π of the mean, and the pressure integrates to the load."""
-    a = hertz_half_width(3.85e5, 111.0, 2.26e11)
-    p = hertz_pressure(3.85e5, 111.0, 2.26e11)
-    assert p == pytest.approx(4 / math.pi * 3.85e5 / (2 * a), rel=1e-12)
-
-
-def test_flash_temperature_by_hand():
-    """2 a q/(√π Σ K √(1 + Pe)); the speeds' signs do not matter."""
-    a, q, speeds, k, c = 2.3e-4, 4e8, (1.7, -0.6), (50.0, 37.0), (3.5e6, 2.9e6)
-    solids = LIU_NI.surfaces._replace(
-        pinion_conductivity=k[0], gear_conductivity=k[1], pinion_heat_capacity=c[0], gear_heat_capacity=c[1]
-    )
-    conducted = sum(
-        conductivity * math.sqrt(1 + a * abs(speed) * heat / (2 * conductivity))
-        for speed, conductivity, heat in zip(speeds, k, c, strict=True)
-    )
-    rise = flash_temperature_rise(q, a, *speeds, solids)
-    assert rise == pytest.approx(2 * a * q / math.sqrt(math.pi) / conducted, rel=1e-12)
 
 
 def test_laws_are_evaluated_above_the_minimum_of_load_and_speed():
