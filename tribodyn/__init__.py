@@ -139,7 +139,7 @@ def __getattr__(name: str) -> Any:
     if name == "standards":
         return import_module("tribodyn.interface.standards")
     if not name.startswith("_"):
-        from tribodyn.interface.study_functions import offered
+        from tribodyn.interface.run import offered
 
         if value := offered(name):
             return value

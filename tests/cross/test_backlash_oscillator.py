@@ -8,7 +8,6 @@ from tests.support.foreign_marching import oscillator_march
 from tests.support.harmonic_balance import HarmonicBalance, restoring, turning_points
 from tribodyn.solve.branch.arclength import FOLD, PERIOD_DOUBLING
 from tribodyn.solve.orbit.search import find
-from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import OscillatorMap
 from tribodyn.studies.backlash_oscillator.response import (
     CHAOTIC,
@@ -18,6 +17,7 @@ from tribodyn.studies.backlash_oscillator.response import (
     frequency_response,
     oscillator_at,
 )
+from tribodyn.studies.backlash_oscillator.scenario import BacklashOscillatorCase
 
 
 def oscillator(frequencies, damping=0.05, mean_force=0.1, error=0.05, variation=0.0, **more):

@@ -14,8 +14,8 @@ from tribodyn.solve.branch.gear_pairs import GearLines, UnstableRange, followed_
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.tolerances import state_scales
-from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import DOWN, UP, frequency_response
+from tribodyn.studies.backlash_oscillator.scenario import BacklashOscillatorCase
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 

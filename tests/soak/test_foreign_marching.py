@@ -14,8 +14,8 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DIRECTIONS, DONE
 from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.tolerances import state_scales
-from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_response
+from tribodyn.studies.backlash_oscillator.scenario import BacklashOscillatorCase
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 
 from tribodyn.studies.protocol.load import load_data
-from tribodyn.studies.wear.passage import Wearing, WearPassage, passage
+from tribodyn.studies.wear.passage import Wearing, WearPassage, Worn, march, passage, unworn
 from tribodyn.studies.wear.run import prepare
-from tribodyn.studies.wear.steps import Worn, march, unworn
 
 COEFFICIENT = 1e-17
 

@@ -15,7 +15,7 @@ from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 from tribodyn.studies import STUDIES
-from tribodyn.studies.design.layout import REFINEMENT
+from tribodyn.studies.design.outcome import REFINEMENT
 from tribodyn.studies.load_contact.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 

@@ -18,8 +18,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.limits.limits import plain_distances
 from tribodyn.interface import shown
-from tribodyn.interface.arguments import checked
-from tribodyn.interface.scenario import in_python, in_toml
+from tribodyn.interface.scenario import checked, in_python, in_toml
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate

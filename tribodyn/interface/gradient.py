@@ -11,8 +11,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.interface import shown
-from tribodyn.interface.arguments import checked
-from tribodyn.interface.scenario import Source, in_python, scenario
+from tribodyn.interface.scenario import Source, checked, in_python, scenario
 from tribodyn.studies import study_of
 from tribodyn.tribology.closure import closure_of
 

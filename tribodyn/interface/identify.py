@@ -10,14 +10,12 @@ import numpy as np
 from tribodyn.cases.cost import refuse_large, say_beforehand
 from tribodyn.errors import InputError, quoted
 from tribodyn.identification.fit import WHITE, Fit, evolution, fitted, sobol, whiteness
-from tribodyn.identification.measured import measured_of
-from tribodyn.identification.simulated import SignalComparison, turn_of
+from tribodyn.identification.simulated import SignalComparison, measured_of, turn_of
 from tribodyn.identification.unknowns import Unknown, case_at, shares_of, unknowns_of
 from tribodyn.input import units
 from tribodyn.input.units import NotAQuantity, to_si
 from tribodyn.interface import shown
-from tribodyn.interface.arguments import checked
-from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
+from tribodyn.interface.scenario import Source, checked, in_python, in_toml, scenario
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.batch import RUN_IN

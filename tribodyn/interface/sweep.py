@@ -14,10 +14,9 @@ from tribodyn.grid.grid import Grid
 from tribodyn.grid.refinement import refinement_of
 from tribodyn.grid.run import cases_at_most, run, settings_of
 from tribodyn.interface import shown
-from tribodyn.interface.arguments import checked
 from tribodyn.interface.result import Run
 from tribodyn.interface.run import open_run
-from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
+from tribodyn.interface.scenario import Source, checked, in_python, in_toml, scenario
 from tribodyn.numerics.files.output_files import write_output
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.record import trust

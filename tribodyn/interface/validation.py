@@ -3,8 +3,7 @@
 from pathlib import Path
 
 from tribodyn import validation
-from tribodyn.interface.arguments import checked
-from tribodyn.interface.scenario import in_python
+from tribodyn.interface.scenario import checked, in_python
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.validation.rows import SHOWN, Row, counted
 

@@ -5,8 +5,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.identification.fit import fitted, whiteness
-from tribodyn.identification.measured import measured_of
-from tribodyn.identification.simulated import SignalComparison, turn_of
+from tribodyn.identification.simulated import SignalComparison, measured_of, turn_of
 from tribodyn.identification.unknowns import shares_of, unknowns_of
 
 SCENARIO = {

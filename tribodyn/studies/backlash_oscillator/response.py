@@ -11,8 +11,8 @@ from tribodyn.solve.branch.continuation import Leg, follow
 from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.orbit import motions as orbit
 from tribodyn.solve.orbit.motions import Orbit
-from tribodyn.studies.backlash_oscillator.case import SAMPLES, BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import FREQUENCY, OscillatorMap
+from tribodyn.studies.backlash_oscillator.scenario import SAMPLES, BacklashOscillatorCase
 
 UP, DOWN = 0, 1
 #: Periods over which a motion that is not periodic is measured.

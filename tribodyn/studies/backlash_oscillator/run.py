@@ -9,7 +9,6 @@ import numpy as np
 from tribodyn.cases.results import target, writer
 from tribodyn.errors import SimulationError
 from tribodyn.solve.branch.arclength import KINDS
-from tribodyn.studies.backlash_oscillator.case import LAYOUT, LAYOUT_WITH_UNSTABLE, BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import (
     CHAOTIC,
     DOWN,
@@ -21,6 +20,7 @@ from tribodyn.studies.backlash_oscillator.response import (
     Response,
     frequency_response,
 )
+from tribodyn.studies.backlash_oscillator.scenario import LAYOUT, LAYOUT_WITH_UNSTABLE, BacklashOscillatorCase
 from tribodyn.studies.protocol.branches import branch_values, end_values
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
 

@@ -16,7 +16,7 @@ from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, litera
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.case import apart, duty_names, naming_key
-from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER, searched
+from tribodyn.studies.design.outcome import LOWER, OBJECTIVES, UPPER, searched
 from tribodyn.studies.design.report import quantity_of
 from tribodyn.studies.design.teeth import has_teeth, teeth_figure
 

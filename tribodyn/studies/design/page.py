@@ -9,7 +9,7 @@ from tribodyn.post.page.page import PageContent
 from tribodyn.post.page.page import page as write
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.figures import DRAWINGS, objective
-from tribodyn.studies.design.layout import OBJECTIVES
+from tribodyn.studies.design.outcome import OBJECTIVES
 from tribodyn.studies.design.report import PANELS, REPORTED, quantity_of, sentences, verdict
 from tribodyn.studies.pages import figure, sheet
 from tribodyn.studies.protocol.study import TextTable

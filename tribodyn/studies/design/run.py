@@ -38,20 +38,24 @@ from tribodyn.studies.design.candidates.evaluation import (
 from tribodyn.studies.design.candidates.scoring import SLACK
 from tribodyn.studies.design.candidates.sources import standing
 from tribodyn.studies.design.case import DesignCase, Free
-from tribodyn.studies.design.layout import (
+from tribodyn.studies.design.methods import METHODS, method_of
+from tribodyn.studies.design.outcome import (
     LOWER,
     MOVED,
     START_QUANTITIES,
     UPPER,
+    check_targets,
+    chosen_best,
+    headline,
     layout_of,
     names_of,
     numbers_of_cases,
     row_of,
     scales_of,
+    signed,
     unfinished_in,
+    write_best,
 )
-from tribodyn.studies.design.methods import METHODS, method_of
-from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, signed, write_best
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
 
 #: Evaluations that a process of its own is worth.

@@ -1,4 +1,4 @@
-"""The tables of a scenario of ``kind = "design"``."""
+"""The tables of a scenario of ``kind = "design"``, and what a search takes before any work."""
 
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -8,14 +8,20 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, create_model
 
+from tribodyn.cases.cost import CostKey, Estimate, record_bytes
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
 from tribodyn.input.tables.gears.drive_data import with_axes_held
 from tribodyn.studies import STUDIES, study_of
+from tribodyn.studies.design.candidates.archive import FACTORS, resolutions
+from tribodyn.studies.design.candidates.candidates import cases_of, chosen, shapes_gears, start_of
+from tribodyn.studies.design.candidates.converged import counts
+from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.candidates.sources import BASE, NAME, Source, sources_of
 from tribodyn.studies.design.case import DesignCase, RobustTable, SearchOptions, flat
-from tribodyn.studies.design.methods import METHODS
+from tribodyn.studies.design.methods import METHODS, method_of
+from tribodyn.studies.design.outcome import layout_of, names_of, scales_of
 from tribodyn.studies.design.parts import parts_of_design
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
 from tribodyn.studies.protocol.load import load_data, put_chosen, schema_inside
@@ -196,3 +202,34 @@ def _of_scenario(place: str, scenario: Any) -> Iterator[InputError]:
         return
     for error in study.broken_rules(scenario):
         yield InputError(f"{place}.{error.key}", error.value, error.rule, error.remedy, error.file)
+
+
+#: Evaluations that are usual.
+USUAL = 300
+
+
+def estimate(case: DesignCase) -> Estimate:
+    """What a run of a case takes: that of its base scenario, so many times, on every resolution."""
+    method, _ = method_of(case)
+    count, several, seconds = float(case.search.evaluations), [], 0.0
+    for factor, candidates in counts(case, method).items():
+        more = resolutions(case, factor)
+        if factor > 1 and not more:
+            break
+        cases = cases_of(case, chosen(case, start_of(case)), more)
+        for name in case.scenarios:
+            loaded = loaded_source(case.scenarios, name, cases[0])
+            several.append(loaded.study.estimate(loaded.case))
+            # what cases share, such as finite elements, is made anew for gears of another shape
+            preparation = several[-1].shared if shapes_gears(case) else 0.0
+            seconds += candidates * len(cases) * (several[-1].seconds + preparation)
+    largest = max(several, key=lambda estimate: estimate.memory)
+    sizes = {name: len(scale) for name, scale in scales_of(case, names_of(case, [])).items()}
+    sizes["evaluation"] = len(FACTORS) * case.search.evaluations
+    return Estimate(
+        largest.memory,
+        record_bytes(layout_of(case), sizes),
+        seconds,
+        (CostKey("design.evaluations", count, USUAL), *largest.drivers),
+        largest.shared,
+    )

@@ -16,8 +16,18 @@ from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, contacts, settled
 from tribodyn.mesh.quasi_static import efficiency, normal_arms, quasi_static
-from tribodyn.studies.efficiency.mesh_positions import Array, Places, Sharing, piecewise, places
-from tribodyn.studies.efficiency.slices import judged, of_pairs, phases_of, share_evenly, slices_at
+from tribodyn.studies.efficiency.mesh_positions import (
+    Array,
+    Places,
+    Sharing,
+    judged,
+    of_pairs,
+    phases_of,
+    piecewise,
+    places,
+    share_evenly,
+    slices_at,
+)
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import range_shares
 

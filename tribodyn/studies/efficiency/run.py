@@ -43,10 +43,9 @@ from tribodyn.studies.efficiency.along_path import (
     record_arrays,
     samples,
 )
-from tribodyn.studies.efficiency.mesh_positions import SHARINGS, Places, Sharing
+from tribodyn.studies.efficiency.mesh_positions import SHARINGS, Places, Sharing, deflections, judged
 from tribodyn.studies.efficiency.published import by_loss_factor, path_contact, rotations, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
-from tribodyn.studies.efficiency.slices import deflections, judged
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities
 from tribodyn.tribology.friction.coulomb import constant

@@ -12,7 +12,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array
-from tribodyn.studies.ehl.case import BEGIN, END, PLACES, EhlCase
+from tribodyn.studies.ehl.scenario import BEGIN, END, PLACES, EhlCase
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of, with_laws, without_nominal_conditions
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled

@@ -15,8 +15,8 @@ from tribodyn.input.resolve import resolve_table
 from tribodyn.input.schema import fields_of
 from tribodyn.input.tables.duty import OiledOperatingTable
 from tribodyn.studies.ehl.along_path import PairWay, PreparedEhl, prepare, seen_by, way
-from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import by_laws, solve
+from tribodyn.studies.ehl.scenario import EhlCase
 from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.protocol.study import CaseHead, Progress
 from tribodyn.tribology.closure import untried_closure_of, with_laws

@@ -13,7 +13,7 @@ from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.numerics.shapes import Array
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.ehl import along_path
-from tribodyn.studies.ehl.case import BEGIN, END, PLACES, SAMPLES, EhlCase, layout_of, unsolved
+from tribodyn.studies.ehl.scenario import BEGIN, END, PLACES, SAMPLES, EhlCase, layout_of, unsolved
 from tribodyn.studies.ehl.squeezed import SteadyContact, squeezed, steady_of
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.ehl.of_case import friction_band

@@ -15,7 +15,7 @@ from scipy.interpolate import CubicSpline
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.shapes import Array
 from tribodyn.studies.ehl.along_path import PairWay, contact_for, pressure_and_film
-from tribodyn.studies.ehl.case import SQUEEZED, EhlCase, unsolved
+from tribodyn.studies.ehl.scenario import SQUEEZED, EhlCase, unsolved
 from tribodyn.studies.protocol.study import Progress
 from tribodyn.tribology.ehl.coupled import CoupledSolution, friction_of
 from tribodyn.tribology.ehl.grid import FilmGrid

@@ -11,7 +11,6 @@ from tribodyn.cases.results import target, writer
 from tribodyn.errors import InputError
 from tribodyn.gears.check import with_unit
 from tribodyn.record.trust import Judge
-from tribodyn.studies.irefc.case import LAYOUT, RollingCase
 from tribodyn.studies.irefc.engagement import (
     ElementStates,
     element_angles,
@@ -27,6 +26,7 @@ from tribodyn.studies.irefc.geometry import (
     crown_outline,
     element_radius_limits,
 )
+from tribodyn.studies.irefc.scenario import LAYOUT, RollingCase
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
 
 #: Share of the maximum load below which an element counts as unloaded.

@@ -14,7 +14,7 @@ from tribodyn.post.figures.panel import record_label, record_title
 from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact import maps, stress
-from tribodyn.studies.load_contact.case import BODIES
+from tribodyn.studies.load_contact.scenario import BODIES
 
 MAP_CURVES = "Transmission error over the mesh cycle, less its mean, at every torque"
 PHASE = "Phase (mesh cycles)"

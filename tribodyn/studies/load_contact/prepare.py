@@ -13,7 +13,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.load_contact.case import LoadContactCase
+from tribodyn.studies.load_contact.scenario import LoadContactCase
 
 
 class PreparedTeeth(NamedTuple):

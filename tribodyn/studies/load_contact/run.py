@@ -28,8 +28,8 @@ from tribodyn.geometry.path import pitch_point
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
-from tribodyn.studies.load_contact.case import BODIES, LAYOUT, OILED, LoadContactCase
 from tribodyn.studies.load_contact.prepare import PreparedTeeth, contact_of, flanks_of, of_one_cycle, prepare
+from tribodyn.studies.load_contact.scenario import BODIES, LAYOUT, OILED, LoadContactCase
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities
 from tribodyn.tribology.surface_state import contact_friction, fraction_in_range, range_shares

@@ -17,8 +17,8 @@ from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.post.figures.panel import record_label, record_title
 from tribodyn.post.style import INK, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.prepare import flanks_of, prepare
+from tribodyn.studies.load_contact.scenario import LoadContactCase
 from tribodyn.studies.protocol.load import load_data
 
 COLOURS = colormaps["turbo"]

@@ -6,8 +6,7 @@ import numpy as np
 
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.studies.wear.case import OF_FILM, OF_TEETH
-from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, by_teeth
-from tribodyn.studies.wear.steps import Worn
+from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, Worn, by_teeth
 from tribodyn.tribology.closure import exceeded_limits, law_quantities
 from tribodyn.tribology.surface_state import fraction_in_range, range_shares
 

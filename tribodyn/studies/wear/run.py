@@ -36,9 +36,8 @@ from tribodyn.record.writer import check_target
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.studies.wear.case import BODIES, WearCase, layout_of, recorded_at
 from tribodyn.studies.wear.outcome import row_of, state_of, summary_of
-from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, passage
+from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, march, passage, unworn
 from tribodyn.studies.wear.pressed_positions import places_of
-from tribodyn.studies.wear.steps import march, unworn
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.wear import wear_law_of
 

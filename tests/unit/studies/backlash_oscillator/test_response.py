@@ -9,7 +9,6 @@ from tribodyn.solve.branch.arclength import FOLD, KINDS, BranchEnd
 from tribodyn.solve.branch.unstable import UnstableBranch
 from tribodyn.solve.orbit import motions as orbit
 from tribodyn.solve.orbit.motions import Orbit
-from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase, estimate
 from tribodyn.studies.backlash_oscillator.motion import OscillatorMap
 from tribodyn.studies.backlash_oscillator.response import (
     CHAOTIC,
@@ -32,6 +31,7 @@ from tribodyn.studies.backlash_oscillator.run import (
     response_summary,
     rows_of,
 )
+from tribodyn.studies.backlash_oscillator.scenario import BacklashOscillatorCase, estimate
 from tribodyn.studies.protocol.branches import end_values
 
 

@@ -10,7 +10,6 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.studies.irefc import run
-from tribodyn.studies.irefc.case import RollingCase
 from tribodyn.studies.irefc.engagement import RollingFriction, element_angles, engage, normal_loads
 from tribodyn.studies.irefc.geometry import (
     RollingDrive,
@@ -19,6 +18,7 @@ from tribodyn.studies.irefc.geometry import (
     normal_direction,
 )
 from tribodyn.studies.irefc.run import geometry_sheet
+from tribodyn.studies.irefc.scenario import RollingCase
 from tribodyn.studies.protocol.load import load_scenario
 
 SAMPLES = 6

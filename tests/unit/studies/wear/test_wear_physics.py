@@ -6,7 +6,7 @@ import pytest
 from tests.support.worn_pairs import COEFFICIENT, DRY, OILED, new, study_of, worn
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.studies.wear.outcome import volumes
-from tribodyn.studies.wear.steps import march, unworn
+from tribodyn.studies.wear.passage import march, unworn
 
 HELICAL = {
     **DRY,

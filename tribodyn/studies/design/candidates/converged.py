@@ -15,8 +15,8 @@ import numpy as np
 from tribodyn.studies.design.candidates.archive import FACTORS, Archive, Candidate, SpentError, resolutions
 from tribodyn.studies.design.candidates.candidates import shares_of
 from tribodyn.studies.design.case import DesignCase
+from tribodyn.studies.design.local_search import RADIUS, Scalar, minimise
 from tribodyn.studies.design.methods import SMOOTH
-from tribodyn.studies.design.methods.local import RADIUS, Scalar, minimise
 
 #: Relative change of the quantity from one resolution to the next, twice in a row, within which it stands.
 #: What is left of errors of first order is as much again.
