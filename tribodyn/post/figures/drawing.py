@@ -1,15 +1,17 @@
 """A figure that a study offers."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.panel import View
-from tribodyn.post.style import new_figure
+from tribodyn.post.figures.panel import View, record_label, record_title
+from tribodyn.post.style import PALETTE, mark_panel, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 
@@ -67,6 +69,51 @@ def single(draw: Callable[[Axes, Record], None]) -> Callable[[Sequence[Record], 
         draw(canvas.subplots(), records[0])
         return canvas
 
+    return figure
+
+
+def finished(
+    figure: Figure,
+    panels: Sequence[Axes],
+    titles: Sequence[str],
+    records: Sequence[Record],
+    key: Sequence[tuple[str, Artist]] | None = (),
+    *,
+    title: str = "",
+    columns: int = 4,
+    **legend: Any,
+) -> Figure:
+    """Letter and title the panels, name the only record above them or several below, and the key's lines.
+
+    Without a key (None) the panels themselves name several records. `title` stands in place of the record's,
+    `legend` is for the legend of so many columns.
+    """
+    for letter, axes, text in zip("abcdef", panels, titles, strict=False):
+        mark_panel(axes, letter if len(panels) > 1 else "", text)
+    figure.align_ylabels()
+    if len(records) == 1:
+        figure.suptitle(title or record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    elif key is not None:
+        colours = (PALETTE[number % len(PALETTE)] for number in range(len(records)))
+        lines = [Line2D([], [], color=colour) for colour in colours]
+        key = [*zip(map(record_label, records), lines, strict=True), *key]
+    if key:
+        labels, handles = zip(*key, strict=True)
+        count = min(columns, len(key))
+        figure.legend(handles, labels, loc="outside lower center", ncols=count, **legend)
+    return figure
+
+
+def six_panels(title: str, panels: Sequence[tuple[str, Callable[[Axes], object]]]) -> Figure:
+    """An overview of up to six panels, by what each shows and what draws it."""
+    figure = new_figure(11.0, 6.2)
+    grid = figure.subplots(2, 3).ravel()
+    for letter, axes, (about, draw) in zip("abcdef", grid, panels, strict=False):
+        draw(axes)
+        mark_panel(axes, letter, about)
+    for axes in grid[len(panels) :]:
+        axes.remove()
+    figure.suptitle(title, x=0.01, ha="left", fontsize=11)
     return figure
 
 

@@ -1,6 +1,6 @@
 """Figures of the gear with rolling elements: loads, slip and losses of its elements, and the gear itself."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,8 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
 
-from tribodyn.post.figures.drawing import Drawing, drawing
-from tribodyn.post.figures.panel import View, abscissa_label, record_label, record_title
+from tribodyn.post.figures.drawing import Drawing, drawing, finished
+from tribodyn.post.figures.panel import View, abscissa_label, record_title
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
@@ -43,7 +43,7 @@ def draw_gear(axes: Axes, record: Record) -> None:
     ):
         style = {"fill": False, "edgecolor": color, "linewidth": 0.6, "linestyle": "-."}
         axes.add_patch(Circle((centre, 0.0), sizes[name], **style))
-    _draw_elements(axes, record, sizes, np.array([offset / 2, 0.0]), np.array([pitch_point, 0.0]))
+    _draw_elements(axes, record, sizes)
     # beside the points, and the pitch point's name where no load points
     for place, name, shift in (
         (0.0, "O", (-10, 4)),
@@ -64,33 +64,31 @@ def draw_gear(axes: Axes, record: Record) -> None:
     axes.annotate("cam", (0.02, 0.02), xycoords="axes fraction", color=PALETTE[0])
 
 
-def _draw_elements(
-    axes: Axes, record: Record, sizes: dict, cage: np.ndarray, pitch_point: np.ndarray
-) -> None:
+def _draw_elements(axes: Axes, record: Record, sizes: dict[str, Any]) -> None:
     """Draw all elements of the cage, also those that the paper's position leaves out, and the loads."""
-    count = int(record.scenario["drive"]["elements"])
-    for angle in 2 * np.pi * np.arange(count) / count:
-        centre = cage + sizes["centre_circle_radius"] * np.array([np.cos(angle), np.sin(angle)])
-        style = {"facecolor": ELEMENT_FILL, "edgecolor": INK, "linewidth": 0.8}
-        axes.add_patch(Circle(tuple(centre), sizes["element_radius"], **style))
-    load, angles = record["normal_load"][0], record["element_angle"][0]
-    centres = cage + sizes["centre_circle_radius"] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    normal = centres - pitch_point
+    radius, count = sizes["element_radius"], int(record.scenario["drive"]["elements"])
+
+    def centres(angle: np.ndarray) -> np.ndarray:
+        around = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        return np.array([sizes["eccentricity"] / 2, 0.0]) + sizes["centre_circle_radius"] * around
+
+    style = {"facecolor": ELEMENT_FILL, "edgecolor": INK, "linewidth": 0.8}
+    for centre in centres(2 * np.pi * np.arange(count) / count):
+        axes.add_patch(Circle(tuple(centre), radius, **style))
+    load, loaded = record["normal_load"][0], centres(record["element_angle"][0])
+    normal = loaded - np.array([sizes["crown_pitch_radius"], 0.0])
     normal /= np.hypot(*normal.T)[:, None]
-    contacts = centres - sizes["element_radius"] * normal
-    lengths = LONGEST_ARROW * sizes["element_radius"] * load / load.max()
-    for contact, along, length in zip(contacts, normal, lengths, strict=True):
-        if length > 0.02 * sizes["element_radius"]:
-            arrow = {"arrowstyle": "-|>", "color": PALETTE[2], "linewidth": 0.9, "mutation_scale": 6}
+    lengths = LONGEST_ARROW * radius * load / load.max()
+    arrow = {"arrowstyle": "-|>", "color": PALETTE[2], "linewidth": 0.9, "mutation_scale": 6}
+    for contact, along, length in zip(loaded - radius * normal, normal, lengths, strict=True):
+        if length > 0.02 * radius:
             axes.annotate("", tuple(contact - length * along), tuple(contact), arrowprops=arrow)
 
 
 #: What the four panels of one element's way, or of all elements, show.
 CURVES = (
-    "Normal load on the cam",
-    "Slip of the elements over the cam",
-    "Power lost by one element",
-    "The same, added up",
+    *("Normal load on the cam", "Slip of the elements over the cam"),
+    *("Power lost by one element", "The same, added up"),
 )
 #: Lines of the losses of an element.
 LOSSES = (("cam", "-"), ("crown", "--"), ("both, $N_S$", ":"))
@@ -107,11 +105,6 @@ class ElementCurves(NamedTuple):
     cam: np.ndarray
     crown: np.ndarray
     cumulative: np.ndarray
-
-
-def moves(record: Record) -> bool:
-    """Whether the record holds more than the paper's single position."""
-    return record.samples > 1
 
 
 def by_number(record: Record) -> ElementCurves:
@@ -141,13 +134,15 @@ def by_angle(record: Record) -> ElementCurves:
     return ElementCurves(np.degrees(phi), load, slip, cam, crown, cumulative)
 
 
-def _four_panels(records: Sequence[Record], curves: Callable[[Record], ElementCurves]) -> Figure:
+def _four_panels(records: Sequence[Record], by_element: bool) -> Figure:
     figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
     panels = figure.subplots(2, 2, sharex=True).ravel()
     for number, record in enumerate(records):
-        draw_curve(panels, curves(record), PALETTE[number % len(PALETTE)], curves is by_number)
-    _finish_axes(panels, panels[2:], curves is by_number)
-    return _finish(figure, panels, CURVES, records, LOSSES)
+        curve = by_number(record) if by_element else by_angle(record)
+        draw_curve(panels, curve, PALETTE[number % len(PALETTE)], by_element)
+    _finish_axes(panels, panels[2:], by_element)
+    losses = [(name, Line2D([], [], color=QUIET, linestyle=style)) for name, style in LOSSES]
+    return _finished(figure, panels, CURVES, records, losses)
 
 
 def draw_curve(panels: Sequence[Axes], curve: ElementCurves, color: str, marked: bool) -> None:
@@ -188,33 +183,24 @@ def _cycles(record: Record, view: View) -> tuple[slice, np.ndarray]:
     return part, np.arange(part.stop - part.start) / length
 
 
-def _over_time(
-    records: Sequence[Record],
-    view: View,
-    draw: Callable[[Sequence[Axes], Sequence[Record], View], tuple[str, str]],
-) -> Figure:
+def _two_rows() -> tuple[Figure, Sequence[Axes]]:
     figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
-    panels = figure.subplots(2, 1, sharex=True)
-    titles = draw(panels, records, view)
-    panels[1].set_xlabel(abscissa_label(view, records[0]))
-    return _finish(figure, panels, titles, records)
+    return figure, figure.subplots(2, 1, sharex=True)
 
 
-def _draw_loads(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
-    """Draw the load of each element, one of them heavier, and the number of loaded ones; their titles."""
+def _loads(records: Sequence[Record], view: View) -> Figure:
+    """The load of each element, one of them heavier, and the number of loaded ones."""
+    figure, panels = _two_rows()
     for number, record in enumerate(records):
         part, x = _cycles(record, view)
-        load = record["normal_load"][part]
-        color = PALETTE[number % len(PALETTE)]
+        load, color = record["normal_load"][part], PALETTE[number % len(PALETTE)]
         draw_loads(panels[0], x, load, color)
-        loaded = np.sum(load > 1e-9 * load.max(), axis=1)
-        panels[1].step(x, loaded, color=color, where="mid")
-    panels[0].set_ylabel("Normal load of each element (N)")
-    panels[1].set_ylabel("Loaded elements")
+        panels[1].step(x, np.sum(load > 1e-9 * load.max(), axis=1), color=color, where="mid")
+    panels[0].set(ylabel="Normal load of each element (N)", ylim=(0, None))
+    panels[1].set(ylabel="Loaded elements", ylim=(0, None), xlabel=abscissa_label(view, records[0]))
     panels[1].yaxis.set_major_locator(MaxNLocator(integer=True))
-    for axes in panels:
-        axes.set_ylim(bottom=0)
-    return "Normal load of each element, one drawn heavier", "Number of elements under load"
+    titles = "Normal load of each element, one drawn heavier", "Number of elements under load"
+    return _finished(figure, panels, titles, records)
 
 
 def draw_loads(axes: Axes, x: np.ndarray, load: np.ndarray, color: str) -> None:
@@ -227,8 +213,9 @@ def draw_loads(axes: Axes, x: np.ndarray, load: np.ndarray, color: str) -> None:
     axes.annotate(f"element {leaving + 1}", place, xytext=(6, 6), textcoords="offset points", **style)
 
 
-def _draw_efficiency(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
-    """Draw loss and efficiency at each moment; their titles."""
+def _efficiency(records: Sequence[Record], view: View) -> Figure:
+    """Loss and efficiency at each moment."""
+    figure, panels = _two_rows()
     shown = ("power_friction", 1.0, "Loss (W)"), ("efficiency", 100.0, "Efficiency (%)")
     for axes, (name, factor, label) in zip(panels, shown, strict=True):
         curves = []
@@ -238,7 +225,9 @@ def _draw_efficiency(panels: Sequence[Axes], records: Sequence[Record], view: Vi
             axes.plot(x, curves[-1], color=PALETTE[number % len(PALETTE)])
         axes.set_ylabel(label)
         scale(axes, curves)
-    return "Power lost in all contacts", "Efficiency at each moment"
+    panels[1].set_xlabel(abscissa_label(view, records[0]))
+    titles = "Power lost in all contacts", "Efficiency at each moment"
+    return _finished(figure, panels, titles, records)
 
 
 def _gears(records: Sequence[Record]) -> Figure:
@@ -290,37 +279,17 @@ def _title(record: Record) -> str:
     return title if mode in title else f"{title} ({mode})"
 
 
-def _finish(
-    figure: Figure,
-    panels: Sequence[Axes],
-    titles: Sequence[str],
-    records: Sequence[Record],
-    lines: Sequence[tuple[str, Any]] = (),
+def _finished(
+    figure: Figure, panels: Sequence[Axes], titles: Sequence[str], records: Sequence[Record], key: Any = ()
 ) -> Figure:
-    for letter, axes, title in zip("abcd", panels, titles, strict=False):
-        mark_panel(axes, letter, title)
-    figure.align_ylabels()
-    handles = [Line2D([], [], color=QUIET, linestyle=style) for _, style in lines]
-    labels = [name for name, _ in lines]
-    if len(records) > 1:
-        handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles
-        labels = [*map(record_label, records), *labels]
-    else:
-        figure.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
-    if labels:
-        figure.legend(
-            handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6
-        )
-    return figure
+    return finished(figure, panels, titles, records, key, title=_title(records[0]), handlelength=2.6)
 
 
 OF_A_POSITION: dict[str, Drawing] = {
     "overview": drawing("loads, slip and losses of the elements, and the gear", _overview),
-    "elements": drawing(
-        "loads, slip and losses by element", lambda records, _: _four_panels(records, by_number)
-    ),
+    "elements": drawing("loads, slip and losses by element", lambda records, _: _four_panels(records, True)),
     "element-angle": drawing(
-        "the same over an element's way", lambda records, _: _four_panels(records, by_angle)
+        "the same over an element's way", lambda records, _: _four_panels(records, False)
     ),
     "gear": drawing("cam, elements and crown", lambda records, _: _gears(records)),
 }
@@ -330,11 +299,11 @@ def _of_a_motion(name: str, about: str, draw: Any) -> Drawing:
     """A figure over time."""
     remedy = f"draw {', '.join(other for other in OF_A_POSITION if other != 'overview')}"
     missing = name, "{path} holds a single position", remedy
-    return drawing(about, lambda records, view: _over_time(records, view, draw), moves, missing, samples=0)
+    return drawing(about, draw, lambda record: record.samples > 1, missing, samples=0)
 
 
 DRAWINGS: dict[str, Drawing] = {
     **OF_A_POSITION,
-    "normal-load": _of_a_motion("normal-load", "normal load of the elements over time", _draw_loads),
-    "efficiency": _of_a_motion("efficiency", "efficiency and torque over time", _draw_efficiency),
+    "normal-load": _of_a_motion("normal-load", "normal load of the elements over time", _loads),
+    "efficiency": _of_a_motion("efficiency", "efficiency and torque over time", _efficiency),
 }

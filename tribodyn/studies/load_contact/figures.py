@@ -7,11 +7,10 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
-from tribodyn.post.figures.drawing import Drawing, drawing
+from tribodyn.post.figures.drawing import Drawing, drawing, finished, six_panels
 from tribodyn.post.figures.panel import record_label, record_title
-from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
+from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact import maps, stress
 from tribodyn.studies.load_contact.scenario import BODIES
@@ -31,17 +30,16 @@ def colour(number: int) -> str:
 def _loaded_error(records: Sequence[Record]) -> Figure:
     modified = any(np.ptp(record["unloaded_transmission_error"]) > _NO_ERROR for record in records)
     figure, rows = _stacked(2 if modified else 1)
-    datasets = ("loaded_transmission_error", "unloaded_transmission_error")
     titles = (
         "Transmission error under load, in slow rotation",
         "Transmission error without load: that of modifications and errors",
     )
-    for name, axes in zip(datasets, rows, strict=False):
-        draw_error(axes, records, name)
+    for name, axes in zip(("loaded", "unloaded"), rows, strict=False):
+        draw_error(axes, records, f"{name}_transmission_error")
         axes.set_ylabel("Transmission error (µm)")
         axes.legend(loc="upper right", ncols=1 + (len(records) > 2))
     rows[-1].set_xlabel(PHASE)
-    return _finish(figure, rows, records, titles)
+    return finished(figure, rows, titles, records)
 
 
 def draw_error(axes: Axes, records: Sequence[Record], name: str) -> None:
@@ -67,7 +65,8 @@ def _load_sharing(records: Sequence[Record]) -> Figure:
     rows[1].set_ylabel("Share of the load (%)")
     rows[1].set_ylim(bottom=0)
     titles = ("Normal load of each pair", "Share of the load of one pair from entry to exit")
-    return _finish(figure, rows, records, titles, pairs=len(records) == 1)
+    handles, labels = rows[0].get_legend_handles_labels() if len(records) == 1 else ([], [])
+    return finished(figure, rows, titles, records, list(zip(labels, handles, strict=True)))
 
 
 def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
@@ -86,7 +85,7 @@ def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
 def _mesh_stiffness(records: Sequence[Record]) -> Figure:
     figure, rows = _stacked(1)
     draw_stiffness(rows[0], records)
-    return _finish(figure, rows, records, ("Stiffness of all pairs together, at the pitch radius",))
+    return finished(figure, rows, ["Stiffness of all pairs together, at the pitch radius"], records)
 
 
 def show_contact(axes: Axes, records: Sequence[Record]) -> None:
@@ -111,7 +110,7 @@ def _root_stress(records: Sequence[Record]) -> Figure:
     figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
     panels = figure.subplots(2, 2, sharex=True)
     for row, name in enumerate(("root_tension", "root_compression")):
-        for column, body in enumerate(("pinion", "gear")):
+        for column, body in enumerate(BODIES):
             draw_root_stress(panels[row, column], records, name, body)
     for axes in panels[1]:
         show_contact(axes, records)
@@ -122,7 +121,7 @@ def _root_stress(records: Sequence[Record]) -> Figure:
         for axes in row:
             axes.set_ylim(min(low), max(high))
     titles = [f"{what} in the fillet of the {body}" for what in ("Tension", "Compression") for body in BODIES]
-    return _finish(figure, panels.ravel(), records, titles)
+    return finished(figure, panels.ravel().tolist(), titles, records)
 
 
 def draw_root_stress(axes: Axes, records: Sequence[Record], name: str, body: str, style: str = "-") -> None:
@@ -141,7 +140,7 @@ def _harris(records: Sequence[Record]) -> Figure:
     if len(records) == 1:
         _draw_map_curves(rows[1], records[0])
     titles = ("Peak to peak of the transmission error over torque; circle: torque of all else", MAP_CURVES)
-    return _finish(figure, rows, records, titles)
+    return finished(figure, rows, titles, records)
 
 
 def draw_harris(axes: Axes, records: Sequence[Record]) -> None:
@@ -171,68 +170,42 @@ def _draw_map_curves(axes: Axes, record: Record) -> None:
 
 
 def _overview(records: Sequence[Record]) -> Figure:
-    record = records[0]
-    figure = new_figure(11.0, 6.2)
-    panels = figure.subplots(2, 3).ravel()
-    draw_error(panels[0], [record], "loaded_transmission_error")
-    panels[0].set(xlabel=PHASE, ylabel="Loaded transmission error (µm)")
-    panels[0].legend(loc="upper right")
-    draw_loads(panels[1], [record])
-    panels[1].set(xlabel=PHASE, ylim=(None, 1.3 * panels[1].get_ylim()[1]))
-    panels[1].legend(loc="upper right", ncols=3, handlelength=1.5)
-    if "torque" in record:
-        draw_harris(panels[2], [record])
-    else:
-        draw_stiffness(panels[2], [record])
-    maps.draw_map(panels[3], [record], record, maps.LINE_LOAD)
-    maps.draw_map(panels[4], [record], record, maps.PRESSURE)
-    for body, style in (("pinion", "-"), ("gear", "--")):
-        draw_root_stress(panels[5], [record], "root_tension", body, style)
-    show_contact(panels[5], [record])
-    panels[5].set(ylabel="Root tension (MPa)", ylim=(None, 1.2 * panels[5].get_ylim()[1]))
-    panels[5].legend(["pinion", "gear"], loc="upper right", ncols=2)
-    titles = (
-        "Transmission error under load",
-        "Normal load of each pair",
-        "Harris map: error over torque" if "torque" in record else "Stiffness of all pairs",
-        maps.LINE_LOAD.title,
-        maps.PRESSURE.title,
-        "Root tension of one pair",
+    record, first = records[0], records[:1]
+
+    def error(axes: Axes) -> None:
+        draw_error(axes, first, "loaded_transmission_error")
+        axes.set(xlabel=PHASE, ylabel="Loaded transmission error (µm)")
+        axes.legend(loc="upper right")
+
+    def loads(axes: Axes) -> None:
+        draw_loads(axes, first)
+        axes.set(xlabel=PHASE, ylim=(None, 1.3 * axes.get_ylim()[1]))
+        axes.legend(loc="upper right", ncols=3, handlelength=1.5)
+
+    def root_tension(axes: Axes) -> None:
+        for body, style in zip(BODIES, ("-", "--"), strict=True):
+            draw_root_stress(axes, first, "root_tension", body, style)
+        show_contact(axes, first)
+        axes.set(ylabel="Root tension (MPa)", ylim=(None, 1.2 * axes.get_ylim()[1]))
+        axes.legend(BODIES, loc="upper right", ncols=2)
+
+    stiffness = "Stiffness of all pairs", lambda axes: draw_stiffness(axes, first)
+    harris = "Harris map: error over torque", lambda axes: draw_harris(axes, first)
+    panels = (
+        ("Transmission error under load", error),
+        ("Normal load of each pair", loads),
+        harris if "torque" in record else stiffness,
+        (maps.LINE_LOAD.title, lambda axes: maps.draw_map(axes, first, record, maps.LINE_LOAD)),
+        (maps.PRESSURE.title, lambda axes: maps.draw_map(axes, first, record, maps.PRESSURE)),
+        ("Root tension of one pair", root_tension),
     )
-    for letter, axes, title in zip("abcdef", panels, titles, strict=True):
-        mark_panel(axes, letter, title)
-    head = (
-        f"{record_title(record)}.  Maps: {maps.LINE_LOAD.explained[0].lower()}{maps.LINE_LOAD.explained[1:]}"
-    )
-    figure.suptitle(head, x=0.01, ha="left", fontsize=11)
-    return figure
+    explained = f"{maps.LINE_LOAD.explained[0].lower()}{maps.LINE_LOAD.explained[1:]}"
+    return six_panels(f"{record_title(record)}.  Maps: {explained}", panels)
 
 
 def _stacked(count: int, sharex: bool = True) -> tuple[Figure, Sequence[Axes]]:
     figure = new_figure(WIDTH, PANEL_HEIGHT * count + 0.4)
     return figure, list(figure.subplots(count, 1, squeeze=False, sharex=sharex)[:, 0])
-
-
-def _finish(
-    figure: Figure,
-    panels: Sequence[Axes],
-    records: Sequence[Record],
-    titles: Sequence[str],
-    pairs: bool = False,
-) -> Figure:
-    """Letter and title the panels, name the records (or the pairs of the only one), say what it is about."""
-    for letter, axes, title in zip("abcd", panels, titles, strict=False):
-        mark_panel(axes, letter if len(panels) > 1 else "", title)
-    figure.align_ylabels()
-    if len(records) == 1:
-        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    handles, labels = panels[0].get_legend_handles_labels() if pairs else ([], [])
-    if len(records) > 1:
-        handles = [Line2D([], [], color=colour(number)) for number in range(len(records))]
-        labels = list(map(record_label, records))
-    if handles:
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)))
-    return figure
 
 
 def _drawing(about: str, draw: Callable[[Sequence[Record]], Figure], *fits: Any) -> Drawing:
