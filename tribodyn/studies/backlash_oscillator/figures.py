@@ -8,9 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tribodyn.post.figures.drawing import Drawing, drawing
-from tribodyn.post.figures.panel import record_label, record_title
-from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
+from tribodyn.post.figures.drawing import Drawing, drawing, finished
+from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, new_figure
 from tribodyn.record.reader import Record
 
 ABSCISSA = "Frequency of the excitation / natural frequency"
@@ -47,8 +46,7 @@ def _response(records: Sequence[Record]) -> Figure:
     for axes in (upper, lower):
         axes.set_ylim(bottom=0)
     titles = "Amplitude of the vibration: root mean square about the mean", "Loss of contact"
-    _finish(figure, (upper, lower), records, titles, losing=True)
-    return figure
+    return _finished(figure, (upper, lower), records, titles, losing=True)
 
 
 def _branch(axes: Axes, record: Record, direction: int, color: str) -> None:
@@ -115,25 +113,20 @@ def _multipliers(records: Sequence[Record]) -> Figure:
     upper.set_ylim(bottom=0)
     lower.set(ylabel="its angle (°)", yticks=range(0, 181, 45))
     titles = "Stability: the largest Floquet multiplier; stable below 1", "Its angle: 180° period doubling"
-    _finish(figure, (upper, lower), records, titles, losing=False)
-    return figure
+    return _finished(figure, (upper, lower), records, titles, losing=False)
 
 
 def _color(records: Sequence[Record], number: int, direction: int) -> str:
     return PALETTE[(number if len(records) > 1 else direction) % len(PALETTE)]
 
 
-def _finish(
+def _finished(
     figure: Figure, panels: Sequence[Axes], records: Sequence[Record], titles: Sequence[str], losing: bool
-) -> None:
-    for letter, axes, title in zip("ab", panels, titles, strict=True):
-        mark_panel(axes, letter, title)
+) -> Figure:
     panels[-1].set_xlabel(ABSCISSA)
-    figure.align_ylabels()
-    several = len(records) > 1
     key: dict[str, dict[str, Any]] = {}
     for direction, words in WORDS.items():
-        color = QUIET if several else PALETTE[direction]
+        color = QUIET if len(records) > 1 else PALETTE[direction]
         key[f"frequency {words}"] = {"color": color, "linestyle": LINES[direction]}
     if any("unstable_frequency" in record for record in records):
         key["unstable"] = UNSTABLE
@@ -145,13 +138,8 @@ def _finish(
             key["not periodic"] = {"linestyle": "", "marker": "^", "markersize": 3.5}
         if any(np.nanmax(record["back_contact_fraction"], initial=0.0) > 0.0 for record in records):
             key["contact on the back side (b)"] = {"linestyle": ":"}
-    handles, labels = [Line2D([], [], **{"color": QUIET, **style}) for style in key.values()], list(key)
-    if several:
-        handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles
-        labels = [*map(record_label, records), *labels]
-    else:
-        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    figure.legend(handles, labels, loc="outside lower center", ncols=min(3, len(labels)), handlelength=2.6)
+    lines = [(name, Line2D([], [], **{"color": QUIET, **style})) for name, style in key.items()]
+    return finished(figure, panels, titles, records, lines, columns=3, handlelength=2.6)
 
 
 def _drawing(about: str, draw: Callable[[Sequence[Record]], Figure]) -> Drawing:

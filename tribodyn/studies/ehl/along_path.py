@@ -71,14 +71,13 @@ def way(study: PreparedEhl) -> PairWay:
     contact as it is solved at a few positions. With squeeze a jump of the load, where another pair comes or
     goes, is spread over `jump_width`.
     """
-    if study.case.loads is not None:
-        return _way(study, study.case.positions, None)
-    free = _way(study, FRICTION_POSITIONS, None)
-    friction = np.abs(friction_along(study, free))
-    solved = np.isfinite(friction)
-    if not np.any(solved):
-        return _way(study, study.case.positions, None)
-    return _way(study, study.case.positions, (free.roll[solved], friction[solved]))
+    friction = None
+    if study.case.loads is None:
+        free = _way(study, FRICTION_POSITIONS, None)
+        coefficient = np.abs(friction_along(study, free))
+        solved = np.isfinite(coefficient)
+        friction = (free.roll[solved], coefficient[solved]) if np.any(solved) else None
+    return _way(study, study.case.positions, friction)
 
 
 def _way(study: PreparedEhl, positions: int, friction: tuple[Array, Array] | None) -> PairWay:
@@ -119,19 +118,30 @@ def quasi_static_loads(
     Nodes on both sides of a boundary share an angle and keep the order of time. `friction`: roll angles and
     friction coefficients there; None: frictionless.
     """
-    pairs = cycle.front_pairs
-    age = np.asarray(cycle.phase)[:, :, None] + np.arange(pairs - 1.0, -1.0, -1.0)
-    roll = float(cycle.roll_start) + float(cycle.pitch_angle) * age
-    signed = None
-    if friction is not None:
-        # the pinion slides ahead of the gear behind the pitch point, which the pair passes at roll angle zero
-        signed = np.zeros(np.shape(cycle.compliance))
-        signed[:, :, :pairs] = np.sign(roll) * np.interp(roll, *friction)
-    load = np.asarray(quasi_static(cycle, gear_torque, signed).normal_load)[:, :, :pairs]
+    pairs, roll = cycle.front_pairs, _front_rolls(cycle)
+    load = _slot_loads(cycle, gear_torque, roll, friction)[:, :, :pairs]
     touching = np.broadcast_to(np.asarray(cycle.in_contact)[:, None, :pairs] > 0, load.shape)
     # a pair passes through the phases as the youngest, then once more as the one before
     roll, load, touching = (np.moveaxis(values, 2, 0)[::-1] for values in (roll, load, touching))
     return roll[touching], load[touching]
+
+
+def _front_rolls(cycle: MeshCycle) -> Array:
+    """Roll angles (segment, node, pair) of the pairs on the driving flanks, rad."""
+    age = np.asarray(cycle.phase)[:, :, None] + np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
+    return float(cycle.roll_start) + float(cycle.pitch_angle) * age
+
+
+def _slot_loads(
+    cycle: MeshCycle, gear_torque: float, roll: Array, friction: tuple[Array, Array] | None
+) -> Array:
+    """Loads of all slots, the first of which are at these roll angles, with the friction there."""
+    signed = None
+    if friction is not None:
+        # the pinion slides ahead of the gear behind the pitch point, which the pair passes at roll angle zero
+        signed = np.zeros(np.shape(cycle.compliance))
+        signed[:, :, : roll.shape[2]] = np.sign(roll) * np.interp(roll, *friction)
+    return np.asarray(quasi_static(cycle, gear_torque, signed).normal_load)
 
 
 def roll_limits(study: PreparedEhl) -> tuple[float, float]:
@@ -154,14 +164,9 @@ def section_line_loads(
     """
     pairs, count = cycle.front_pairs, cycle.slices
     late = cycle.face_position * float(cycle.pitch_slope) / float(cycle.pinion_pitch_radius)
-    age = np.asarray(cycle.phase)[:, :, None] + np.arange(pairs - 1.0, -1.0, -1.0)
-    turned = float(cycle.roll_start) + float(cycle.pitch_angle) * age
-    roll = (turned[..., None] - late).reshape(*age.shape[:2], -1)
-    signed = None
-    if friction is not None:
-        signed = np.zeros(np.shape(cycle.compliance))
-        signed[:, :, : pairs * count] = np.sign(roll) * np.interp(roll, *friction)
-    load = np.asarray(quasi_static(cycle, gear_torque, signed).normal_load)
+    turned = _front_rolls(cycle)
+    roll = (turned[..., None] - late).reshape(*turned.shape[:2], -1)
+    load = _slot_loads(cycle, gear_torque, roll, friction)
     share = np.broadcast_to(cycle.share, load.shape)
     stretched = np.broadcast_to(cycle.line_load_friction, load.shape)
     line_load = load * stretched / (float(cycle.slice_width) * np.where(share > 0.0, share, 1.0))
@@ -170,11 +175,7 @@ def section_line_loads(
     whole = np.flatnonzero(share[..., ours] >= 0.5)
     roll, line_load = roll[..., ours].ravel()[whole], line_load[..., ours].ravel()[whole]
     order = np.argsort(roll)
-    roll, line_load = roll[order], line_load[order]
-    return (
-        np.concatenate([[limits[0]], roll, [limits[1]]]),
-        np.concatenate([line_load[:1], line_load, line_load[-1:]]),
-    )
+    return np.array([limits[0], *roll[order], limits[1]]), np.pad(line_load[order], 1, mode="edge")
 
 
 def given_loads(loads: tuple[Array, Array], limits: tuple[float, float]) -> tuple[Array, Array]:
@@ -253,10 +254,8 @@ def solved_at(
     contact = contact_for(study.case)
     line_load, radius, speed = (float(x[at]) for x in (over.line_load, seen.radius, seen.entrainment))
     sliding = float(over.sliding[at]) if slide_to_roll is None else float(slide_to_roll * speed)
-    roughness = None if smooth else contact.roughness
-    problem = LineContact(
-        line_load, radius, speed, contact.fluid, contact.effective_modulus, sliding, roughness
-    )
+    of_pair, rough = (contact.fluid, contact.effective_modulus), None if smooth else contact.roughness
+    problem = LineContact(line_load, radius, speed, *of_pair, sliding, rough)
     if problem.moes_load < LEAST_LOAD:
         return None
     try:
@@ -269,10 +268,9 @@ def loaded_places(study: PreparedEhl, over: PairWay, most: int) -> list[tuple[fl
     """Line load, entrainment, radius and sliding speed at positions that carry load, so many at most."""
     seen, at = seen_by(study, over), np.flatnonzero(loaded(over))
     at = at[:: max(1, -(-len(at) // most))]
-    columns = over.line_load, seen.radius, seen.entrainment, over.sliding
-    load, radius, speed, sliding = (np.broadcast_to(np.asarray(x), over.roll.shape)[at] for x in columns)
-    rows = np.stack([load, speed, radius, sliding], axis=1).tolist()
-    return [(float(w), float(u), float(r), float(v)) for w, u, r, v in rows]
+    columns = over.line_load, seen.entrainment, seen.radius, over.sliding
+    load, speed, radius, sliding = (np.broadcast_to(x, over.roll.shape)[at].tolist() for x in columns)
+    return list(zip(load, speed, radius, sliding, strict=True))
 
 
 def profiles(coupled: CoupledSolution) -> dict[str, Array]:

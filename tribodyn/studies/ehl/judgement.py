@@ -2,7 +2,6 @@
 
 import math
 import tomllib
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -14,6 +13,7 @@ from tribodyn.errors import InputError
 from tribodyn.input.resolve import resolve_table
 from tribodyn.input.schema import fields_of
 from tribodyn.input.tables.duty import OiledOperatingTable
+from tribodyn.numerics.registry import Registry
 from tribodyn.studies.ehl.along_path import PairWay, PreparedEhl, prepare, seen_by, way
 from tribodyn.studies.ehl.run import by_laws, solve
 from tribodyn.studies.ehl.scenario import EhlCase
@@ -34,10 +34,10 @@ RIGHT = {"film": 0.10, "friction": 0.25}
 FACTORS = (0.25, 0.5, 1.0, 2.0)
 #: Positions of the pair at each point of the map over load and speed.
 AT_A_POINT = 5
-#: What laws are compared with, by dataset.
-AGAINST = {
-    "central_film_thickness": "film on the line of centres",
-    "friction_coefficient": "friction",
+#: What laws are compared with: its dataset and what it is, and the laws.
+AGAINST: dict[str, tuple[str, str, Registry[Any]]] = {
+    "film": ("central_film_thickness", "film on the line of centres", FILM_LAWS),
+    "friction": ("friction_coefficient", "friction", FRICTION_LAWS),
 }
 #: Needed of a scenario.
 _TABLES = ("drive", "lubricant", "operating")
@@ -149,10 +149,24 @@ def judgement(
 ) -> LawsJudged:
     """Compare every law with the solved contact of a case of any study, over factors on load and speed too.
 
-    Raises InputError as `case_for`.
+    Without factors there is no map. Raises InputError as `case_for`.
     """
-    ratios = ratios_over(case_for(case, positions), factors, factors, progress)
-    return LawsJudged(case.title, positions, factors, factors, ratios)
+    report, ehl = progress or (lambda _share: None), case_for(case, positions)
+    points = [(load, speed) for load in factors for speed in factors]
+    done = positions / (positions + AT_A_POINT * len(points))
+    laws = _compared(ehl, lambda share: report(done * share))
+    medians: list[list[float]] = []  # of every point, in the order of the laws
+    for number, (load, speed) in enumerate(points, start=1):
+        torque, turning = ehl.operating.gear_torque * load, ehl.operating.pinion_speed * speed
+        duty = replace(ehl.operating, gear_torque=torque, pinion_speed=turning)
+        point = _compared(replace(ehl, operating=duty, positions=AT_A_POINT), lambda _share: None)
+        medians.append([law.median for law in point])
+        report(done + (1.0 - done) * number / len(points))
+    for place, law in enumerate(laws):
+        values = [point[place] for point in medians]
+        rows = range(0, len(points), max(len(factors), 1))
+        laws[place] = law._replace(map=tuple(tuple(values[row : row + len(factors)]) for row in rows))
+    return LawsJudged(case.title, positions, factors, factors, laws)
 
 
 def case_for(case: CaseHead, positions: int) -> EhlCase:
@@ -165,44 +179,16 @@ def case_for(case: CaseHead, positions: int) -> EhlCase:
         rule = f"a scenario without {' and without '.join(missing)}: there is no contact to solve"
         raise InputError("kind", case.kind, rule, "name a scenario with drive, lubricant and operating")
     fields = fields_of(OiledOperatingTable)
-    tables = {
+    tables = {name: data[name] for name in (*_TABLES, "duty") if name in data} | {
         "title": case.title,
         "name": case.name,
         "kind": "ehl",
-        "drive": data["drive"],
-        "lubricant": data["lubricant"],
         "operating": {name: value for name, value in data["operating"].items() if name in fields},
         "output": {"positions": positions},
     }
-    if "duty" in data:
-        tables["duty"] = data["duty"]
     # what a case says has no reference left that would be looked for beside its file
     path = Path(case.name)
     return loaded_from(resolve_table(tables, path, {}, table_of), path).case
-
-
-def ratios_over(
-    case: EhlCase, loads: Sequence[float] = (), speeds: Sequence[float] = (), progress: Progress | None = None
-) -> list[LawRatio]:
-    """Compare every law with the solved contact; factors on torque and speed span a map, none: no map."""
-    report = progress or (lambda _share: None)
-    points = [(torque, speed) for torque in loads for speed in speeds]
-    done = case.positions / (case.positions + AT_A_POINT * len(points))
-    laws = _compared(case, lambda share: report(done * share))
-    medians: dict[tuple[str, str], list[float]] = {(value.what, value.law): [] for value in laws}
-    for number, (torque, speed) in enumerate(points):
-        duty = replace(
-            case.operating,
-            gear_torque=case.operating.gear_torque * torque,
-            pinion_speed=case.operating.pinion_speed * speed,
-        )
-        for law in _compared(replace(case, operating=duty, positions=AT_A_POINT), lambda _share: None):
-            medians[law.what, law.law].append(law.median)
-        report(done + (1.0 - done) * (number + 1) / len(points))
-    width = max(len(speeds), 1)
-    rows = range(0, len(points), width)
-    maps = [[medians[law.what, law.law][row : row + width] for row in rows] for law in laws]
-    return [law._replace(map=tuple(map(tuple, rows))) for law, rows in zip(laws, maps, strict=True)]
 
 
 def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
@@ -211,21 +197,17 @@ def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
     arrays = solve(study, over, progress)
     comparisons = []
     for what, laws in by_laws(study, over).items():
+        dataset, against, registry = AGAINST[what]
         for law, values in laws.items():
-            if what == "film":
-                meant, stated = "central_film_thickness", FILM_LAWS[law]
-            else:
-                meant, stated = "friction_coefficient", FRICTION_LAWS[law]
-            ratio = values / arrays[meant]
+            stated, ratio = registry[law], values / arrays[dataset]
             ratio = ratio[np.isfinite(ratio)]
-            low = middle = high = float("nan")
-            right = 0.0
+            extent, right = [math.nan] * 3, 0.0
             if len(ratio):
-                low, middle, high = (float(function(ratio)) for function in (np.min, np.median, np.max))
+                extent = [float(function(ratio)) for function in (np.min, np.median, np.max)]
                 right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what]))
             inside = _inside(study, over, stated)
-            ratios = LawRatio(what, law, low, middle, high, *inside, right)
-            comparisons.append(ratios._replace(against=AGAINST[meant], range=stated.stated))
+            further = {"against": against, "range": stated.stated}
+            comparisons.append(LawRatio(what, law, *extent, *inside, right, **further))
     return comparisons
 
 

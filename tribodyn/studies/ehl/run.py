@@ -1,5 +1,6 @@
 """From a case of the solved contact study to its record."""
 
+from contextlib import suppress
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -40,14 +41,10 @@ def run(
     laws = by_laws(study, over)
     arrays = solve(study, over, progress or (lambda _share: None))
     summary = _summary(study, over, arrays, laws)
-    scales: dict[str, Array] = {
-        "place": np.linspace(BEGIN, END, PLACES),
-        "film_law": np.array(list(laws["film"])),
-        "friction_law": np.array(list(laws["friction"])),
-        "slide_to_roll": TRACTION,
-    }
-    arrays["film_by_law"] = np.stack(list(laws["film"].values()), axis=1)
-    arrays["friction_by_law"] = np.stack(list(laws["friction"].values()), axis=1)
+    scales: dict[str, Array] = {"place": np.linspace(BEGIN, END, PLACES), "slide_to_roll": TRACTION}
+    for what, by_name in laws.items():
+        scales[f"{what}_law"] = np.array(list(by_name))
+        arrays[f"{what}_by_law"] = np.stack(list(by_name.values()), axis=1)
     groups = {"mesh_cycle": as_arrays(study.cycle)}
     layout = layout_of(case.transient, study.cycle.slices)
     with writer(case, path, layout, case.positions, groups=groups, scales=scales, force=force) as record:
@@ -77,8 +74,7 @@ def solve(study: along_path.PreparedEhl, over: along_path.PairWay, progress: Pro
     """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
     case, seen = study.case, along_path.seen_by(study, over)
     (start, _), count = along_path.roll_limits(study), len(over.roll)
-    alone = {name: variable for name, variable in SAMPLES.items() if not name.endswith("_by_law")}
-    arrays = unsolved(alone, count) | {
+    arrays = unsolved(SAMPLES, count) | {
         "phase": (over.roll - start) / float(study.cycle.pitch_angle),
         "roll_angle": over.roll,
         "normal_load": over.normal_load,
@@ -127,18 +123,14 @@ def by_laws(study: along_path.PreparedEhl, over: along_path.PairWay) -> dict[str
 
     The solved law is left out: it is tabulated from the contacts that are solved here.
     """
-    films, frictions = {}, {}
-    for name in FILM_LAWS:
-        if name != "solved":
-            films[name] = np.asarray(along_path.seen_by(study, over, name).surface.central_film_thickness)
+    seen = {name: along_path.seen_by(study, over, name) for name in FILM_LAWS if name != "solved"}
+    films = {name: np.asarray(of_law.surface.central_film_thickness) for name, of_law in seen.items()}
+    frictions = {}
     for name in FRICTION_LAWS:
-        if name in ("solved", "none"):
-            continue
-        try:
-            seen = along_path.seen_by(study, over, friction=name)
-        except InputError:  # it wants a value of its own
-            continue
-        frictions[name] = np.abs(np.asarray(seen.surface.friction_coefficient)) + 0.0 * over.roll
+        if name not in ("solved", "none"):
+            with suppress(InputError):  # it wants a value of its own
+                coefficient = along_path.seen_by(study, over, friction=name).surface.friction_coefficient
+                frictions[name] = np.abs(np.asarray(coefficient)) + 0.0 * over.roll
     return {"film": films, "friction": frictions}
 
 
@@ -165,13 +157,8 @@ def _summary(
     def of(name: str) -> Array:
         return arrays[name][solved]
 
-    film = {
-        name: np.nanmedian(values / arrays["central_film_thickness"]) for name, values in laws["film"].items()
-    }
+    central = arrays["central_film_thickness"]
     mean = _mean_by_loss(arrays, arrays["friction_coefficient"], solved)
-    friction = {
-        name: _mean_by_loss(arrays, values, solved) / mean for name, values in laws["friction"].items()
-    }
     return {
         **(squeeze_summary(arrays) if study.case.transient else {}),
         **_judged(study.case, arrays, solved),
@@ -190,8 +177,12 @@ def _summary(
         "residual_max": float(np.max(of("residual"))),
         "pressure_max": float(np.max(of("pressure"))),
         "normal_load_max": float(np.max(of("normal_load"))),
-        "film_over_solved": {name: float(value) for name, value in film.items()},
-        "friction_over_solved": friction,
+        "film_over_solved": {
+            name: float(np.nanmedian(values / central)) for name, values in laws["film"].items()
+        },
+        "friction_over_solved": {
+            name: _mean_by_loss(arrays, values, solved) / mean for name, values in laws["friction"].items()
+        },
     }
 
 

@@ -84,9 +84,13 @@ SCALES = {
 
 
 def unsolved(variables: Mapping[str, Variable], positions: int) -> dict[str, NDArray[np.float64]]:
-    """Arrays of NaN for these datasets at the positions of a way."""
+    """Arrays of NaN for these datasets at the positions of a way, but for those by laws."""
     sizes = {"phase": positions, "place": PLACES}
-    return {name: np.full([sizes[dim] for dim in row.dims], np.nan) for name, row in variables.items()}
+    return {
+        name: np.full([sizes[dim] for dim in row.dims], np.nan)
+        for name, row in variables.items()
+        if sizes.keys() >= {*row.dims}
+    }
 
 
 def layout_of(transient: bool, slices: int = 1) -> Layout:
