@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from tools.marked_block import PICTURES
+from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.tabulated import tables
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import gear_polygon
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.path import kinematics, position
 from tribodyn.post.style import INK, PALETTE, house_style, new_figure, save
-from tribodyn.studies.motion.pair.case import Case
-from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import averaged_radius
 
@@ -32,10 +32,10 @@ SCENARIOS = {
 }
 
 
-def teeth(axes: Any, case: Case) -> None:
+def teeth(axes: Any, pair: LubricatedCase) -> None:
     """Draw both gears about the pitch point, touching there, with the path of contact."""
-    kind = family(case.family)
-    assembly = assemble(kind, case.drive)
+    kind = family(pair.family)
+    assembly = assemble(kind, pair.drive)
     for side, colour in zip(SIDES, PALETTE, strict=False):
         outline = np.asarray(gear_polygon(assembly, side))
         pitch = getattr(assembly.path, f"{side}_pitch_radius")
@@ -46,17 +46,17 @@ def teeth(axes: Any, case: Case) -> None:
     axes.plot(1e3 * x, 1e3 * y, INK, lw=1.6, label="path of contact")
     axes.plot(0, 0, "o", color=INK, ms=3)
     axes.annotate("P", (0, 0), (3, 3), textcoords="offset points")
-    span = 4.2 * 1e3 * case.drive.module
+    span = 4.2 * 1e3 * pair.drive.module
     axes.set(
         xlim=(-span, span), ylim=(-0.7 * span, 0.7 * span), aspect="equal", xlabel="x / mm", ylabel="y / mm"
     )
     axes.legend(loc="lower right")
 
 
-def contact(angle: Any, radius: Any, case: Case) -> None:
+def contact(angle: Any, radius: Any, pair: LubricatedCase) -> None:
     """Draw pressure angle and equivalent radius along the path; averaged where it vanishes at P."""
-    cycle = prepare(case).cycle
-    assembly = assemble(family(case.family), case.drive)
+    cycle = tables(pair).cycle
+    assembly = assemble(family(pair.family), pair.drive)
     r = np.linspace(assembly.r_start, assembly.r_end, 802)
     at = kinematics(assembly.path, r)
     angle.plot(1e3 * r, np.degrees(at.pressure_angle), PALETTE[2])
@@ -65,9 +65,9 @@ def contact(angle: Any, radius: Any, case: Case) -> None:
     radius.plot(1e3 * r, 1e3 * equivalent, PALETTE[3], label="at the point")
     length = float(cycle.pitch_point_length)
     if length > 0:
-        width = min(body.face_width for body in (case.drive.pinion, case.drive.gear))
-        load = case.operating.gear_torque / float(cycle.gear_pitch_radius) / width
-        modulus = 2 / sum((1 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials)
+        width = min(body.face_width for body in (pair.drive.pinion, pair.drive.gear))
+        load = pair.operating.gear_torque / float(cycle.gear_pitch_radius) / width
+        modulus = 2 / sum((1 - m.poisson_ratio**2) / m.youngs_modulus for m in pair.materials)
         radius.plot(
             1e3 * r, 1e3 * averaged_radius(equivalent, load, modulus, length), INK, ls="--", label="averaged"
         )
@@ -81,13 +81,12 @@ def contact(angle: Any, radius: Any, case: Case) -> None:
 
 def main() -> None:
     for name, scenario in SCENARIOS.items():
-        case = load_scenario(scenario)
-        assert isinstance(case, Case)
+        pair = load_scenario(scenario).pair
         with house_style():
             figure = new_figure(8.0, 3.8)
             grid = figure.add_gridspec(2, 2, width_ratios=(1.4, 1))
-            teeth(figure.add_subplot(grid[:, 0]), case)
-            contact(figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1]), case)
+            teeth(figure.add_subplot(grid[:, 0]), pair)
+            contact(figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1]), pair)
             print(save(figure, PICTURES / f"family-{name}.png", force=True))
 
 

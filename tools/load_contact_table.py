@@ -18,7 +18,6 @@ from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation.papers.diez_ibarbia_study import load_contact
 
@@ -65,8 +64,7 @@ def deflections(cycle: MeshCycle, torque: float) -> Deflections:
 
 
 def row(name: str) -> list[str]:
-    case = load_scenario("involute-18-36", {"drive": name})
-    assert isinstance(case, Case)
+    case = load_scenario("involute-18-36", {"drive": name}).pair
     teeth, drive = family(case.family), case.drive
     assembly = assemble(teeth, drive)
     arm = float(assembly.path.gear_pitch_radius * np.cos(assembly.path.pressure_angle(0.0)))

@@ -13,7 +13,6 @@ from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 
 SLICES, POSITIONS = 21, 60
@@ -58,8 +57,7 @@ def figures(
 
 
 def coupled_and_free(_: object) -> str:
-    case = load_scenario("involute-18-36-fem")
-    assert isinstance(case, Case)
+    case = load_scenario("involute-18-36-fem").pair
     flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True, held=True)
     rows = []
     for name, modifications in CASES.items():

@@ -23,7 +23,7 @@ from tribodyn.post.style import INK, PALETTE, QUIET, house_style, new_figure, sa
 
 BLUE, ORANGE, GREEN, PURPLE = PALETTE[:4]
 CRC, INVOLUTE = "crc-23-47", "involute-23-47"
-CASES = {name: td.scenario(name) for name in (CRC, INVOLUTE)}
+CASES = {name: td.scenario(name).pair for name in (CRC, INVOLUTE)}
 #: Pinion speeds of the dynamic runs, rad/s: slow, and between two resonances.
 SPEEDS = (10.0, 300.0)
 

@@ -70,7 +70,7 @@ def test_the_counts_of_what_is_shipped_are_current():
 def test_the_readme_describes_the_drive_of_the_demo():
     name = re.search(r"tribodyn run (\S+) .*--output demo/", (ROOT / "Makefile").read_text(encoding="utf-8"))
     assert name is not None
-    case = tribodyn.scenario(name[1])
+    case = tribodyn.scenario(name[1]).pair
     teeth = f"{case.drive.pinion.teeth:.0f} and {case.drive.gear.teeth:.0f} teeth"
     power = (
         case.operating.gear_torque

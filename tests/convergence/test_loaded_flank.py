@@ -27,7 +27,7 @@ LINE_LOAD = 235e3
 
 @pytest.fixture(scope="module")
 def case():
-    return load_scenario("involute-18-36-fem")
+    return load_scenario("involute-18-36-fem").pair
 
 
 @pytest.fixture(scope="module")

@@ -21,14 +21,14 @@ def test_dynamics_are_of_the_operating_line_of_action():
     case = load("involute-18-36", OFF).case
     inv = [math.tan(angle) - angle for angle in (WORKING, math.radians(20))]
     backlash = 3e-3 * math.cos(math.radians(20)) * 54 * (inv[0] - inv[1])
-    assert case.mesh.backlash == pytest.approx(backlash, rel=1e-9)
+    assert case.pair.mesh.backlash == pytest.approx(backlash, rel=1e-9)
     cycle = prepare(case).cycle
     back = np.asarray(cycle.gap)[..., np.asarray(cycle.side) < 0]
     assert back == pytest.approx(backlash, rel=1e-9)
     assert np.asarray(cycle.pressure_angle) == pytest.approx(WORKING, rel=1e-12)
     assert float(cycle.gear_pitch_radius) * math.cos(WORKING) == pytest.approx(BASE, rel=1e-12)
-    loads = quasi_static(cycle, case.operating.gear_torque).normal_load.sum(axis=-1)
-    assert loads == pytest.approx(case.operating.gear_torque / BASE, rel=1e-9)
+    loads = quasi_static(cycle, case.pair.operating.gear_torque).normal_load.sum(axis=-1)
+    assert loads == pytest.approx(case.pair.operating.gear_torque / BASE, rel=1e-9)
 
 
 def test_the_efficiency_is_that_of_its_loss_factor():
@@ -55,5 +55,5 @@ def test_it_runs(name, tmp_path):
 
 
 def test_a_mesh_without_a_centre_distance_has_no_back_flanks():
-    mesh: MeshData = load("involute-18-36").case.mesh
+    mesh: MeshData = load("involute-18-36").case.pair.mesh
     assert mesh.backlash is None

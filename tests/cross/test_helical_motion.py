@@ -62,7 +62,7 @@ def test_solvers_agree(method):
 def test_slices_of_a_spur_pair_move_as_the_pair():
     """And friction of slices that reverse in step stops no step."""
     case = load_scenario("involute-23-47", {**EVEN, **COULOMB})
-    spur, cut = prepare(case).model, prepare(replace(case, mesh=replace(case.mesh, slices=7))).model
+    spur, cut = prepare(case).model, prepare(case.with_pair(mesh=replace(case.pair.mesh, slices=7))).model
     one, many = marched(spur), marched(cut)
     free = displacements(spur.layout)
     assert np.max(np.abs(many[:, free] - one[:, free]) / np.ptp(one, axis=0)[free]) < 1e-7

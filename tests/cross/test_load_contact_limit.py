@@ -36,9 +36,9 @@ TIP = FlankModification(tip=Relief(12e-6, 3e-3))
 )
 def test_creeping_run_is_the_load_contact_model(prepared, modified, slices):
     slow = {"operating.pinion_speed": "0.01 rad/s", "friction.coefficient": 0.0}
-    case = prepared("involute-18-36-fem", **slow).pairs[0]
-    mesh = dataclasses.replace(case.mesh, modifications=modified, slices=slices)
-    run = prepare(dataclasses.replace(case, mesh=mesh))
+    case = prepared("involute-18-36-fem", **slow).case
+    mesh = dataclasses.replace(case.pair.mesh, modifications=modified, slices=slices)
+    run = prepare(case.with_pair(mesh=mesh))
     found = recorded(run.model, TransientSettings("radau", 1e-8, 1, 100000, SAMPLES))["normal_load"]
 
     case, cycle = run.pairs[0], run.cycle
@@ -74,8 +74,8 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
         "mesh.misalignment.in_plane": "2 arcmin",
         "mesh.slices": 11,
     }
-    case = prepared("involute-18-36-fem", **slow).pairs[0]
-    run = prepare(dataclasses.replace(case, friction=FrictionData("masjedi-khonsari")))
+    case = prepared("involute-18-36-fem", **slow).case
+    run = prepare(case.with_pair(friction=FrictionData("masjedi-khonsari")))
     model, cycle = run.model, run.cycle
     phase = (np.arange(24) + 0.5) / 24
     _, _, interval = interval_of(phase, model.schedule)

@@ -76,7 +76,7 @@ def test_the_doubled_motion_of_the_oscillator_goes_on_from_its_fold_to_the_doubl
 
 def test_round_the_fold_of_a_gear_pair():
     """The way up leaves the lower branch at its fold; what goes on is closed by SciPy, and unstable."""
-    name, mesh = "jump-involute-23-47", tables(load_scenario("jump-involute-23-47"))
+    name, mesh = "jump-involute-23-47", tables(load_scenario("jump-involute-23-47").pair)
 
     def model_at(line, value):
         return prepare(load_scenario(name, {"operating.pinion_speed": f"{value} rad/s"}), (mesh,)).model

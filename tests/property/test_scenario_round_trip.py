@@ -156,6 +156,6 @@ def test_units_do_not_matter(length: float, length_unit: str, speed: float, spee
             "drive.module": f"{length!r} {length_unit}",
             "operating.pinion_speed": f"{speed!r} {speed_unit}",
         },
-    )
+    ).pair
     np.testing.assert_allclose(case.drive.module, length * LENGTHS[length_unit], rtol=1e-14)
     np.testing.assert_allclose(case.operating.pinion_speed, speed * SPEEDS[speed_unit], rtol=1e-14)

@@ -137,8 +137,8 @@ def test_what_the_scenario_does_not_take_names_the_option(option, message):
 
 def test_keys_reach_through_references_that_vary():
     grid = Grid("crc-23-47", ["drive=liu-ni-crc-23-47,liu-ni-involute-23-47", "drive.module=2:3:1mm"], {})
-    assert grid.case((1, 1)).family == "involute"
-    assert grid.case((0, 0)).drive.module == 0.002
+    assert grid.case((1, 1)).pair.family == "involute"
+    assert grid.case((0, 0)).pair.drive.module == 0.002
 
 
 def test_a_case_of_the_grid_is_the_scenario_with_its_values_set():
@@ -151,7 +151,7 @@ def test_a_case_of_the_grid_is_the_scenario_with_its_values_set():
     same = load_scenario(
         "crc-23-47", {SPEED: "500 rpm", "operating.gear_torque": "70 N*m", "solver.cycles": 3}
     )
-    assert case.operating == same.operating
+    assert case.pair.operating == same.pair.operating
     assert case.solver == same.solver
 
 

@@ -27,7 +27,7 @@ WAYS = {"4": (868.0, 864.0, 860.0), "12": (868.0, 856.0), "36": (892.0, 856.0), 
 
 @pytest.mark.soak
 def test_a_neimark_sacker_point():
-    mesh = tables(load_scenario("crc-23-47", DRIVE))
+    mesh = tables(load_scenario("crc-23-47", DRIVE).pair)
 
     def model_at(line, value):
         return prepare(

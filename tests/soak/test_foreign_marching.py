@@ -97,7 +97,7 @@ def test_a_gear_pair(number: int, tmp_path: Path):
     grid = Grid(name, [f"operating.pinion_speed={first}:{1.12 * first}/9rad/s"], overrides)
     result = run(grid, settings_of(grid), LocalEngine(2), tmp_path / "sweep.h5", directions=DIRECTIONS)
     speeds = list(grid.axes[0].values)
-    mesh = tables(load_scenario(name, {**overrides, "operating.pinion_speed": f"{first} rad/s"}))
+    mesh = tables(load_scenario(name, {**overrides, "operating.pinion_speed": f"{first} rad/s"}).pair)
 
     def model_at(value: float):
         case = load_scenario(name, {**overrides, "operating.pinion_speed": f"{value!r} rad/s"})

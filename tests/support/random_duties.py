@@ -46,7 +46,7 @@ def drawn(seed: int) -> Any:
         },
         "friction": {"law": "auto"},
     }
-    return load_data(data, "drawn").case
+    return load_data(data, "drawn").case.pair
 
 
 def departures(case: Any, positions: int = 8) -> dict[str, dict[str, float]]:

@@ -28,7 +28,7 @@ jax.config.update("jax_enable_x64", True)
 
 def main() -> None:
     """Call them, and make sure that a wrong shape would have been seen."""
-    case = load_scenario("involute-23-47")
+    case = load_scenario("involute-23-47").pair
     teeth = family(case.family)
     assembly = assemble(teeth, case.drive)
     for side in SIDES:

@@ -169,7 +169,7 @@ def test_at_the_geometrys_limit_the_flank_stands_still_at_the_mates_tip(half, na
     from tribodyn.geometry.drive import tip_radius
     from tribodyn.geometry.path import contact_limits
 
-    case = load_scenario("jia-parabolic-17-29")
+    case = load_scenario("jia-parabolic-17-29").pair
     limit = maximum_coefficient(case.drive, half)
     drive = case.drive._replace(shape=case.drive.shape._replace(**{name: limit}))
     path = family(case.family).working_path(drive)

@@ -28,6 +28,11 @@ class CaseHead:
     #: of a record that is named after its scenario: the scenario's file, see `record.files.previous.Origin`
     scenario_file: str = field(default="", kw_only=True, compare=False)
 
+    @property
+    def pair(self) -> Any:
+        """The pair of gears that the case is of: itself; of a gearbox the pair of its first mesh."""
+        return self
+
     def chosen(self) -> dict[str, tuple[str, str]]:
         """What the scenario left open: key -> what was taken, and why."""
         return {}

@@ -45,7 +45,7 @@ class Differentiable:
 
     Parameters
     ----------
-    case : of a gear pair; its gears need not exist
+    case : of a gear pair, `CaseHead.pair`; its gears need not exist
     schema : of its scenario: ``study_of(table).table()``
     of : names of `QUANTITIES` or `ALSO`; one program evaluates all together
     wrt : dotted keys of `numbers_of`; entries of lists by their index from 0, ``drive.shape.angles.3``
@@ -65,7 +65,7 @@ class Differentiable:
     """
 
     def __init__(self, case: Any, schema: type[BaseModel], of: Sequence[str], wrt: Sequence[str]) -> None:
-        self.of, self.wrt = tuple(of), tuple(wrt)
+        case, self.of, self.wrt = case.pair, tuple(of), tuple(wrt)
         self._case, self._names = case, tuple(ALSO.get(name, name) for name in of)
         self._quantities = [quantity_of(case, name) for name in of]
         self._numbers = numbers_of(case, schema, self.wrt.__contains__)

@@ -10,7 +10,6 @@ from typing import Literal
 
 import numpy as np
 
-from tribodyn.numerics.curve import Table
 from tribodyn.numerics.elementary import cos, exp, log
 from tribodyn.numerics.shapes import Array, Float
 
@@ -39,25 +38,10 @@ class BearingData:
 
 @dataclass(frozen=True)
 class OperatingData:
-    """How the drive is driven and loaded."""
+    """Speed and load of a pair of gears."""
 
-    source: Literal["speed", "torque"]  # prescribed pinion speed, or a torque source with inertia
-    pinion_speed: float  # nominal speed ω_p, rad/s; with a torque source also the speed at the start
+    pinion_speed: float  # nominal speed ω_p, rad/s
     gear_torque: float  # T_g, the constant part of the load, N m
-    #: of the source at nominal speed, N m; None: balances `gear_torque` without losses
-    pinion_torque: float | None = None
-    drive_inertia: float = 0.0  # of the source, kg m²
-    #: shaft_stiffness, shaft_damping: of the shaft between source and pinion, N m/rad (None: rigid), N m
-    #: s/rad
-    shaft_stiffness: float | None = None
-    shaft_damping: float = 0.0
-    speed_regulation: float = 0.0  # fall of the source's torque per speed above `pinion_speed`, N m s/rad
-    #: torque over time (s, N m) added to `gear_torque`; constant before and after its points
-    torque_table: Table | None = None
-    #: (amplitude N m, angular frequency rad/s, phase rad) of cosines added to the load
-    torque_harmonics: tuple[tuple[float, float, float], ...] = ()
-    load_inertia: float = 0.0  # on the gear's shaft, kg m²
-    load_damping: float = 0.0  # load torque per gear speed above nominal, N m s/rad
 
 
 def in_space(bearing: BearingData, width: float) -> tuple[tuple[float, ...], tuple[float, ...]]:

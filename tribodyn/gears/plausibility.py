@@ -5,12 +5,13 @@ digit too many, than a gear.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import wraps
 from math import isfinite
 from typing import Any, NamedTuple, TypeVar
 
 from tribodyn.cases.results import CaseHead, CheckResult, TextTable
+from tribodyn.dynamics.data import BearingData
 from tribodyn.gears.case import GearCase
 from tribodyn.gears.check import with_rounding
 from tribodyn.gears.duty import HERTZ, duty_lines, nominal_duty
@@ -199,15 +200,18 @@ def checks_gears(check: Callable[[AnyCase], CheckResult]) -> Callable[[AnyCase],
     return completed
 
 
-def with_duty(checked: CheckResult, case: CaseHead) -> CheckResult:
-    """What `check` says, with the duty first and what is unusual; of a `GearCase`, others as they are."""
+def with_duty(checked: CheckResult, case: CaseHead, bearings: Iterable[BearingData] = ()) -> CheckResult:
+    """What `check` says, with the duty first and what is unusual; of a `GearCase`, others as they are.
+
+    `bearings` hold its gears.
+    """
     if not isinstance(case, GearCase):  # of another package's study
         return checked
     duty = nominal_duty(case, assemble(family(case.family), case.drive))
     lines = duty_lines(duty)
     rows = [(name, f"{_four_digits(value)} {unit}".strip()) for name, (value, unit) in lines.items()]
     table = TextTable("Duty", ("quantity", "value"), rows)
-    unusual = unusual_values(case)
+    unusual = unusual_values(case, bearings)
     held = bearing_part(shafts_of_pair(case), getattr(case, "lubricant", None))
     data = {"duty": lines, "unusual": unusual, **held} | checked.data
     tables = [table]
@@ -220,11 +224,11 @@ def _four_digits(value: float) -> str:
     return f"{value:#.4g}".removesuffix(".")
 
 
-def unusual_values(case: GearCase) -> list[str]:
+def unusual_values(case: GearCase, bearings: Iterable[BearingData] = ()) -> list[str]:
     """Say of each number of a case that lies outside the field's usual range what is usual, in a sentence."""
     sentences: dict[str, None] = {}  # of both gears, or both bearings, once
     outside: set[str] = set()
-    for name, number in _numbers(case):
+    for name, number in _numbers(case, bearings):
         usual_range = USUAL[name]
         twice = name == "roughness_over_module" and "roughness" in outside
         if isfinite(number) and not twice and not usual_range.low <= number <= usual_range.high:
@@ -233,7 +237,7 @@ def unusual_values(case: GearCase) -> list[str]:
     return list(sentences)
 
 
-def _numbers(case: Any) -> Iterator[tuple[str, float]]:
+def _numbers(case: Any, bearings: Iterable[BearingData]) -> Iterator[tuple[str, float]]:
     """Go through what is looked at: name in `USUAL`, value in its unit; not what is not given, or zero."""
     drive, mesh = case.drive, case.mesh
     assembly = assemble(family(case.family), drive)
@@ -263,7 +267,7 @@ def _numbers(case: Any) -> Iterator[tuple[str, float]]:
     for material in case.materials:
         yield "youngs_modulus", material.youngs_modulus * 1e-9
         yield "material_density", material.density
-    for bearing in getattr(case, "bearings", ()):
+    for bearing in bearings:
         for axis in ("x", "y"):
             yield "bearing_stiffness", getattr(bearing, f"stiffness_{axis}") * 1e-6
             if ratio := getattr(bearing, f"damping_ratio_{axis}"):

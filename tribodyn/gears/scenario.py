@@ -113,7 +113,7 @@ def gear_fields(scenario: Any, toml: str, sha256: str, **own: Any) -> dict[str, 
     gears = drive.pinion, drive.gear
     if "operating" not in own:
         duty = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth)
-        own["operating"] = OperatingData("speed", *duty)
+        own["operating"] = OperatingData(*duty)
     if "mesh" not in own:
         own["mesh"] = mesh_data(scenario)
     return {

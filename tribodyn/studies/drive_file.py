@@ -173,10 +173,11 @@ def _of_scenario(path: Path, overrides: Mapping[str, Any], mesh: str | None) -> 
         return _of_table(whole.pair(case, mesh or "")["drive"], path, {})
     _refuse(mesh)
     # a quasi-static study needs no masses
-    masses = getattr(case, "masses", (BodyMass(), BodyMass()))
+    pair = case.pair
+    masses = getattr(pair, "masses", (BodyMass(), BodyMass()))
     table = tomllib.loads(case.toml)["drive"]
     return DriveModel(
-        case.title, case.name, case.family, case.drive, case.materials, masses, path, origins, table
+        case.title, case.name, pair.family, pair.drive, pair.materials, masses, path, origins, table
     )
 
 

@@ -300,7 +300,7 @@ def _teeth(record: SweepRecord) -> "dict[str, Any] | None":
     if not study_of_record(record).has_gears:
         return None
     try:
-        case = loaded_again(record).case
+        case = loaded_again(record).case.pair
         assembly = check(family(case.family), case.drive)
     except InputError:
         return None

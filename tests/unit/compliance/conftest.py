@@ -16,4 +16,4 @@ def pair():
 
 @pytest.fixture(scope="module")
 def case():
-    return load_scenario("involute-18-36-fem")
+    return load_scenario("involute-18-36-fem").pair

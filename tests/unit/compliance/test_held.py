@@ -16,7 +16,7 @@ PAIRS = {"load-contact-18-36": 1, "load-contact-misaligned": 5, "helical-23-47":
 
 @pytest.fixture(scope="module", params=PAIRS)
 def pair(request):
-    case, slices = load_scenario(request.param), PAIRS[request.param]
+    case, slices = load_scenario(request.param).pair, PAIRS[request.param]
     assembly = check(family(case.family), case.drive)
     flexible = flexibility(assembly, case.materials, lead=slices > 1)
     flanks = LoadedFlanks(flexible, case.mesh.modifications, slices)

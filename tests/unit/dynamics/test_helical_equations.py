@@ -138,7 +138,7 @@ def test_slices_of_a_spur_pair_are_the_pair(rng):
     """Right-hand sides at states without z and tilts."""
     case = load_scenario("involute-23-47", EVEN)
     spur = prepare(case).model
-    cut = prepare(replace(case, mesh=replace(case.mesh, slices=7))).model
+    cut = prepare(case.with_pair(mesh=replace(case.pair.mesh, slices=7))).model
     thin, wide = spur.layout, cut.layout
     same = [*range(thin.half), *(wide.half + i for i in range(thin.half))]
     same += range(wide.mechanical, wide.states)

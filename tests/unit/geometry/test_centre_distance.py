@@ -85,7 +85,7 @@ def test_thinner_teeth_leave_their_allowances_as_backlash():
 def test_teeth_of_other_families_are_thinned_at_their_pitch_circle():
     from tribodyn.studies.protocol.load import load_scenario
 
-    case = load_scenario("crc-23-47")
+    case = load_scenario("crc-23-47").pair
     thin = case.drive._replace(gear=case.drive.gear._replace(thickness_allowance=-50e-6))
     pair = check(family("crc"), thin)
     assert circumferential_backlash(pair) == pytest.approx(50e-6, rel=1e-9)
@@ -109,7 +109,7 @@ def test_overlapping_teeth_are_refused_with_the_smallest_distance():
 def test_other_families_refuse_a_centre_distance():
     from tribodyn.studies.protocol.load import load_scenario
 
-    case = load_scenario("crc-23-47")
+    case = load_scenario("crc-23-47").pair
     with pytest.raises(InputError, match="conjugate at one centre distance only"):
         check(family("crc"), case.drive._replace(centre_distance=0.106))
 

@@ -56,7 +56,7 @@ def test_a_record_gives_the_eccentricity_that_it_was_made_with(identified):
     assert found.noise["a"] == pytest.approx(2.0, rel=0.3)
     assert min(found.whiteness.values()) > 1e-3
     assert not found.remarks
-    assert found.scenario.teeth != td.scenario(PAIR).teeth
+    assert found.scenario.pair.teeth != td.scenario(PAIR).pair.teeth
     assert KEY in repr(found)
     assert KEY in found._repr_html_()
 

@@ -60,13 +60,13 @@ PAIR = {
 
 
 def test_the_dynamics_use_the_backlash_of_the_centre_distance():
-    assert load("involute-shifted-23-47").case.mesh.backlash is None
-    backlash = load("involute-shifted-23-47", PAIR).case.mesh.backlash
+    assert load("involute-shifted-23-47").case.pair.mesh.backlash is None
+    backlash = load("involute-shifted-23-47", PAIR).case.pair.mesh.backlash
     alpha, reference = math.radians(20), 105e-3
     working = math.acos(reference * math.cos(alpha) / 106.9e-3)
     opened = 70 * (math.tan(working) - working - math.tan(alpha) + alpha) - 2 * 0.3 * math.tan(alpha)
     assert backlash == pytest.approx(3e-3 * math.cos(alpha) * opened, rel=1e-9)
-    assert load("involute-shifted-23-47", PAIR | {"mesh.backlash": "0.1 mm"}).case.mesh.backlash == 1e-4
+    assert load("involute-shifted-23-47", PAIR | {"mesh.backlash": "0.1 mm"}).case.pair.mesh.backlash == 1e-4
 
 
 def test_a_case_names_the_file_of_a_power_without_speed(tmp_path):

@@ -10,7 +10,7 @@ GEARS = {"drive.quality": 6, "mesh.deviation_sample": 4}
 
 
 def case(name, **changes):
-    return load(name, GEARS | {key.replace("__", "."): value for key, value in changes.items()}).case
+    return load(name, GEARS | {key.replace("__", "."): value for key, value in changes.items()}).case.pair
 
 
 def test_load_contact_has_teeth_that_differ():
@@ -40,7 +40,7 @@ def test_a_coarser_class_deviates_more_by_the_root_of_two():
 
 
 def test_dynamics_take_profile_and_base_pitch():
-    assert load("involute-23-47").case.mesh.error_table is None
+    assert load("involute-23-47").case.pair.mesh.error_table is None
     at, error = case("involute-23-47").mesh.error_table
     assert 0 < np.ptp(error) < 60e-6
     assert at[0] < 0 < at[-1]

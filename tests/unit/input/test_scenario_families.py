@@ -7,7 +7,6 @@ import pytest
 import tomli_w
 
 from tribodyn.errors import InputError
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
@@ -47,9 +46,7 @@ REFUSED = {
 
 
 def made(scenario, overrides):
-    case = load_scenario(scenario, overrides)
-    assert isinstance(case, Case)
-    return prepare(case)
+    return prepare(load_scenario(scenario, overrides))
 
 
 @pytest.mark.parametrize("name", REFUSED)
@@ -91,10 +88,10 @@ def test_points_on_a_straight_line_make_an_involute():
 
     x = np.linspace(-12, 12, 25)
     case = points(x, x * np.tan(np.radians(20)))
-    check(family("points"), case.drive)
-    ours = assemble(family("points"), case.drive)
+    check(family("points"), case.pair.drive)
+    ours = assemble(family("points"), case.pair.drive)
     involute = load_scenario("involute-23-47")
-    theirs = assemble(family("involute"), involute.drive)
+    theirs = assemble(family("involute"), involute.pair.drive)
     assert ours.contact_ratio == pytest.approx(theirs.contact_ratio, rel=1e-12)
     assert ours.r_start == pytest.approx(theirs.r_start, rel=1e-12)
 

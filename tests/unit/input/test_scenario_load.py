@@ -78,16 +78,16 @@ def test_overrides_reach_through_references_and_into_lists(written):
             "title": "another",
         },
     )
-    assert case.drive.pinion.profile_shift == 0.25
-    assert case.materials[0].youngs_modulus == case.materials[1].youngs_modulus == 210e9
-    assert case.operating.torque_harmonics == ((7.0, pytest.approx(10 * pi), 0.0),)
+    assert case.pair.drive.pinion.profile_shift == 0.25
+    assert case.pair.materials[0].youngs_modulus == case.pair.materials[1].youngs_modulus == 210e9
+    assert case.loads[0].harmonics == ((7.0, pytest.approx(10 * pi), 0.0),)
     assert [bearing.stiffness_x for bearing in case.bearings] == [1e9, 2e9]
     assert case.solver.cycles == 3
     assert case.title == "another"
 
 
 def test_each_gear_may_have_its_own_material(written):
-    case = load_scenario(written(SCENARIO), {"drive.gear.material": "steel-diez-ibarbia"})
+    case = load_scenario(written(SCENARIO), {"drive.gear.material": "steel-diez-ibarbia"}).pair
     assert [material.youngs_modulus for material in case.materials] == pytest.approx([206e9, 207e9])
 
 
@@ -99,13 +99,13 @@ def test_models_are_found_beside_the_scenario_first_and_by_path(tmp_path):
     scenario = tmp_path / "scenarios" / "mine.toml"
     for reference in ("own", "../models/drives/own.toml"):
         scenario.write_text(SCENARIO.replace("liu-ni-crc-23-47", reference))
-        assert load_scenario(scenario).drive.pinion.teeth == 29.0
+        assert load_scenario(scenario).pair.drive.pinion.teeth == 29.0
 
 
 def test_a_curve_comes_from_csv_in_any_unit_and_column_order(written):
     written("# made by hand\n\ntorque [kN*m], note [], time [ms]\n0, x, 0\n0.1, y, 5\n", "load.csv")
     text = SCENARIO.replace('"500 N*m"\n', '"500 N*m"\ngear_torque_table = "load.csv"\n')
-    table = load_scenario(written(text)).operating.torque_table
+    table = load_scenario(written(text)).loads[0].table
     assert table is not None
     np.testing.assert_allclose(table[0], [0.0, 0.005], rtol=1e-15)
     np.testing.assert_allclose(table[1], [0.0, 100.0], rtol=1e-15)

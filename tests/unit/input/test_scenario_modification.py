@@ -68,7 +68,7 @@ def test_quantities_in_si():
 @pytest.mark.parametrize("name", [STUDY, "involute-18-36-fem"])
 def test_as_many_slices_as_what_varies_asks_for(name: str, overrides: dict, slices: int):
     case = load_scenario(name, overrides)
-    assert case.mesh.slices == slices
+    assert case.pair.mesh.slices == slices
 
 
 def test_what_is_written_in_a_scenario_changes_the_model_it_is_like(scenario: Path):

@@ -61,7 +61,7 @@ def test_other_studies_run_the_duty_that_is_named(name):
     with pytest.raises(InputError, match=r"add duty = 1, or sweep operating\.duty over"):
         loaded(name)
     case = loaded(name, operating__duty=1)
-    assert getattr(case, "operating", case).gear_torque == 300.0
+    assert getattr(case.pair, "operating", case).gear_torque == 300.0
 
 
 def test_mistakes_name_the_duty():

@@ -175,7 +175,7 @@ def test_roughness_of_each_gear_is_combined():
         "drive.gear.mean_roughness": "0.8 um",
     }
     case = load("involute-shifted-23-47", {key: value for key, value in given.items() if value}).case
-    assert (case.roughness, case.mean_roughness) == (3e-7, pytest.approx(0.6e-6))
+    assert (case.pair.roughness, case.pair.mean_roughness) == (3e-7, pytest.approx(0.6e-6))
     from tribodyn.input.tables.gears.drive_data import roughness_of
     from tribodyn.input.tables.gears.model_files import DriveTable
 

@@ -34,12 +34,13 @@ def value_of(case, quantity, fixed):
 
 
 def numbers_of(case):
-    return numbers.numbers_of(case, study_of({"kind": case.kind}).table())
+    return numbers.numbers_of(case.pair, study_of({"kind": case.kind}).table())
 
 
 def quantity(case, of):
     """Without a compiled program."""
-    return value_of(case, quantity_of(case, of), fixed_of(case))
+    pair = case.pair
+    return value_of(pair, quantity_of(pair, of), fixed_of(pair))
 
 
 @pytest.mark.slow
@@ -78,7 +79,7 @@ def test_closed_forms():
 
 @pytest.mark.parametrize("name", [INVOLUTE, "efficiency-crc-23-47", "efficiency-cycloidal-23-47"])
 def test_efficiency_is_that_of_the_efficiency_study(name):
-    case = td.scenario(name)
+    case = td.scenario(name).pair
     summary = td.run(name).summary
     assert quantity(case, "efficiency") == pytest.approx(summary["efficiency_elastic"], abs=2e-7)
     # extremes at nodes of the table, and in samples
@@ -128,7 +129,7 @@ def test_distances_and_their_slopes_of_a_free_form_path(keys):
     of = ["interference_gear"] if keys > FORWARDS else ["undercut_pinion", "tip_thickness_gear"]
     function = td.differentiable("spline-23-47", of, [f"drive.shape.angles.{i}" for i in range(keys)])
     values, slopes = function.jacobian(function.at)
-    case = td.scenario("spline-23-47")
+    case = td.scenario("spline-23-47").pair
     assert values == pytest.approx([td.constraints("spline-23-47")[name] for name in of], rel=1e-12)
     expected = differences(case, of, function.wrt)
     np.testing.assert_allclose(slopes, expected, rtol=1e-5, atol=1e-7 * np.abs(expected).max())
@@ -193,7 +194,7 @@ def quantities_of(case):
     found = {}
     for name in QUANTITIES:
         with suppress(td.InputError):
-            found[name] = quantity_of(case, name)
+            found[name] = quantity_of(case.pair, name)
     return found
 
 
@@ -205,7 +206,7 @@ BACKWARDS = ("efficiency", "film_min", "stiffness_swing", "interference_gear", "
 @pytest.mark.parametrize("name", FAMILIES)
 def test_every_quantity_and_key_of_every_family(name):
     """Against central differences; what hardly depends on a key is compared with the quantity itself."""
-    case = td.scenario(name)
+    case = td.scenario(name).pair
     known, of = numbers_of(case), list(quantities_of(case))
     at = [number.value for number in known.values()]
     backwards = () if name == "s-gear-23-47" else BACKWARDS
@@ -233,7 +234,7 @@ def primitives(jaxpr):
 )
 def test_no_slope_depends_on_the_equality_of_numbers(name):
     """JAX's slope of a minimum is lost where a program computes its arguments once more and rounds apart."""
-    case = td.scenario(name)
+    case = td.scenario(name).pair
     known, fixed = numbers_of(case), fixed_of(case)
     functions = [quantity.function for quantity in quantities_of(case).values()]
 

@@ -38,7 +38,7 @@ OTHERS = {
 
 
 def changed(overrides, key, value):
-    return td.scenario(PAIR, overrides | {key: f"{float(value)!r} {KEYS[key]}"})
+    return td.scenario(PAIR, overrides | {key: f"{float(value)!r} {KEYS[key]}"}).pair
 
 
 def value(case, name):
@@ -62,7 +62,7 @@ def test_slopes_are_those_of_other_scenarios(name, of, slices):
     overrides = FEW | OTHERS[name] | {"mesh.slices": slices}
     function = td.differentiable(PAIR, of, list(KEYS), overrides)
     values, slopes = function.jacobian(function.at)
-    assert values == pytest.approx(quantities(td.scenario(PAIR, overrides), of), rel=1e-10)
+    assert values == pytest.approx(quantities(td.scenario(PAIR, overrides).pair, of), rel=1e-10)
     for key, at, slope in zip(KEYS, function.at, slopes.T, strict=True):
         ends = [quantities(changed(overrides, key, (1.0 + way * 1e-5) * at), of) for way in (1, -1)]
         expected = (ends[0] - ends[1]) / (2e-5 * at)
@@ -88,7 +88,7 @@ def by_the_table_of_a_run(case):
 def test_values_and_slopes_are_those_of_a_fine_table(key):
     """Over steps by which kinks pass many nodes, so that the error of the table averages out."""
     overrides = FEW | {"mesh.slices": 7}
-    case = td.scenario(PAIR, overrides)
+    case = td.scenario(PAIR, overrides).pair
     values = quantities(case)[:4]
     assert by_the_table_of_a_run(case) == pytest.approx(values, rel=1e-5)
     at = numbers_of(case, study_of({"kind": case.kind}).table())[key].value
@@ -113,7 +113,7 @@ def test_what_is_refused(overrides, of, said):
 
 def test_contact_at_the_pitch_point_in_closed_form():
     """An involute's normal section: ρ = ρ_t/cos β_b, and the load F_t/cos α_t/cos β_b on b/cos β_b."""
-    case = td.scenario(PAIR)
+    case = td.scenario(PAIR).pair
     beta, alpha = abs(case.drive.helix_angle), case.drive.pressure_angle
     lean = math.atan(math.tan(beta) * math.cos(alpha))
     radii = [case.drive.module * side.teeth / 2.0 for side in (case.drive.pinion, case.drive.gear)]

@@ -42,9 +42,9 @@ def test_values_of_numpy_and_pint(unit):
         "mesh": {"damping_ratio": np.float32(0.25)},
     }
     case = td.scenario(given, {"solver.cycles": np.int64(3)})
-    assert case.operating.pinion_speed == pytest.approx(100.0, rel=1e-14)
-    assert case.operating.gear_torque == pytest.approx(500.0, rel=1e-14)
-    assert (case.mesh.damping_ratio, case.solver.cycles) == (0.25, 3)
+    assert case.pair.operating.pinion_speed == pytest.approx(100.0, rel=1e-14)
+    assert case.pair.operating.gear_torque == pytest.approx(500.0, rel=1e-14)
+    assert (case.pair.mesh.damping_ratio, case.solver.cycles) == (0.25, 3)
 
 
 def test_plain_data_of_arrays():
@@ -60,7 +60,7 @@ def test_a_case_with_overrides_is_another_case():
     first = td.scenario("crc-23-47")
     assert td.scenario(first) is first
     other = td.scenario(first, {"operating.gear_torque": "600 N*m"})
-    assert other.operating.gear_torque == 600.0
+    assert other.pair.operating.gear_torque == 600.0
     assert other.sha256 == td.scenario("crc-23-47", {"operating.gear_torque": "600 N*m"}).sha256
 
 

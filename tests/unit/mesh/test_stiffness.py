@@ -16,7 +16,7 @@ TORQUE = 500.0
 
 
 def pair_of(name, **changes):
-    case = load_scenario(name)
+    case = load_scenario(name).pair
     assembly = assemble(family(case.family), case.drive)
     mesh = dataclasses.replace(case.mesh, **changes)
     cycle = tabulate(assembly, case.materials, mesh, pair_slots(assembly))

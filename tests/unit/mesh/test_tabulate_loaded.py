@@ -54,7 +54,7 @@ def loads_of_model(case, cycle):
 
 @pytest.mark.parametrize("torque", ["80 N*m", "318.3 N*m", "1274 N*m"])
 def test_quasi_static_loads_are_the_load_contact_models(torque):
-    case = load_scenario(NAME, {"operating.gear_torque": torque})
+    case = load_scenario(NAME, {"operating.gear_torque": torque}).pair
     cycle = table(case)
     shared = loads_of_model(case, cycle)
     still = quasi_static(cycle, case.operating.gear_torque)
@@ -64,7 +64,7 @@ def test_quasi_static_loads_are_the_load_contact_models(torque):
 
 
 def test_pairs_touch_before_and_after_their_path():
-    case = load_scenario(NAME, {})
+    case = load_scenario(NAME, {}).pair
     cycle = table(case)
     loads = quasi_static(cycle, case.operating.gear_torque).normal_load.reshape(-1, 2)
     assembly = assemble(family(case.family), case.drive)
@@ -79,7 +79,7 @@ def test_pairs_touch_before_and_after_their_path():
 
 
 def test_table_is_periodic():
-    cycle = table(load_scenario(NAME, {}))
+    cycle = table(load_scenario(NAME, {}).pair)
     for name in ("compliance", "gap", "signed_distance", "pressure_angle"):
         values = getattr(cycle, name)
         # the newest pair at the end of a cycle is the older one at the beginning of the next
@@ -89,11 +89,11 @@ def test_table_is_periodic():
 
 
 def test_without_coupling_pairs_do_not_know_of_each_other():
-    assert not np.any(table(load_scenario(NAME, {}), foundation_coupling=False).coupling)
+    assert not np.any(table(load_scenario(NAME, {}).pair, foundation_coupling=False).coupling)
 
 
 def test_back_flanks_mirror_the_front():
-    case = load_scenario(NAME, {})
+    case = load_scenario(NAME, {}).pair
     cycle, front = table(case, backlash=5e-5), table(case)
     assert cycle.slots == 4
     # a back pair half a table later, in the mirrored world: same gaps plus the backlash
@@ -133,7 +133,7 @@ def test_back_flanks_carry_as_they_are_modified():
     relieved = FlankModification(tip=Relief(**tip), both_flanks=True)
     front_only = FlankModification(lead=LeadRelief(crowning=5e-6))
     given = Modifications(relieved, front_only, Misalignment(3e-4, 1e-3))
-    case = load_scenario(NAME, {"mesh.points": 9})
+    case = load_scenario(NAME, {"mesh.points": 9}).pair
     assembly = assemble(family(case.family), case.drive)
     mesh = dataclasses.replace(case.mesh, modifications=given, slices=3, backlash=5e-5)
     cycle = tabulate_loaded(assembly, case.materials, mesh, -300.0, True)
@@ -151,7 +151,7 @@ def test_back_flanks_carry_as_they_are_modified():
 
 
 def test_errors_over_roll_angle_shift_the_load():
-    case = load_scenario(NAME, {})
+    case = load_scenario(NAME, {}).pair
     at = np.array([-0.5, 0.5])
     flat = table(case, error_table=(at, np.array([1e-5, 1e-5])))
     loads = [quasi_static(c, case.operating.gear_torque) for c in (table(case), flat)]
@@ -161,7 +161,7 @@ def test_errors_over_roll_angle_shift_the_load():
 
 
 def test_every_family_has_a_load_contact_model():
-    case = load_scenario("crc-23-47", {"mesh.compliance": "fem"})
+    case = load_scenario("crc-23-47", {"mesh.compliance": "fem"}).pair
     cycle = table(case)
     shared = loads_of_model(case, cycle)
     loads = quasi_static(cycle, 500.0).normal_load.reshape(shared.normal_load.shape)
@@ -172,7 +172,7 @@ def test_every_family_has_a_load_contact_model():
 
 @pytest.mark.parametrize("drive", ["cycloidal-23-47", "jia-parabolic-17-29", "s-gear-23-47"])
 def test_radii_that_vanish_at_the_pitch_point_leave_a_smooth_table(drive):
-    case = load_scenario(NAME, {"drive": drive})
+    case = load_scenario(NAME, {"drive": drive}).pair
     cycle = table(case)
     # the neighbouring nodes differ by no more than the course of the table asks for: no spike at P
     change = np.abs(np.diff(cycle.compliance, axis=1)) / cycle.compliance[:, 1:]
@@ -184,20 +184,20 @@ def test_radii_that_vanish_at_the_pitch_point_leave_a_smooth_table(drive):
 
 
 def test_no_load_is_refused():
-    case = load_scenario(NAME, {"mesh.backlash": "50 um"})
+    case = load_scenario(NAME, {"mesh.backlash": "50 um"}).pair
     with pytest.raises(InputError, match="gear_torque"):
         tabulate_loaded(assemble(family(case.family), case.drive), case.materials, case.mesh, 0.0, True)
 
 
 def test_solid_body_is_refused():
-    case = load_scenario(NAME, {})
+    case = load_scenario(NAME, {}).pair
     solid = case.drive._replace(gear=case.drive.gear._replace(bore_radius=0.0))
     with pytest.raises(InputError, match="bore"):
         tabulate_loaded(assemble(family(case.family), solid), case.materials, case.mesh, 100.0)
 
 
 def test_effective_contact_ratio_of_a_shipped_drive():
-    case = load_scenario(NAME, {})
+    case = load_scenario(NAME, {}).pair
     assembly = assemble(family(case.family), case.drive)
     flexible = flexibility(assembly, case.materials, held=case.mesh.held)
     roll = extended_rolls(assembly, roll_at_gap(assembly, 8e-5), 240)

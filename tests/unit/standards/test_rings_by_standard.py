@@ -24,7 +24,7 @@ def pair(request: pytest.FixtureRequest):
     mesh = next(mesh for mesh in drive.meshes if mesh.name == "second-ring-1")
     if request.param:
         return assembled(mesh.pair)
-    return assembled(load_scenario("ring-36-93"))
+    return assembled(load_scenario("ring-36-93").pair)
 
 
 def test_radii_and_speeds_are_those_of_the_geometry(pair):

@@ -6,7 +6,6 @@ from tribodyn.numerics.elementary import law
 from tribodyn.studies.motion.check import check
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.study import CheckResult
-from tribodyn.tribology.closure import with_laws
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FrictionLaw
 
@@ -47,6 +46,6 @@ def test_a_law_of_ones_own_has_none():
         return 0.1 + 0.0 * contact.sliding
 
     mine = FrictionLaw("a-tenth", "always 0.1", a_tenth)
-    laws = check(with_laws(load_scenario("involute-23-47"), friction=mine)).data["laws"]
+    laws = check(load_scenario("involute-23-47").under_laws(friction=mine)).data["laws"]
     assert laws["friction_range"] == "none stated"
     assert not {"friction_judged", "friction_exceeded"} & set(laws)

@@ -150,14 +150,14 @@ def test_gears_in_motion_stand_as_the_statics_say():
     model = prepare(case).model
     states = np.mean([static_equilibrium(model, phase) for phase in (0.1, 0.3, 0.5, 0.7, 0.9)], axis=0)
     layout = model.layout
-    for body, held in enumerate(case.supports[:2]):
+    for body, held in enumerate(case.pair.supports[:2]):
         found = [*states[3 * body : 3 * body + 2], *states[layout.tilts + 3 * body :][:3]]
         tangent = np.array(held.displacement) - held.rest
         lengths = np.array([1.0, 1.0, 1.0, 0.025, 0.025])
         # the load is not in the middle of the face, which the tilts shift it from
         assert np.abs((found - tangent) * lengths).max() < 0.06 * np.abs(tangent * lengths).max()
-    rest = case.mesh.modifications.misalignment.in_plane
-    assert 0.0 < rest < 0.5 * case.supports.misalignment.in_plane
+    rest = case.pair.mesh.modifications.misalignment.in_plane
+    assert 0.0 < rest < 0.5 * case.pair.supports.misalignment.in_plane
 
 
 def test_spur_gears_on_drawn_shafts_run_and_balance(tmp_path):
@@ -167,7 +167,7 @@ def test_spur_gears_on_drawn_shafts_run_and_balance(tmp_path):
     assert abs(found.summary["energy_residual"]) < 1e-7
     with Record(found.path) as record:
         names, moved = list(record["dof"]), np.asarray(record["displacement"])[-1]
-    held = scenario("involute-23-47", changes).supports.pinion
+    held = scenario("involute-23-47", changes).pair.supports.pinion
     assert held is not None
     tilt = moved[names.index("tilt_y_p")]
     still = np.linalg.solve(np.array(held.data.matrix), mean_loads(*pair_of("involute-23-47"))[0])
@@ -175,7 +175,7 @@ def test_spur_gears_on_drawn_shafts_run_and_balance(tmp_path):
 
 
 def pair_of(name: str) -> tuple[Any, float]:
-    case = scenario(name)
+    case = scenario(name).pair
     return assemble(family(case.family), case.drive), case.operating.gear_torque
 
 
@@ -189,7 +189,7 @@ def test_check_has_the_bearings():
 
 def test_loads_lives_and_losses_of_bearings():
     shafts = copy.deepcopy(SHAFTS)
-    case = scenario("helical-23-47", HELICAL | {"shaft": shafts})
+    case = scenario("helical-23-47", HELICAL | {"shaft": shafts}).pair
     found = bearing_part(shafts_of_pair(case), case.lubricant)["bearings"]
     assert list(found) == ["pinion-1", "pinion-2", "gear-1", "gear-2"]
     loads = mean_loads(assemble(family(case.family), case.drive), 300.0)

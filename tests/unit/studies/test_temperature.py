@@ -167,7 +167,7 @@ def test_losses_of_gears_by_name_are_those_of_pinion_and_gear():
     for keys in (of_sides, by_name):
         assert case({"losses": keys}).losses == case({"losses": of_sides}).losses
         of_pair, of_train = (
-            case({"losses": keys}, MOTION | {"kind": kind}).gearbox() for kind in ("gear-pair", "gear-train")
+            case({"losses": keys}, MOTION | {"kind": kind}) for kind in ("gear-pair", "gear-train")
         )
         assert prepare_motion(of_pair).thermal[0].losses == prepare_motion(of_train).thermal[0].losses
 

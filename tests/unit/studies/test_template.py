@@ -29,5 +29,5 @@ def test_every_family_can_be_chosen_as_the_comments_say(name, tmp_path):
     (tmp_path / "path.csv").write_text(Path(str(path)).read_text(encoding="utf-8"), encoding="utf-8")
     (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
     loaded = load(tmp_path / "mine.toml")
-    assert loaded.case.family == name
+    assert loaded.case.pair.family == name
     assert loaded.study.check(loaded.case).data["geometry"]["contact ratio"][0] > 1.0

@@ -30,7 +30,7 @@ OMEGA, TORQUE = 10.0, 500.0
 
 @pytest.fixture(scope="module")
 def case() -> Any:
-    return load_scenario("involute-23-47")
+    return load_scenario("involute-23-47").pair
 
 
 def flanks():
@@ -73,7 +73,7 @@ def test_speed_and_torque_turn_either_way_but_must_not_vanish(case):
 
 def test_a_cycloid_is_held_near_its_pitch_point():
     """There radius and entrainment vanish: both are held at a tenth of their largest."""
-    duty = duty_range(load_scenario("cycloidal-23-47"))
+    duty = duty_range(load_scenario("cycloidal-23-47").pair)
     places = np.array(duty.places)
     assert places[:, 0].min() == pytest.approx(0.1 * places[:, 0].max())
     assert places[:, 1].max() == pytest.approx(10.0 * places[:, 1].min())
@@ -98,7 +98,7 @@ def test_nominal_conditions_of_involute_gears(case):
         with pytest.raises(InputError, match=r'"niemann".*which vanish here'):
             nominal_conditions(replace(idle, friction=FrictionData(law)))
     with pytest.raises(InputError, match="which vanish here"):
-        nominal_conditions(load_scenario("cycloidal-23-47"))
+        nominal_conditions(load_scenario("cycloidal-23-47").pair)
 
 
 def test_mean_coefficients_read_the_oil_around_the_gears(case):

@@ -19,7 +19,7 @@ from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run as run_study
-from tribodyn.tribology.closure import closure, laws_of, with_laws
+from tribodyn.tribology.closure import closure, laws_of
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmData, FrictionLaw
@@ -56,16 +56,16 @@ def test_a_law_has_the_values_of_its_keys_as_parameters():
 
 def test_film_and_friction_are_chosen_separately():
     case = load_scenario("crc-23-47", {"friction.law": "masjedi-khonsari-as-printed"})
-    assert [chosen.name for chosen in laws_of(case)] == ["masjedi-khonsari-as-printed"] * 2
+    assert [chosen.name for chosen in laws_of(case.pair)] == ["masjedi-khonsari-as-printed"] * 2
     case = load_scenario("crc-23-47", {"friction.law": "xu"})
-    assert [chosen.name for chosen in laws_of(case)] == ["masjedi-khonsari", "xu"]
+    assert [chosen.name for chosen in laws_of(case.pair)] == ["masjedi-khonsari", "xu"]
     case = load_scenario("crc-23-47", {"friction.law": "xu", "film.law": "moes"})
-    assert [chosen.name for chosen in laws_of(case)] == ["moes", "xu"]
+    assert [chosen.name for chosen in laws_of(case.pair)] == ["moes", "xu"]
     assert case.film == FilmData("moes", {})
 
 
 def test_a_law_handed_over_runs_in_every_compiler(rng):
-    case = with_laws(load_scenario("crc-23-47"), friction=STRIBECK.with_values(static=0.11))
+    case = load_scenario("crc-23-47").under_laws(friction=STRIBECK.with_values(static=0.11))
     assert_right_hand_sides_agree(at_several_conditions(prepare(case).model), rng, 1e-12)
 
 
@@ -157,7 +157,7 @@ def _unfinished(contact, film, surfaces, parameters):
 
 
 def test_a_law_that_cannot_be_compiled_says_why():
-    case = with_laws(load_scenario("crc-23-47"), friction=FrictionLaw("unfinished", "", _unfinished))
+    case = load_scenario("crc-23-47").under_laws(friction=FrictionLaw("unfinished", "", _unfinished))
     model = prepare(case).model
     with pytest.raises(InputError, match=r"law = _unfinished.*_asdict.*marked with its `law`"):
         rhs(0.3, 0.0, 0, np.zeros(PAIR.states), model, work_array(model), np.empty(PAIR.states))

@@ -220,7 +220,7 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force:
         from tribodyn.geometry.families import family
         from tribodyn.geometry.limits.checks import check
 
-        gears = every[BASE].case
+        gears = every[BASE].case.pair
         assembly = check(family(gears.family), gears.drive)
         files.append(write_pair(best_path(record, "dxf"), assembly, force=force))
     return files

@@ -56,7 +56,8 @@ def _candidates(record: Record) -> list[_Teeth]:
     loads = [loaded_source(scenarios, BASE, values) for values in ({}, record.summary["best"])]
     if not all(loaded.study.has_gears for loaded in loads):
         return []
-    return [_teeth(check(family(loaded.case.family), loaded.case.drive), loaded.case) for loaded in loads]
+    pairs = [loaded.case.pair for loaded in loads]
+    return [_teeth(check(family(pair.family), pair.drive), pair) for pair in pairs]
 
 
 def _teeth(assembly: Assembly, case: Any) -> _Teeth:

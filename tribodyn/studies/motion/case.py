@@ -162,7 +162,7 @@ class SourceData:
 
     @classmethod
     def of(cls, operating: Any, body: int, speed: float, torque: float) -> "SourceData":
-        """By what a table [operating], or `OperatingData`, says of the drive."""
+        """By what a table [operating] says of the drive."""
         return cls(
             operating.source,
             body,
@@ -196,9 +196,10 @@ class Gearbox(CaseHead):
     #: whether its file names the meshes: then a record has a dimension over them; else there is one mesh
     named: bool = True
 
-    def gearbox(self) -> "Gearbox":
-        """The gearbox that a case is."""
-        return self
+    @property
+    def pair(self) -> LubricatedCase:
+        """The pair of gears in the first mesh."""
+        return self.meshes[0].pair
 
     @property
     def pairs(self) -> tuple[LubricatedCase, ...]:
@@ -214,6 +215,19 @@ class Gearbox(CaseHead):
     def friction(self) -> FrictionData:
         """The friction law, one in all meshes."""
         return self.meshes[0].pair.friction
+
+    @property
+    def bearings(self) -> tuple[BearingData, ...]:
+        """The bearings of all bodies that have some, and planets' pins."""
+        return tuple(link.bearing for link in self.links if link.bearing is not None)
+
+    def with_pair(self, **fields: Any) -> "Gearbox":
+        """The gearbox with other fields of the pair in every mesh: its mesh, laws, oil, temperatures.
+
+        Speed, load, teeth and masses stand in `source`, `loads`, `gears` too, and are not changed there.
+        """
+        meshes = tuple(replace(mesh, pair=replace(mesh.pair, **fields)) for mesh in self.meshes)
+        return replace(self, meshes=meshes)
 
     def under_laws(self, **laws: Any) -> "Gearbox":
         """The gearbox with other laws, arguments as of `tribology.closure.with_laws`."""
@@ -248,6 +262,10 @@ class Gearbox(CaseHead):
         the period: that of hunting teeth has millions of cycles.
         """
         return self.period if self.period <= self.max_period else min(self.period, self.solver.cycles + 1)
+
+    def without_run(self) -> dict[str, float]:
+        """As of a pair of gears, where there is one."""
+        return {} if self.named else self.pair.without_run()
 
     def remarks_in_brief(self) -> list[str]:
         """As of a pair of gears."""

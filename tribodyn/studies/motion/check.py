@@ -24,7 +24,6 @@ from tribodyn.studies.motion.frequencies import (
     of_sets,
     passes,
 )
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
@@ -39,10 +38,9 @@ HARMONICS = 3
 
 
 @checks_gears
-def check(model: Gearbox | Case) -> CheckResult:
+def check(case: Gearbox) -> CheckResult:
     """Check a case, tabulate its meshes, and say what gearbox it describes."""
-    prepared = prepare(model)
-    case = prepared.case
+    prepared = prepare(case)
     listener_of(prepared)
     mode_set = modes(prepared.model, [one.cycle for one in prepared.made])
     kinds = kinds_of(prepared, mode_set)
@@ -115,9 +113,10 @@ def _of_mesh(prepared: PreparedGearbox, m: int) -> CheckResult:
     gears = PreparedGears(
         pair, tabulated.assembly, tabulated.cycle, thermal, slice_remark=tabulated.slice_remark
     )
-    if not prepared.case.named:
-        return check_gears(gears, prepared.model.closure(m), tabulated.masses)
-    return with_duty(check_gears(gears, prepared.model.closure(m)), pair)
+    masses = None if prepared.case.named else tabulated.masses
+    ends = {prepared.case.meshes[m].driver, prepared.case.meshes[m].driven}
+    bearings = [link.bearing for link in prepared.case.links if link.bearing and link.ends[0] in ends]
+    return with_duty(check_gears(gears, prepared.model.closure(m), masses), prepared.case.pairs[m], bearings)
 
 
 def _speeds(prepared: PreparedGearbox) -> np.ndarray:

@@ -9,7 +9,6 @@ from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.mesh.table import MeshData
 from tribodyn.studies.motion.case import HOUSING, Gearbox
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.record import usual_layout
 
 #: How often the samples of the last cycles are held; share of a pair's record that pictures read at once.
@@ -20,9 +19,8 @@ _USUAL_PERIOD, _INTERVAL_BYTES, _INTERVAL = 200.0, 120.0, 1e-6
 _A_MESH = 1.2
 
 
-def estimate(model: Gearbox | Case) -> cost.Estimate:
+def estimate(case: Gearbox) -> cost.Estimate:
     """What a run of a case takes; every mesh as much as that of a pair."""
-    case = model.gearbox()
     samples, cycles = float(case.output.samples_per_cycle), float(case.solver.cycles)
     meshes = len(case.meshes)
     sides = 1 if case.meshes[0].pair.mesh.backlash is None else 2

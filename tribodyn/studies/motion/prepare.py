@@ -25,7 +25,6 @@ from tribodyn.studies.motion.assembly import (
     table_numbers,
 )
 from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox, LoadData
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
 from tribodyn.studies.motion.thermal_iteration import at_tooth_temperatures
 from tribodyn.train.links.chain import chain_of
@@ -57,7 +56,6 @@ class PreparedGearbox:
     phases: Phases  # of the teeth without load
     order: tuple[int, ...]  # bodies of the case as the model has them; behind these the motor
     inertias: tuple[BodyInertia, ...]  # of the case's bodies
-    given: Gearbox | Case  # what was prepared
 
     @property
     def cycle(self) -> MeshCycle:
@@ -93,12 +91,11 @@ def tabulated(case: Gearbox) -> tuple[Tabulated, ...]:
     return tuple(table_of[number] for number in numbers)
 
 
-def prepare(source: Gearbox | Case, tables: tuple[Tabulated, ...] | None = None) -> PreparedGearbox:
+def prepare(case: Gearbox, tables: tuple[Tabulated, ...] | None = None) -> PreparedGearbox:
     """Check the geometry, tabulate the meshes, assemble the model; `tables` is of equal tables, if known.
 
     Raises InputError where teeth cannot be made or run together, or a table does not cover the contact.
     """
-    case = source.gearbox()
     tables = tables or tabulated(case)
     inertias = body_inertias(case, [each.assembly for each in tables])
     warm, thermal = zip(*at_tooth_temperatures(case, tables), strict=True)
@@ -114,7 +111,7 @@ def prepare(source: Gearbox | Case, tables: tuple[Tabulated, ...] | None = None)
         [(case.gears[one].teeth, case.gears[two].teeth) for one, two in (mesh.gears for mesh in case.meshes)],
         case.solver.cycles,
     )
-    return PreparedGearbox(case, model, tables, tuple(warm), tuple(thermal), phases, order, inertias, source)
+    return PreparedGearbox(case, model, tables, tuple(warm), tuple(thermal), phases, order, inertias)
 
 
 def _held(case: Gearbox, body: int) -> bool:

@@ -11,7 +11,6 @@ from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.frequencies import mesh_frequencies
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.prepare import prepare
 
 #: Harmonics of the transmission error that are looked at.
@@ -21,7 +20,7 @@ HARMONICS = 6
 _NEAR = 0.1
 
 
-def resonance_speeds(case: Case | Gearbox, span: tuple[float, float], most: int) -> list[float]:
+def resonance_speeds(case: Gearbox, span: tuple[float, float], most: int) -> list[float]:
     """The speeds of the input, rad/s, within a span, at which it vibrates most by the linearised model.
 
     Mode j meets harmonic h of mesh m where h ω_m = ω_j, ω_m going with the speed. With the amplitude ε_h of

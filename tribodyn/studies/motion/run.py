@@ -21,7 +21,6 @@ from tribodyn.record.sensors import write_sensed
 from tribodyn.record.trust import judge_tribology
 from tribodyn.record.withheld_efficiency import remarked
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.results import STAGES, stage_quantities, worst_stage
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
@@ -44,7 +43,7 @@ AVERAGED = "radius and entrainment vanish; averaged over the contact's own half 
 
 
 def run(
-    case: Gearbox | Case,
+    case: Gearbox,
     output: str | Path | None = None,
     *,
     force: bool = False,
@@ -55,7 +54,7 @@ def run(
     Where the case asks for bulk temperatures, it is run again until its own losses give them.
     """
     where, once = target(case, output, force), partial(_run, progress=progress)
-    return run_until_warm(case.gearbox(), where, force, once, _warmer)
+    return run_until_warm(case, where, force, once, _warmer)
 
 
 def _warmer(case: Gearbox, summary: Mapping[str, Any]) -> Gearbox | None:

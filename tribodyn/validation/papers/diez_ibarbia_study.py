@@ -22,6 +22,7 @@ from tribodyn.compliance.sharing.load_sharing import (
 )
 from tribodyn.compliance.sharing.loaded_contact import check_contact, reach
 from tribodyn.compliance.sharing.slices import PairFlexibility
+from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, tip_radius
@@ -33,7 +34,6 @@ from tribodyn.numerics.elementary import cos, sin, sqrt
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards.loss_factors import equal_loads, hoehn
 from tribodyn.studies.efficiency.published import tip_contact_ratios
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import nominal_conditions
 from tribodyn.tribology.friction.niemann import niemann
@@ -267,11 +267,9 @@ def _flexible(scenario: Scenario, shift: float) -> PairFlexibility:
 
 
 @cache
-def _plain_case() -> Case:
+def _plain_case() -> LubricatedCase:
     return _case({})
 
 
-def _case(overrides: dict[str, str]) -> Case:
-    case = load_scenario("involute-18-36", overrides)
-    assert isinstance(case, Case)
-    return case
+def _case(overrides: dict[str, str]) -> LubricatedCase:
+    return load_scenario("involute-18-36", overrides).pair

@@ -17,12 +17,12 @@ from scipy.optimize import brentq
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, at_pitch_point, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
+from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.parabolic import maximum_coefficient
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications
 from tribodyn.geometry.path import kinematics
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.validation.papers.jia_positions import Passage, positions
@@ -51,11 +51,9 @@ class FaceState(NamedTuple):
 CROWNED = FaceState(8.0, 8.0)
 
 
-def case_of(name: Name) -> Case:
-    """Return the case of one of the paper's two drives."""
-    case = load_scenario(f"jia-{name}-17-29")
-    assert isinstance(case, Case)
-    return case
+def case_of(name: Name) -> LubricatedCase:
+    """Return the gears of one of the paper's two drives."""
+    return load_scenario(f"jia-{name}-17-29").pair
 
 
 @cache

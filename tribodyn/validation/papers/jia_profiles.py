@@ -16,7 +16,6 @@ from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.geometry.families import family
 from tribodyn.geometry.path import position
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation.papers.jia import CROWNED, modified
 
@@ -31,8 +30,7 @@ EXAGGERATED = 40.0
 
 def gears(k1: float = CHOSEN, k2: float = CHOSEN) -> Assembly:
     """Return the paper's parabolic gears with other coefficients."""
-    case = load_scenario("jia-parabolic-17-29", {"drive.shape.k1": k1, "drive.shape.k2": k2})
-    assert isinstance(case, Case)
+    case = load_scenario("jia-parabolic-17-29", {"drive.shape.k1": k1, "drive.shape.k2": k2}).pair
     return assemble(family(case.family), case.drive)
 
 

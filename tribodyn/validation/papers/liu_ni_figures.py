@@ -22,7 +22,6 @@ from tribodyn.post.figures.panel import Trace, View, abscissa, draw, legend, mar
 from tribodyn.post.figures.spectrum import steady_spectrum
 from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation.published import published
 
@@ -118,8 +117,7 @@ def normal_load(records: Path) -> Figure:
     """Normal loads of consecutive pairs without friction, with the printed means in single contact."""
     figure = new_figure(WIDTH, PANEL_HEIGHT + 1.3)
     axes = figure.subplots()
-    case = load_scenario("crc-23-47-frictionless")
-    assert isinstance(case, Case)
+    case = load_scenario("crc-23-47-frictionless").pair
     with _opened(records, tuple(MODELS.values())) as opened:
         dynamic = opened[0]
         window = last_cycles(dynamic, 1)

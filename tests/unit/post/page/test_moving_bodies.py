@@ -71,8 +71,8 @@ def test_a_page_draws_elements_and_cage(rolling, tmp_path):
 @pytest.mark.parametrize("scenario", ["crc-23-47", "involute-18-36"])
 def test_contacts_of_gears_that_turn_by_themselves_lie_on_both_flanks(scenario, rng):
     case = load_scenario(scenario)
-    shape = geometry_arrays(check(family(case.family), case.drive))
-    teeth = turning_teeth(shape, float(case.drive.pinion.teeth))
+    shape = geometry_arrays(check(family(case.pair.family), case.pair.drive))
+    teeth = turning_teeth(shape, float(case.pair.drive.pinion.teeth))
     pinion, gear = (unpacked(teeth[name]).astype(float).reshape(-1, 2) for name in ("pinion", "gear"))
     roll, (rp, rg) = unpacked(teeth["roll"], "<f8"), teeth["radii"]
     x, y = (unpacked(teeth[name]).astype(float).reshape(-1, teeth["pairs"]) for name in "xy")

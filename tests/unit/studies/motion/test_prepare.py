@@ -30,7 +30,7 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
     cycle = plain.cycle._replace(coupling=plain.cycle.coupling * factor)
     lifted = cycle._replace(gap=cycle.gap + np.array([0.0, 10e-6]))
     tabulated = tables(plain.pairs[0])._replace(cycle=lifted, table=polynomials(lifted))
-    model = prepare(plain.given, (tabulated,)).model
+    model = prepare(plain.case, (tabulated,)).model
     assert model.options.sweeps == sweeps
     (mesh,) = model.meshes
     y = np.zeros(PAIR.states)

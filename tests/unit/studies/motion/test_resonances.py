@@ -51,7 +51,7 @@ def test_between_stiff_bearings_it_is_the_one_of_the_mesh():
     # the pinion's rotation is prescribed
     gear_base = base * float(cycle.gear_pitch_radius) / float(cycle.pinion_pitch_radius)
     angular = math.sqrt(stiffness * gear_base**2 / inertia)
-    first = angular / float(case.drive.pinion.teeth)
+    first = angular / float(case.pair.drive.pinion.teeth)
     assert resonance_speeds(case, (0.9 * first, 1.1 * first), 1)[0] == pytest.approx(first, rel=1e-3)
 
 

@@ -13,9 +13,9 @@ def test_a_place_on_the_way_has_its_own_speed(speed, prepared):
     at_start, at_target = (
         prepared("crc-23-47", **{"operating.pinion_speed": f"{v} rad/s"}) for v in (400, 600)
     )
-    way = NeighbourWay(at_start.given, 400.0, 600.0, 1, (100.0, 700.0))
+    way = NeighbourWay(at_start.case, 400.0, 600.0, 1, (100.0, 700.0))
     prepared_at = prepared_between([at_target], [way], prepare=prepare)
     assert prepared_at(0, 600.0) is at_target
     found = prepared_at(0, speed)
-    assert found.given.operating.pinion_speed == pytest.approx(speed)
+    assert found.case.pair.operating.pinion_speed == pytest.approx(speed)
     assert float(found.model.operation.nominal_speed) == pytest.approx(speed)

@@ -130,9 +130,7 @@ def scenario_of(kind: str, keys: dict[str, Any]) -> Gearbox:
         "friction": {"law": "coulomb", "coefficient": 0.05},
         "bearings": "rigid-1e9",
     }
-    return load_data(
-        base | OIL | SHORT | {"drive": drive, "operating": operating} | keys, kind
-    ).case.gearbox()
+    return load_data(base | OIL | SHORT | {"drive": drive, "operating": operating} | keys, kind).case
 
 
 def numbers_of(part: Any, path: str = "") -> dict[str, Any]:

@@ -12,7 +12,7 @@ from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_sev
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.tribology.closure import closure, duty_range, with_laws
+from tribodyn.tribology.closure import closure, duty_range
 from tribodyn.tribology.contact import DutyRange, local_contact
 from tribodyn.tribology.ehl import table as tables
 from tribodyn.tribology.ehl.coupled import solve_coupled
@@ -146,7 +146,7 @@ def test_without_a_mesh_there_is_no_table():
 
 def test_duty_of_a_drive():
     """Liu & Ni: 10 rad/s, 500 N m on the gear; at P u = ω r_p sin α, R = 8.98 mm, no sliding."""
-    duty = duty_range(load_scenario("crc-23-47"))
+    duty = duty_range(load_scenario("crc-23-47").pair)
     whole = 500.0 / (70.5e-3 * math.cos(math.radians(25.4))) / 0.02
     assert duty.line_load[0] < whole < duty.line_load[1]
     at_pitch_point = 10.0 * 34.5e-3 * math.sin(math.radians(22.81))
@@ -157,7 +157,7 @@ def test_duty_of_a_drive():
 
 @pytest.mark.soak
 def test_the_laws_run_in_every_compiler(by_powers, rng):
-    case = with_laws(load_scenario("crc-23-47"), film="solved", friction="solved")
+    case = load_scenario("crc-23-47").under_laws(film="solved", friction="solved")
     assert_right_hand_sides_agree(at_several_conditions(prepare(case).model), rng, 1e-12)
 
 

@@ -110,10 +110,10 @@ def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) 
     Negative where they cannot be made or cannot run together; −1 where there is no case.
     """
     try:
-        case = loaded_case(base, overrides).case
+        pair = loaded_case(base, overrides).case.pair
     except InputError:
         return -1.0
-    distances, module = plain_distances(assemble(family(case.family), case.drive)), case.drive.module
+    distances, module = plain_distances(assemble(family(pair.family), pair.drive)), pair.drive.module
     return min(value / (module if LIMITS[name] == "m" else 1.0) for name, value in distances.items())
 
 

@@ -67,11 +67,11 @@ class MotionBatch:
 
     def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> SweepSettings:
         """How the cases are brought to their windows."""
-        base, boxes = cases[0], [case.gearbox() for case in cases]
+        base, boxes = cases[0], cases
         if transient is None:
             # a case whose common period is too long fails by itself
             if not (boxes := [box for box in boxes if box.period <= box.max_period]):
-                refuse_long_period(base.gearbox())
+                refuse_long_period(base)
         form = shape_of(boxes)
         samples, common = base.output.samples_per_cycle, form.periods[-1]
         through_jax = engine == "jax" and runs(base.solver.method) is not Runs.JAX
@@ -120,8 +120,8 @@ class MotionBatch:
         marched = () if settings.steady else (cost.CostKey("--transient", cycles, STEADY_CYCLES),)
         samples = float(case.output.samples_per_cycle)
         one = cost.total(
-            (*cost_keys(case.gearbox()), *marched),
-            *marching_of(case.gearbox(), float(cycles)),
+            (*cost_keys(case), *marched),
+            *marching_of(case, float(cycles)),
             cost.in_memory(3.0 * together * settings.window * samples, len(settings.states) * 8.0),
             cost.in_memory(settings.window * samples, cost.SAMPLE_BYTES),
             cost.Estimate(seconds=cost.MARCHED_SAMPLE * settings.window * samples),

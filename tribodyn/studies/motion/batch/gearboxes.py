@@ -14,7 +14,6 @@ from tribodyn.gears.tabulated import table_key
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
 from tribodyn.studies.motion.case import Gearbox, refuse_long_period
-from tribodyn.studies.motion.pair.case import Case
 from tribodyn.studies.motion.planetary.frames import rolling_of
 from tribodyn.studies.motion.planetary.results import stage_quantities, worst_stage
 from tribodyn.studies.motion.prepare import PreparedGearbox, structure_of
@@ -34,8 +33,6 @@ OF_MESHES = {name + OF_MESH: QUANTITIES[name].variable()._replace(dims=("mesh",)
 #: States that bound the memory of a sweep before its cases are known.
 MOST_STATES = 64
 
-AnyCase = Gearbox | Case
-
 
 class RunSpeed(NamedTuple):
     """How fast a case goes."""
@@ -54,9 +51,9 @@ class SweepShape(NamedTuple):
     meshes: tuple[str, ...] = ()  # names of all, where files name them
 
 
-def shape_of(cases: Sequence[AnyCase]) -> SweepShape:
+def shape_of(cases: Sequence[Gearbox]) -> SweepShape:
     """States, modes, common periods and meshes of all cases, of the one with most states first."""
-    boxes = sorted((case.gearbox() for case in cases), key=lambda box: -len(states_of(box)[0]))
+    boxes = sorted(cases, key=lambda box: -len(states_of(box)[0]))
     states = tuple(dict.fromkeys(name for box in boxes for name in states_of(box)[0]))
     meshes = tuple(dict.fromkeys(mesh.name for box in boxes for mesh in box.meshes if box.named))
     periods = tuple(sorted({box.period for box in boxes}))
@@ -72,12 +69,12 @@ def states_of(case: Gearbox) -> tuple[tuple[str, ...], int]:
     return state_names(names, planar, meshes, spatial), 2 * planar + len(names) + 3 * spatial - 1
 
 
-def keys_of_tables(case: AnyCase) -> Hashable:
+def keys_of_tables(case: Gearbox) -> Hashable:
     """Everything that the tables of a case depend on."""
     return tuple(map(table_key, case.pairs))
 
 
-def refuse_steady(case: AnyCase) -> None:
+def refuse_steady(case: Gearbox) -> None:
     """Raise InputError for a case that has no steady state that could be sought."""
     if teeth_differ(case):
         turn = ceil(run_speed_of(case).slowest)
@@ -85,21 +82,20 @@ def refuse_steady(case: AnyCase) -> None:
         remedy = f"march: --transient {10 * turn} ({turn} mesh cycles are a turn of the slowest gear), or "
         remedy += "keep what sensors hear: --signals 1s"
         raise InputError("--steady", None, rule, remedy)
-    refuse_long_period(case.gearbox())
+    refuse_long_period(case)
 
 
-def teeth_differ(case: AnyCase) -> bool:
+def teeth_differ(case: Gearbox) -> bool:
     """Whether teeth of one gear differ, so that no mesh cycle is like the one before."""
     return any(any(pair.teeth) for pair in case.pairs)
 
 
-def run_speed_of(case: AnyCase) -> RunSpeed:
+def run_speed_of(case: Gearbox) -> RunSpeed:
     """How fast a case goes."""
-    box = case.gearbox()
-    speed = box.source.speed / float(box.bodies[box.source.body].ratio)
-    teeth = Fraction(abs(box.gears[box.meshes[0].gears[0]].teeth))
-    slowest = min(body.ratio for body in box.bodies if body.gears and body.ratio)
-    rolling = rolling_of(box)
+    speed = case.source.speed / float(case.bodies[case.source.body].ratio)
+    teeth = Fraction(abs(case.gears[case.meshes[0].gears[0]].teeth))
+    slowest = min(body.ratio for body in case.bodies if body.gears and body.ratio)
+    rolling = rolling_of(case)
     return RunSpeed(speed, float(teeth) * rolling, float(teeth / slowest) * rolling)
 
 
@@ -138,14 +134,13 @@ def quantities_over(
     return concluded(prepared, whole, each), of_meshes, each
 
 
-def warmer(case: AnyCase, row: Mapping[str, Any], settings: SweepSettings) -> Gearbox | None:
+def warmer(case: Gearbox, row: Mapping[str, Any], settings: SweepSettings) -> Gearbox | None:
     """The case with every mesh at the temperature of its own loss, `row` of a sweep; None: all are."""
-    box = case.gearbox()
-    if box.meshes[0].pair.temperature is None:
+    if case.meshes[0].pair.temperature is None:
         return None
     names = ("bulk_temperature", "power_friction_mean")
     warm, lost = (
-        row[name + OF_MESH][mesh_places(box, settings)].tolist() if box.named else [float(row[name])]
+        row[name + OF_MESH][mesh_places(case, settings)].tolist() if case.named else [float(row[name])]
         for name in names
     )
-    return at_own_temperatures(box, warm, lost)
+    return at_own_temperatures(case, warm, lost)

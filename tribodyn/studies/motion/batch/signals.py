@@ -102,8 +102,8 @@ class SignalBatch:
                 "--signals", f"{duration:g} s", rule, f"use at least {FEWEST / min(rates):.3g} s"
             )
         placed = listener.sensors
-        structures = {states_of(case.gearbox()): case for case in reversed(cases)}
-        del structures[states_of(base.gearbox())]
+        structures = {states_of(case): case for case in reversed(cases)}
+        del structures[states_of(base)]
         listeners = [listener, *(listener_of(self._prepared(case, plain)) for case in structures.values())]
         return plain._replace(
             names=tuple(one.sensor.name for one in placed),
@@ -159,8 +159,8 @@ class SignalBatch:
         together = min(total, TOGETHER)
         signal = sum(samples_of(settings, rate) for rate in settings.rates)
         one = cost.total(
-            (*cost_keys(case.gearbox()), cost.CostKey("--signals", settings.cycles, 1000.0)),
-            *marching_of(case.gearbox(), float(settings.cycles)),
+            (*cost_keys(case), cost.CostKey("--signals", settings.cycles, 1000.0)),
+            *marching_of(case, float(settings.cycles)),
             cost.in_memory(together * BLOCK * settings.samples, 8.0 * MOST_STATES),
             cost.in_memory(together * signal, 3 * 8.0),
             cost.Estimate(seconds=_FILTERED * signal),
@@ -205,7 +205,7 @@ class SignalBatch:
                 _fail(rows, i, str(error))
         alike: dict[Any, list[int]] = {}  # by structure
         for i in ready:
-            alike.setdefault(states_of(chunk.cases[i].gearbox()), []).append(i)
+            alike.setdefault(states_of(chunk.cases[i]), []).append(i)
         listened = (
             zip(some, listen([ready[i] for i in some], workers), strict=True) for some in alike.values()
         )
@@ -248,8 +248,8 @@ class SignalBatch:
         stretch = between(case, earliest, last)
         samples = few_enough(stretch)
         one = cost.total(
-            cost_keys(case.gearbox()),
-            *marching_of(case.gearbox(), float(stretch.cycles)),
+            cost_keys(case),
+            *marching_of(case, float(stretch.cycles)),
             cost.in_memory(min(total, TOGETHER) * stretch.block * samples, 8.0 * MOST_STATES),
             cost.in_memory(stretch.block * samples, cost.SAMPLE_BYTES),
             cost.Estimate(seconds=_FILTERED * last * sum(sensor.rate for sensor in case.sensors)),

@@ -138,7 +138,7 @@ def legs_of(
         if way is None:
             legs.append(Leg(line, 0.0, 0.0, state, 0))
         else:
-            finest = _finest(way, prepared.given, table_key)
+            finest = _finest(way, prepared.case, table_key)
             legs.append(Leg(line, way.start, way.target, state, way.period, finest, way.reach))
     return legs
 
@@ -165,7 +165,7 @@ def prepared_between(
         if way is None or value == way.target:
             return cases[line]
         share = (value - way.start) / (way.target - way.start)
-        case = case_between(way.neighbour, cases[line].given, share)
+        case = case_between(way.neighbour, cases[line].case, share)
         return prepare(case)
 
     return prepared_at

@@ -5,10 +5,13 @@ as they would be written in TOML. Names of laws, families and solvers stand in t
 """
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from fractions import Fraction
+from math import nan, pi
+from typing import Annotated, Any, ClassVar, Literal
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
+from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.damage_rules import broken_damage
 from tribodyn.gears.motion.settings import (
     Friction,
@@ -39,9 +42,10 @@ from tribodyn.gears.scenario import (
     oil_fields,
 )
 from tribodyn.gears.supports import bearings_of
-from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.drive import SIDES, internal_side
+from tribodyn.input.fields import head_of
 from tribodyn.input.quantity import model_file, written
-from tribodyn.input.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of
+from tribodyn.input.tables.duty import broken_duty_rules, duty_of
 from tribodyn.input.tables.gears.damage import Damages, GearPlace, damage_of
 from tribodyn.input.tables.gears.drive_data import gives_backlash
 from tribodyn.input.tables.gears.internal_gear import driving_internal
@@ -49,7 +53,21 @@ from tribodyn.input.tables.gears.single_teeth import own_teeth_of, with_own_teet
 from tribodyn.input.tables.sensors import Housing, Sensors, broken_sensor_rules, housing_of, sensors_of
 from tribodyn.input.tables.supports.bearings import Bearings
 from tribodyn.input.tables.supports.shafts import listed
-from tribodyn.studies.motion.pair.case import Case
+from tribodyn.studies.motion.case import (
+    HOUSING,
+    BodyData,
+    Gearbox,
+    GearData,
+    LinkData,
+    LoadData,
+    SourceData,
+    TrainMesh,
+)
+
+#: Name of the mesh; the bodies have those of the gears.
+MESH = "mesh"
+#: The gear stands above the pinion, which turns clockwise: x is along the pitch tangent.
+UPWARD, CLOCKWISE = pi / 2.0, -1
 
 
 class GearPairScenario(GearScenario):
@@ -77,46 +95,103 @@ class GearPairScenario(GearScenario):
 Scenario = GearPairScenario
 
 
-def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
-    """Return the case of a scenario that has passed schema and rules."""
-    teeth = own_teeth_of(scenario.drive, scenario.mesh.tooth_sample)
+def case_of(scenario: Scenario, toml: str, sha256: str) -> Gearbox:
+    """Return the case of a scenario that has passed schema and rules: a gearbox of one pair of gears."""
+    drive = scenario.drive
+    teeth = own_teeth_of(drive, scenario.mesh.tooth_sample)
     damaged = gears_of_pair(scenario)
     one, two = (
         (*each, *damage_of([one for one in scenario.damage if one.gear == side], damaged[side]))
         for each, side in zip(teeth, SIDES, strict=True)
     )
     teeth = one, two
+    duty = duty_of(scenario.operating.load, drive.pinion.teeth, drive.gear.teeth)
     own = {"mesh": with_own_teeth(moving_mesh_of(scenario), teeth), "teeth": teeth}
-    case = Case(
-        **gear_fields(scenario, toml, sha256, operating=_operating(scenario), **own),
-        **oil_fields(scenario),
-        bearings=bearings_of(scenario),
-        shafts={shaft.gears[0]: (shaft.mass, shaft.inertia) for shaft in listed(scenario.shaft)},
-        solver=solver_data(scenario.solver, scenario.drive.pinion.teeth),
-        output=output_data(scenario.output, scenario.solver, scenario.drive.pinion.teeth, differ=any(teeth)),
+    gears = gear_fields(scenario, toml, sha256, operating=OperatingData(*duty), **own)
+    pair = with_chosen_laws(LubricatedCase(**gears, **oil_fields(scenario)))
+    return _gearbox(scenario, pair)
+
+
+def _gearbox(scenario: Scenario, pair: LubricatedCase) -> Gearbox:
+    """A train of one stage: gears, bearings, drive and load by their names."""
+    operating, drive = scenario.operating, pair.drive
+    teeth = [round(float(gear.teeth)) for gear in (drive.pinion, drive.gear)]
+    ratio = Fraction(abs(teeth[0]), abs(teeth[1]))
+    rigid = operating.source == "speed" or operating.shaft_stiffness is None
+    attached = operating.drive_inertia if rigid else 0.0, operating.load_inertia
+    shafts = {shaft.gears[0]: (shaft.mass, shaft.inertia) for shaft in listed(scenario.shaft)}
+    further = [shafts.get(side, (0.0, 0.0)) for side in SIDES]
+    # both gears of a ring turn alike
+    senses = CLOCKWISE, -CLOCKWISE if internal_side(drive) is None else CLOCKWISE
+    torque, curve = operating.motor_torque, operating.output_torque_table
+    bearings = bearings_of(scenario)
+    head: dict[str, Any] = {**head_of(scenario, pair.toml, pair.sha256)}
+    return Gearbox(
+        **head,
+        gears=tuple(
+            GearData(
+                name=side,
+                key=f"drive.{side}",
+                body=number,
+                shaft=number,
+                teeth=teeth[number],
+                plane=1,
+                tooth_angle=0.0,
+                given=pair.masses[number],
+                density=pair.materials[number].density,
+                meshes=((0, side),),
+                face_width=float((drive.pinion, drive.gear)[number].face_width),
+            )
+            for number, side in enumerate(SIDES)
+        ),
+        bodies=tuple(
+            BodyData(
+                name=side,
+                key=f"drive.{side}",
+                gears=(number,),
+                mass=further[number][0],
+                inertia=attached[number] + further[number][1],
+                ratio=(Fraction(1), ratio)[number],
+                sense=senses[number],
+                centre=((0.0, 0.0), (0.0, nan))[number],  # as far apart as its path of contact says
+                attached=attached[number],
+                floating=True,
+            )
+            for number, side in enumerate(SIDES)
+        ),
+        links=tuple(
+            LinkData.of_bearing(f"bearing-{side}", f"bearings.{side}", (number, HOUSING), held, bearing=held)
+            for number, (side, held) in enumerate(zip(SIDES, bearings, strict=True))
+        ),
+        meshes=(TrainMesh(MESH, "drive", 0, 1, (0, 1), UPWARD, Fraction(1), pair),),
+        source=SourceData.of(
+            operating,
+            0,
+            pair.operating.pinion_speed,
+            pair.operating.gear_torque * float(ratio) if torque is None else torque,
+        ),
+        loads=(
+            LoadData(
+                1,
+                pair.operating.gear_torque,
+                operating.load_damping,
+                curve.in_si() if curve else None,
+                harmonics_of(operating.output_torque_harmonics),
+            ),
+        ),
+        period=1,
+        max_period=1,
+        solver=solver_data(scenario.solver, teeth[0]),
+        output=output_data(scenario.output, scenario.solver, teeth[0], differ=any(pair.teeth)),
         sensors=sensors_of(scenario.sensor),
         housing=housing_of(scenario.housing),
+        named=False,
     )
-    return with_chosen_laws(case)
 
 
 def gears_of_pair(scenario: Scenario) -> dict[str, GearPlace]:
     """The gears that may be damaged."""
     return {side: GearPlace(((scenario.drive, side),)) for side in SIDES}
-
-
-def _operating(scenario: Scenario) -> OperatingData:
-    operating, drive = scenario.operating, scenario.drive
-    curve = operating.output_torque_table
-    return OperatingData(
-        **duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth)._asdict(),
-        pinion_torque=operating.motor_torque,
-        torque_table=curve.in_si() if curve else None,
-        torque_harmonics=harmonics_of(operating.output_torque_harmonics),
-        **operating.model_dump(
-            exclude={"output_torque_table", "output_torque_harmonics", *OiledOperatingTable.model_fields}
-        ),
-    )
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:

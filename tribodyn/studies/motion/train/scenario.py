@@ -254,7 +254,7 @@ def _meshes(
         driver, carrier = motion.driver[mesh], motion.carrier[mesh]
         teeth = own_teeth(scenario, train, mesh, view)
         speed = duty.speed * float(motion.ratio[driver] - motion.carried(driver, carrier))
-        operating = OperatingData("speed", speed, duty.torques.driven[mesh])
+        operating = OperatingData(speed, duty.torques.driven[mesh])
         moving = with_own_teeth(moving_mesh_of(view), teeth)
         oiled: dict[str, Any] = oil_fields(view) | {"losses": losses[mesh]}
         gears = gear_fields(view, *text, operating=operating, mesh=moving, teeth=teeth)
