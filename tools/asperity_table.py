@@ -10,7 +10,7 @@ from functools import partial
 from tools.marked_block import generate, table
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.ehl.run import quantities_of
-from tribodyn.tribology.asperities import BY_FINISH
+from tribodyn.tribology.contact import BY_FINISH
 
 PAIR = {
     "title": "25 and 60 teeth",
@@ -29,7 +29,7 @@ PAIR = {
     "operating": {"pinion_speed": "1800 rpm", "power": "20 kW", "oil_temperature": "80 degC"},
     "output": {"positions": 12},
 }
-#: σβn and σ/β that are no finish of `asperities.BY_FINISH`.
+#: σβn and σ/β that are no finish of `contact.BY_FINISH`.
 OTHERS = ((0.03, 0.01), (0.05, 0.1), (0.1, 0.01))
 
 

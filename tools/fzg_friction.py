@@ -16,9 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tools.marked_block import generate, table
-from tribodyn.tribology.asperities import Asperities
 from tribodyn.tribology.closure import without_nominal_conditions
-from tribodyn.tribology.contact import Surfaces
+from tribodyn.tribology.contact import Asperities, Surfaces
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.of_case import Contact, contact_of
 from tribodyn.tribology.ehl.problem import LineContact

@@ -24,7 +24,7 @@ from tribodyn.tribology.ehl.of_case import contact_of
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.table import STEP
 from tribodyn.tribology.film import FILM_LAWS
-from tribodyn.tribology.film.roughening import roughening
+from tribodyn.tribology.film.numbers import roughening
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw, LawInput
 from tribodyn.tribology.oil import LubricantData

@@ -7,7 +7,7 @@ from tribodyn.train.links.chain import BY_TABLE
 from tribodyn.train.schedule import Schedule
 from tribodyn.train.structure import Bodies, GearMesh, Links, TrainLayout
 from tribodyn.tribology.film.numbers import FilmNumbers, film_by_number
-from tribodyn.tribology.friction.none import LAW, NO_FRICTION
+from tribodyn.tribology.friction.coulomb import NO_FRICTION, NONE
 from tribodyn.tribology.law import (
     ActiveLaw,
     Closure,
@@ -116,6 +116,6 @@ def with_shared_code(model: Model) -> Model:
 
 def frictionless(model: Model) -> Model:
     """Return the model without friction."""
-    options = model.options._replace(friction=LAW.functions, reads_film=0)
+    options = model.options._replace(friction=NONE.functions, reads_film=0)
     meshes = tuple(mesh._replace(friction=NO_FRICTION) for mesh in model.meshes)
     return model._replace(meshes=meshes, options=options)

@@ -19,8 +19,8 @@ from tribodyn.input.tables.gears.drive_data import RoundedDistance, rounded_dist
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.quantities.catalogue import quantities
-from tribodyn.tribology.asperities import Asperities
 from tribodyn.tribology.bulk_temperature import TemperatureData
+from tribodyn.tribology.contact import Asperities
 from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.losses import LossData
 from tribodyn.tribology.oil import LubricantData

@@ -11,8 +11,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.elementary import as_float, is_jax, minimum, sense
-from tribodyn.tribology.asperities import Asperities
-from tribodyn.tribology.contact import DUTY_LOADS, DutyRange, NominalConditions, Surfaces
+from tribodyn.tribology.contact import DUTY_LOADS, Asperities, DutyRange, NominalConditions, Surfaces
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import (

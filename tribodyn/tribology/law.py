@@ -15,8 +15,8 @@ from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.numerics.elementary import LAWS, absolute, law
 from tribodyn.numerics.parameter import Parameter
-from tribodyn.tribology.asperities import Asperities
 from tribodyn.tribology.contact import (
+    Asperities,
     DutyRange,
     NominalConditions,
     Surfaces,

@@ -15,7 +15,7 @@ from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.ehl.steady import solve_steady
 from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, masjedi_khonsari
 from tribodyn.tribology.film.moes import log_of_sum, log_survey
-from tribodyn.tribology.film.roughening import roughening
+from tribodyn.tribology.film.numbers import roughening
 
 SURFACES = LIU_NI.surfaces
 SMOOTH = LIU_NI._replace(surfaces=SURFACES._replace(roughness=1e-16))

@@ -14,11 +14,11 @@ from tribodyn.tribology.contact import NominalConditions, local_contact
 from tribodyn.tribology.ehl.lookup import LIMITS, in_table
 from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, masjedi_khonsari, moes
 from tribodyn.tribology.friction import FRICTION_LAWS, benedict_kelley, coulomb, xu
+from tribodyn.tribology.friction import coulomb as frictionless
 from tribodyn.tribology.friction import masjedi_khonsari as mixed
-from tribodyn.tribology.friction import none as frictionless
 from tribodyn.tribology.friction.iso_14179_1 import LAW as ISO
 from tribodyn.tribology.friction.niemann import LAW as NIEMANN
-from tribodyn.tribology.friction.schlenk import LAW as SCHLENK
+from tribodyn.tribology.friction.niemann import SCHLENK
 from tribodyn.tribology.surface_state import range_shares, surface_state
 
 PAGE = Path(__file__).parents[3] / "docs" / "ehl.md"
@@ -162,7 +162,7 @@ def test_laws_without_a_range_say_nothing():
     for sliding in (-0.3, 0.0, 0.1):
         seen = local_contact(3e5, 77.0, 0.6, sliding, 0.65, 0.55)
         assert coulomb.LAW.function(seen, None, None, laws.friction.parameters) == 0.07
-        assert frictionless.LAW.function(seen, None, None, frictionless.NO_FRICTION) == 0.0
+        assert frictionless.NONE.function(seen, None, None, frictionless.NO_FRICTION) == 0.0
     assert coulomb.LAW.stated == ""
     shares = range_shares(local_contact(3e5, 77.0, 0.6, 0.1, 0.65, 0.55), laws)[1]
     assert np.all(np.isnan(shares))

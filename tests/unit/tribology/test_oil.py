@@ -9,8 +9,7 @@ import pytest
 
 from tribodyn.tribology import oil
 from tribodyn.tribology.contact import NominalConditions
-from tribodyn.tribology.friction.niemann import niemann
-from tribodyn.tribology.friction.schlenk import schlenk
+from tribodyn.tribology.friction.niemann import niemann, schlenk
 from tribodyn.tribology.oil import (
     OIL_TYPES,
     T_40,

@@ -20,8 +20,7 @@ from tribodyn.geometry.body import GEOMETRY
 from tribodyn.mesh.record_arrays import MESH_CYCLE
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.tribology.wear.depth import RunningIn
-from tribodyn.tribology.wear.law import WearData
+from tribodyn.tribology.wear.law import RunningIn, WearData
 
 BODIES = ("pinion", "gear")
 #: Teeth that wear alike, or each by itself.

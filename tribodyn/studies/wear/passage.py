@@ -23,8 +23,7 @@ from tribodyn.studies.wear.pressed_positions import WearPlaces
 from tribodyn.tribology.closure import closure_of
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
-from tribodyn.tribology.wear.depth import depth_per_passage
-from tribodyn.tribology.wear.law import WearContact
+from tribodyn.tribology.wear.law import WearContact, depth_per_passage
 
 # Friction moves loads through its arm alone: each round shrinks the error tenfold or more.
 _ROUNDS, _TOLERANCE = 60, 1e-10

@@ -21,7 +21,7 @@ from tribodyn.compliance.sharing.loaded_contact import face_shift, reach
 from tribodyn.geometry.helix import normal_slope, pitch_slope, speed_share
 from tribodyn.geometry.path import kinematics, pitch_point
 from tribodyn.numerics.shapes import Array, Bool, Float, Int
-from tribodyn.tribology.wear.depth import specific_slip
+from tribodyn.tribology.wear.law import specific_slip
 
 # Corners are followed to a gap of so many deflections of a single pair: further than with new flanks.
 _REACH = 4.0

@@ -38,8 +38,7 @@ from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.studies.wear.case import ALIKE, EACH, WearCase
 from tribodyn.tribology.law import FilmData
 from tribodyn.tribology.wear import WEAR_LAWS
-from tribodyn.tribology.wear.depth import RunningIn
-from tribodyn.tribology.wear.law import WearData
+from tribodyn.tribology.wear.law import RunningIn, WearData
 
 #: Rows of a record where the scenario says nothing, beside the unworn flanks.
 ROWS = 20

@@ -12,8 +12,7 @@ from functools import partial
 
 from tribodyn.numerics.elementary import law, log
 from tribodyn.tribology.contact import hertz_pressure, inlet_heating, moes_numbers
-from tribodyn.tribology.film.numbers import DOWSON_HIGGINSON, film_numbers
-from tribodyn.tribology.film.roughening import roughening
+from tribodyn.tribology.film.numbers import DOWSON_HIGGINSON, film_numbers, roughening
 from tribodyn.tribology.law import FilmLaw, JudgedRange
 
 _LOG_FACTOR = math.log(2.65)

@@ -21,8 +21,7 @@ from functools import partial
 
 from tribodyn.numerics.elementary import absolute, exp, law, log, log1p, maximum, minimum
 from tribodyn.tribology.contact import hertz_pressure, inlet_heating, moes_numbers
-from tribodyn.tribology.film.numbers import MOES, film_numbers
-from tribodyn.tribology.film.roughening import roughening
+from tribodyn.tribology.film.numbers import MOES, film_numbers, roughening
 from tribodyn.tribology.law import FilmLaw, JudgedRange
 
 _LOG_RI, _LOG_RP = math.log(3.0), math.log(1.287)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any, NamedTuple
 
-from tribodyn.numerics.elementary import log
+from tribodyn.numerics.elementary import exp, law, log, log1p
 from tribodyn.tribology.law import LawInput
 
 #: Numbers of the laws, by which `film_by_number` tells them apart.
@@ -41,3 +41,22 @@ def film_numbers(inputs: LawInput, number: int, asperity_log_factor: float = 447
 def film_by_number() -> Callable[..., Any]:
     """Return the function of all laws by formula; by name, so that no kernel without it depends on them."""
     return import_module("tribodyn.tribology.film.by_number").film_by_number
+
+
+# From the film between smooth flanks to the mean gap between rough ones: one quantity for all film laws.
+#
+# Fitted to 380 contacts of gears, each solved with and without roughness (`tools/law_ranges.py`): seven
+# oils, surfaces of Ra 0.05 to 0.8 µm, h/σ from 0.01 to 30, asperities and limiting stress of drawn
+# constants. In nine of ten the factor is 0.92 to 1.06 times the solved one, with the asperities' usual
+# constants 0.97 to 1.06.
+
+
+#: A and B of h/h_s = (1 + A (σ/h_s)²)^B, the mean gap h on the line of centres over the central film h_s of smooth
+#: flanks.
+ROUGHENING_FACTOR, ROUGHENING_POWER = 1.25, 0.2
+
+
+@law
+def roughening(log_smooth, log_roughness):
+    """Factor by which roughness raises a film, from the logarithms of the smooth film and of σ, m."""
+    return exp(ROUGHENING_POWER * log1p(ROUGHENING_FACTOR * exp(2.0 * (log_roughness - log_smooth))))

@@ -9,7 +9,7 @@ FRICTION_LAWS: Registry[FrictionLaw] = Registry(
     "friction.law",
     "friction law",
     {
-        "none": "tribodyn.tribology.friction.none:LAW",
+        "none": "tribodyn.tribology.friction.coulomb:NONE",
         "coulomb": "tribodyn.tribology.friction.coulomb:LAW",
         "masjedi-khonsari": f"{_MIXED}:LAW",
         "masjedi-khonsari-mean-pressure": f"{_MIXED}:MEAN_PRESSURE",
@@ -19,7 +19,7 @@ FRICTION_LAWS: Registry[FrictionLaw] = Registry(
         "xu": "tribodyn.tribology.friction.xu:LAW",
         "benedict-kelley": "tribodyn.tribology.friction.benedict_kelley:LAW",
         "niemann": "tribodyn.tribology.friction.niemann:LAW",
-        "schlenk": "tribodyn.tribology.friction.schlenk:LAW",
+        "schlenk": "tribodyn.tribology.friction.niemann:SCHLENK",
         "iso-14179-1": "tribodyn.tribology.friction.iso_14179_1:LAW",
         "solved": "tribodyn.tribology.friction.solved:LAW",
     },

@@ -76,3 +76,15 @@ LAW = FrictionLaw(
     ),
     reads_film=False,
 )
+
+
+#: A coefficient of zero, so that machine code with it is that of any constant one.
+NO_FRICTION = Constant(0.0, float("nan"))
+
+NONE = FrictionLaw(
+    "none",
+    "frictionless flanks; the film is still reported",
+    constant,
+    lambda given: NO_FRICTION,
+    reads_film=False,
+)

@@ -7,8 +7,7 @@ import pytest
 
 import tribodyn as td
 from tests.support.closures import LIU_NI
-from tribodyn.tribology.asperities import BY_FINISH, FINISHES, Asperities, asperities_of
-from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.contact import BY_FINISH, FINISHES, Asperities, asperities_of, local_contact
 from tribodyn.tribology.ehl import reynolds
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid import Fluid, Rheology, hot_log_viscosity, log_viscosity

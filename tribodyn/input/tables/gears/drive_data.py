@@ -29,7 +29,7 @@ from tribodyn.input.tables.gears.tooth_data import (
     pressure_angle_of,
     shape_of,
 )
-from tribodyn.tribology.asperities import asperities_of
+from tribodyn.tribology.contact import asperities_of
 
 #: Rounding that is believed, at most, modules: about the backlash that gears are given. A larger overlap is a
 #: mistake, whatever the digits ("0.1 m").

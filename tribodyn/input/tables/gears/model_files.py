@@ -11,7 +11,7 @@ from tribodyn.input import quantity, units
 from tribodyn.input.fields import ErrorCurve
 from tribodyn.input.tables.gears.material import Described, MaterialReference
 from tribodyn.standards.allowances import CODES
-from tribodyn.tribology.asperities import FinishName
+from tribodyn.tribology.contact import FinishName
 
 Amount = Annotated[float, quantity.InUnit(units.not_negative(units.RELIEF))]
 Length = Annotated[float, quantity.InUnit(units.positive(units.LENGTH))]
