@@ -9,7 +9,7 @@ import numpy as np
 
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, at_radii, at_wave_numbers
 from tribodyn.compliance.sharing.face_root_stress import root_stress
-from tribodyn.compliance.sharing.oblique_faces import oblique_faces
+from tribodyn.compliance.sharing.section import oblique_faces
 from tribodyn.gears.rating.limits import least
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord

@@ -8,7 +8,7 @@ solutions, which gives what the polynomials leave out: how far a load on one too
 
 The ring held at its bore winds up and shifts as a whole. In motion that is no compliance of a mesh: the
 inertia sits in the rim, and torque and force accelerate it. Of a body that is not `held` orders 0 and 1 of
-the series are those of `free_body`, balanced by inertia; all others are the same.
+the series are those of `rim.free_shift`, balanced by inertia; all others are the same.
 
 Root loads of a tooth are ordered (N, T, M): N along the tooth's axis, positive outwards; T across it,
 positive counter-clockwise; M a counter-clockwise moment about the point where the tooth's axis meets the
@@ -19,8 +19,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from tribodyn.compliance.free_body import free_shift, free_torsion
-from tribodyn.compliance.rim import pinned_receptance
+from tribodyn.compliance.rim import free_shift, free_torsion, pinned_receptance
 from tribodyn.numerics.elementary import cos, is_jax, log, maximum, namespace, sin, within
 from tribodyn.numerics.shapes import Array, Float
 
@@ -173,9 +172,8 @@ def ring_compliance(
     Exact for a ring in plane stress from the bore radius, over the root radius, `bore_ratio`. Its shape is
     fixed at the bore, or around the teeth (a ratio above 1) at its outside, on `pins` there (`rim`) or, with
     0, free as `_ring_receptance` has it (`around` says so where the ratio is traced). As a whole it is `held`
-    there (the ratio is not 0), or else free (`free_body`), whatever the rim, with teeth up to the tip radius,
-    over the root radius, `tip_ratio`. Each tooth loads its arc
-    of the root circle with uniform (N, T) and linear (M) traction along its own axes; displacements are the
+    there (the ratio is not 0), or else free (`rim.free_shift`), whatever the rim, with teeth up to the tip
+    radius, over the root radius, `tip_ratio`. Each tooth loads its arc of the root circle with uniform (N, T) and linear (M) traction along its own axes; displacements are the
     work conjugates (means over the arc). Truncated after `harmonics` terms: the self term (angle 0) converges
     like (harmonics · root_half_angle)^−2 and needs about 40/root_half_angle of them, the term between two
     teeth converges faster.

@@ -17,8 +17,7 @@ from tribodyn.compliance.crack import (
     tangent_limits,
 )
 from tribodyn.compliance.energy import hertz_linear, loaded_tooth, tooth_compliance
-from tribodyn.compliance.fem.crack_mesh import cracked_mesh
-from tribodyn.compliance.fem.cracked_tooth import added_compliance, solved_crack_compliance
+from tribodyn.compliance.fem.cracked_tooth import added_compliance, cracked_mesh, solved_crack_compliance
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive

@@ -16,7 +16,7 @@ from tribodyn.compliance.fem.gear_compliance import (
 from tribodyn.compliance.sharing import face_root_stress
 from tribodyn.compliance.sharing.face_root_stress import _of_free_ends, _of_one_gear
 from tribodyn.compliance.sharing.loaded_contact import _ages
-from tribodyn.compliance.sharing.oblique_faces import oblique_faces
+from tribodyn.compliance.sharing.section import oblique_faces
 from tribodyn.compliance.sharing.slices import _add_free_ends, end_modes
 from tribodyn.geometry.corner_contact import pair_geometry
 

@@ -13,9 +13,9 @@ from tribodyn.compliance.fem.gear import gear_compliance, gear_model
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, meshed_bore
 from tribodyn.compliance.fem.strips import plane_stiffness
 from tribodyn.compliance.foundation import _root_loads, free_foundation, ring_compliance, ring_foundation
-from tribodyn.compliance.free_body import free_shift, free_torsion
 from tribodyn.compliance.iso6336 import pair_of, reference_stiffness
 from tribodyn.compliance.local import freed_of_depth
+from tribodyn.compliance.rim import free_shift, free_torsion
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families.involute import FAMILY

@@ -8,9 +8,9 @@ from tests.support.helical import assembly, elastic
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.compliance.iso6336 import MEASURED_CORRECTION, pair_of, reference_stiffness
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
-from tribodyn.compliance.sharing.loaded_contact import roll_through, slice_contacts
+from tribodyn.compliance.sharing.loaded_contact import roll_through
 from tribodyn.compliance.sharing.oblique import oblique_compliance
-from tribodyn.compliance.sharing.oblique_faces import oblique_faces
+from tribodyn.compliance.sharing.section import oblique_faces
 from tribodyn.compliance.sharing.slices import PairFlexibility, slice_compliance
 from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import pair_geometry
@@ -74,7 +74,7 @@ def test_the_loads_carry_the_torque(friction):
     loaded = roll_through(flanks, TORQUE, 10, friction_coefficient=friction)
     drive = flanks.flexible.assembly.drive
     base = drive.module * 36 / 2 * np.cos(drive.pressure_angle)
-    seen = slice_contacts(flanks, loaded.roll)
+    seen = flanks.contacts(loaded.roll)
     load = loaded.line_load * WIDTH / 9 / np.cos(base_helix_angle(drive))
     r = seen.geometry.motion.signed_distance
     along = base * np.tan(drive.pressure_angle) - r  # no shift: α_w = α_t

@@ -5,7 +5,6 @@ import pytest
 
 from tribodyn.compliance.sharing.face_root_stress import root_stress
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
-from tribodyn.compliance.sharing.loaded_contact import slice_contacts
 from tribodyn.compliance.sharing.tooth_field import tooth_field
 from tribodyn.geometry.drive import SIDES
 from tribodyn.validation.papers.jia import elastic
@@ -31,7 +30,7 @@ def test_its_roots_are_those_of_the_root_stress(flexible, side, along):
     """By nodes and by the surface's strains: within the mesh's 5 %."""
     load = 1e5 * np.array([0.3, 1.0, 0.2])[:, None] * along
     flanks = LoadedFlanks(flexible, slices=SLICES)
-    seen = slice_contacts(flanks, ROLL[None])
+    seen = flanks.contacts(ROLL[None])
     tension, compression = (part[SIDES.index(side), 0, 1] for part in root_stress(flexible, seen, load[None]))
     field = tooth_field(flanks, side, ROLL, load, 1)
     below = field.profile[: int(np.flatnonzero(field.profile == field.loaded)[0]) // 2]

@@ -5,9 +5,9 @@ import pytest
 
 from tests.support.faces_in_slices import WIDTH
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS
+from tribodyn.compliance.sharing.face_root_stress import tooth_stress
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import roll_through
-from tribodyn.compliance.sharing.tooth_stress import tooth_stress
 from tribodyn.geometry.modification import Misalignment, Modifications
 
 POSITIONS, SLICES = 12, 7

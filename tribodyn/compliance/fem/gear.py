@@ -12,9 +12,8 @@ from scipy.sparse import csr_matrix
 from scipy.spatial import KDTree
 from skfem import Basis
 
-from tribodyn.compliance.fem.cyclic_symmetry import HalfSector, half_sector, ring_response
+from tribodyn.compliance.fem.cyclic_symmetry import HalfSector, half_sector, inertia_of, ring_response
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, ElasticGear, GearCompliance, LeadHarmonics
-from tribodyn.compliance.fem.inertia_relief import inertia_of
 from tribodyn.compliance.fem.ring_mesh import SectorMesh, half_sector_cells, half_sector_mesh, signed_polar
 from tribodyn.compliance.fem.strips import (
     COMPONENTS,

@@ -14,7 +14,7 @@ and with Weber-Banaschek's deflection down to the depth h its surface deflects b
 the limit of h_s(h; k) for kh → 0. What a tooth has more than a half-space, u − h_s, is read at h and 2h and
 taken on to the surface, as `local.freed_of_depth` does for k = 0. As k grows only B is left.
 
-A gear that is free (`inertia_relief`) differs from one that is held at its bore under a load that is even
+A gear that is free (`cyclic_symmetry`) differs from one that is held at its bore under a load that is even
 along the teeth, k = 0. Loads of k > 0 have no resultant, and the body hands them on from one part of the face
 to another: its bore, which stays straight on a stiff shaft, counts as exp(−k(r_root − r_bore)).
 """

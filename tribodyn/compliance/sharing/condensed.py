@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.sharing.load_sharing import SharedLoad, contact_deflection, in_batches, press_pairs
+from tribodyn.compliance.sharing.load_sharing import SharedLoad, contact_deflection, in_batches, press_slices
 from tribodyn.compliance.sharing.slices import PairFlexibility, friction_ratio, peak_ratio, slice_compliance
 from tribodyn.geometry.corner_contact import PairGeometry, part_of
 from tribodyn.numerics.shapes import Array, Float
@@ -24,6 +24,26 @@ from tribodyn.numerics.shapes import Array, Float
 _JOINING = 0.2
 # Slices that carry less than this share of the mean are linearised there.
 _MINIMUM_SLICE = 1e-3
+
+
+def press_pairs(
+    flexible: PairFlexibility,
+    curvature: Float[Array, "position pair"],
+    compliance: Float[Array, "position pair slice pair slice"],
+    arm: Float[Array, "position pair"],
+    lever: Float[Array, "position pair"],
+    gap: Float[Array, "position pair slice"],
+    torque: Float[Array, " position"],
+) -> SharedLoad:
+    """Share torques (position,) among pairs of slices; arrays (position, pair), the gap (…, slice).
+
+    `compliance` (position, pair, slice, pair, slice) as made by `slices.slice_compliance`.
+    """
+    even = np.ones(gap.shape)
+    slices = gap.shape[-1]
+    width = flexible.width / slices * even
+    bent, arms, levers = (field[..., None] * even for field in (curvature, arm, lever))
+    return press_slices(flexible, bent, width, compliance, arms, levers, gap, torque)
 
 
 class Condensed(NamedTuple):

@@ -14,12 +14,8 @@ from tribodyn.compliance.sharing.load_sharing import (
     in_batches,
     press_slices,
 )
-from tribodyn.compliance.sharing.loaded_contact import slice_contacts
-from tribodyn.compliance.sharing.oblique import oblique_compliance
-from tribodyn.compliance.sharing.oblique_faces import ObliqueFaces
-from tribodyn.compliance.sharing.section import is_helical
-from tribodyn.compliance.sharing.slices import slice_compliance
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry
+from tribodyn.compliance.sharing.section import ObliqueFaces
+from tribodyn.geometry.corner_contact import PairGeometry
 from tribodyn.numerics.elementary import sense
 from tribodyn.numerics.processes.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float
@@ -35,13 +31,12 @@ class HeldFlanks:
     @cached_property
     def faces(self) -> ObliqueFaces:
         """Where the slices touch, without friction; of spur gears all alike, (position, pair, 1)."""
-        return slice_contacts(self.flanks, self.roll)
+        return self.flanks.contacts(self.roll)
 
     @cached_property
     def geometry(self) -> PairGeometry:
         """The same as the gaps between flanks take it: of spur gears (position, pair)."""
-        helical = is_helical(self.flanks.flexible.assembly)
-        return self.faces.geometry if helical else pair_geometry(self.flanks.flexible.assembly, self.roll)
+        return self.flanks.geometry(self.faces)
 
     @cached_property
     def length(self) -> Float[Array, "position pair slice"]:
@@ -57,19 +52,7 @@ class HeldFlanks:
     @cached_property
     def _compliance(self) -> Float[Array, "position pair slice pair slice"]:
         """Λ of all positions, m/N; in batches, which bound what it takes to work out."""
-        flexible, coupled = self.flanks.flexible, self.flanks.coupled
-        if is_helical(flexible.assembly):
-            parts = [
-                oblique_compliance(flexible, self.faces.at(rows), coupled) for rows in in_batches(self.shape)
-            ]
-        else:
-            parts = [
-                slice_compliance(
-                    flexible, pair_geometry(flexible.assembly, self.roll[rows]), self.shape[-1], coupled
-                )
-                for rows in in_batches(self.shape)
-            ]
-        return np.concatenate(parts)
+        return np.concatenate([self.flanks.compliance(self.faces, rows) for rows in in_batches(self.shape)])
 
     @one_blas_thread()
     def share(

@@ -22,12 +22,17 @@ from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.compliance.sharing.active_set import press
 from tribodyn.compliance.sharing.flank_gap import flank_gap, oblique_gap
 from tribodyn.compliance.sharing.oblique import oblique_compliance
-from tribodyn.compliance.sharing.oblique_faces import oblique_faces
 from tribodyn.compliance.sharing.pinned import check_even, on_pins
-from tribodyn.compliance.sharing.section import elastic_section, is_helical, length_per_width
+from tribodyn.compliance.sharing.section import (
+    ObliqueFaces,
+    elastic_section,
+    is_helical,
+    length_per_width,
+    oblique_faces,
+)
 from tribodyn.compliance.sharing.slices import PairFlexibility, slice_compliance
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of
+from tribodyn.geometry.corner_contact import PairGeometry, part_of
 from tribodyn.geometry.drive import SIDES, MaterialData, Side, body_of
 from tribodyn.geometry.helix import face_positions, pitch_slope, roll_shift
 from tribodyn.geometry.modification import UNMODIFIED, Modifications
@@ -145,26 +150,6 @@ def in_batches(shape: tuple[int, ...]) -> list[slice]:
     return [slice(first, min(positions, first + most)) for first in range(0, positions, most)]
 
 
-def press_pairs(
-    flexible: PairFlexibility,
-    curvature: Float[Array, "position pair"],
-    compliance: Float[Array, "position pair slice pair slice"],
-    arm: Float[Array, "position pair"],
-    lever: Float[Array, "position pair"],
-    gap: Float[Array, "position pair slice"],
-    torque: Float[Array, " position"],
-) -> SharedLoad:
-    """Share torques (position,) among pairs of slices; arrays (position, pair), the gap (…, slice).
-
-    `compliance` (position, pair, slice, pair, slice) as made by `slices.slice_compliance`.
-    """
-    even = np.ones(gap.shape)
-    slices = gap.shape[-1]
-    width = flexible.width / slices * even
-    bent, arms, levers = (field[..., None] * even for field in (curvature, arm, lever))
-    return press_slices(flexible, bent, width, compliance, arms, levers, gap, torque)
-
-
 def press_slices(
     flexible: PairFlexibility,
     curvature: Float[Array, "position pair slice"],
@@ -254,6 +239,27 @@ class LoadedFlanks(NamedTuple):
         late = roll[..., None] - np.asarray(roll_shift(assembly, self.face()))
         return np.clip(late, start - pitch, end + pitch)
 
+    def contacts(
+        self, roll: Float[Array, "position pair"], friction_coefficient: Float[Array, "..."] | float = 0.0
+    ) -> ObliqueFaces:
+        """Where the slices of pairs touch; of spur gears all of a pair are alike, (position, pair, 1)."""
+        rolls = self.rolls(roll)
+        rolls = rolls if rolls.ndim == 3 else rolls[..., None]
+        return oblique_faces(self.flexible.assembly, rolls, friction_coefficient)
+
+    def geometry(self, faces: ObliqueFaces) -> PairGeometry:
+        """What `gap` takes of `contacts`: of spur gears that of the pairs, (position, pair)."""
+        if is_helical(self.flexible.assembly):
+            return faces.geometry
+        return part_of(faces.geometry, np.s_[..., 0])
+
+    def compliance(self, faces: ObliqueFaces, rows: slice) -> Float[Array, "position pair slice pair slice"]:
+        """Λ at some positions of `contacts`, m/N, without the slices' own local deflection."""
+        if is_helical(self.flexible.assembly):
+            return oblique_compliance(self.flexible, faces.at(rows), self.coupled)
+        pairs = part_of(faces.geometry, (rows, ..., 0))
+        return slice_compliance(self.flexible, pairs, self.slices, self.coupled)
+
     @one_blas_thread()
     def share(
         self,
@@ -275,54 +281,33 @@ class LoadedFlanks(NamedTuple):
             way
         gap : what is missing between the flanks beside the corners' gap, m; default: that of `gap`
         """
-        if is_helical(self.flexible.assembly):
-            return self._share_oblique(roll, gear_torque, friction_coefficient, gap)
-        geometry = pair_geometry(self.flexible.assembly, roll)
-        motion = geometry.motion
-        side = np.sign(motion.signed_distance)
-        gear_sense = sense(self.flexible.assembly.path.gear_pitch_radius)
-        lever = gear_sense * (motion.gear_normal_arm + side * friction_coefficient * motion.gear_friction_arm)
-        extra = self.gap(geometry) if gap is None else np.asarray(gap, dtype=float)
+        faces = self.contacts(roll, friction_coefficient)
+        extra = self.gap(self.geometry(faces)) if gap is None else np.asarray(gap, dtype=float)
         extra = extra if extra.ndim == 3 else extra[..., None]
-        whole = np.broadcast_to(geometry.gap[..., None] + extra, (*roll.shape, self.slices))
+        shape = (*roll.shape, self.slices)
+        length = self.flexible.width / self.slices * faces.length
+        gear_sense = sense(self.flexible.assembly.path.gear_pitch_radius)
+        curvature, length, arm, lever, whole = (
+            np.broadcast_to(field, shape)
+            for field in (
+                faces.curvature,
+                length,
+                faces.arm,
+                gear_sense * faces.lever,
+                faces.corner_gap + extra,
+            )
+        )
         parts = [
-            press_pairs(
+            press_slices(
                 self.flexible,
-                motion.relative_curvature[rows],
-                slice_compliance(self.flexible, part_of(geometry, rows), self.slices, self.coupled),
-                np.cos(motion.pressure_angle[rows]),
+                curvature[rows],
+                length[rows],
+                self.compliance(faces, rows),
+                arm[rows],
                 lever[rows],
                 whole[rows],
                 np.full(len(roll[rows]), float(gear_torque)),
             )
-            for rows in in_batches(whole.shape)
-        ]
-        return SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
-
-    def _share_oblique(
-        self,
-        roll: Float[Array, "position pair"],
-        gear_torque: float,
-        friction_coefficient: Float[Array, "..."] | float,
-        gap: Float[Array, "..."] | None,
-    ) -> SharedLoad:
-        """Share among slices that touch at different angles."""
-        faces = oblique_faces(self.flexible.assembly, self.rolls(roll), friction_coefficient)
-        extra = self.gap(faces.geometry) if gap is None else np.asarray(gap, dtype=float)
-        extra = extra if extra.ndim == 3 else extra[..., None]
-        whole = faces.corner_gap + extra
-        length = self.flexible.width / self.slices * faces.length
-        parts = [
-            press_slices(
-                self.flexible,
-                faces.curvature[rows],
-                length[rows],
-                oblique_compliance(self.flexible, faces.at(rows), self.coupled),
-                faces.arm[rows],
-                faces.lever[rows],
-                whole[rows],
-                np.full(len(roll[rows]), float(gear_torque)),
-            )
-            for rows in in_batches(whole.shape)
+            for rows in in_batches(shape)
         ]
         return SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))

@@ -18,7 +18,6 @@ from tribodyn.compliance.sharing.flank_gap import (
     pitch_gap,
 )
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, SharedLoad, half_width
-from tribodyn.compliance.sharing.oblique_faces import ObliqueFaces, oblique_faces
 from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
@@ -146,7 +145,7 @@ def roll_through(
     """
     phase, roll, gap, shared = _rolled(flanks, gear_torque, positions, cycles, friction_coefficient)
     flexible, _, slices, coupled = flanks
-    seen = slice_contacts(flanks, roll)
+    seen = flanks.contacts(roll)
     per_width = shared.slice_load * (slices / flexible.width)
     line_load = per_width / seen.length
     half = half_width(flexible, seen.curvature, line_load)
@@ -253,14 +252,6 @@ def face_shift(flanks: LoadedFlanks) -> float:
     """Pinion angle (rad) by which the outermost slices are late or early, ≥ 0."""
     assembly = flanks.flexible.assembly
     return float(np.max(np.abs(np.asarray(roll_shift(assembly, flanks.face())))))
-
-
-def slice_contacts(
-    flanks: LoadedFlanks, roll: Float[Array, "position pair"], friction_coefficient: float = 0.0
-) -> ObliqueFaces:
-    """Where the slices of pairs touch; of spur gears all slices of a pair are alike, (position, pair, 1)."""
-    assembly, rolls = flanks.flexible.assembly, flanks.rolls(roll)
-    return oblique_faces(assembly, rolls if rolls.ndim == 3 else rolls[..., None], friction_coefficient)
 
 
 def _ages(limits: tuple[float, float], start: float, pitch: float) -> Int[Array, " pair"]:

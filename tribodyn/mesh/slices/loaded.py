@@ -19,7 +19,7 @@ import numpy as np
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, SharedLoad, contact_deflection, in_batches
 from tribodyn.compliance.sharing.loaded_contact import check_resolved, reach
 from tribodyn.compliance.sharing.oblique import oblique_compliance
-from tribodyn.compliance.sharing.oblique_faces import ObliqueFaces, oblique_faces
+from tribodyn.compliance.sharing.section import ObliqueFaces, oblique_faces
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.helix import pitch_slope, roll_shift, speed_share

@@ -9,9 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.compliance.sharing.face_root_stress import ToothStress, tooth_stress
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
-from tribodyn.compliance.sharing.loaded_contact import slice_contacts
-from tribodyn.compliance.sharing.tooth_stress import ToothStress, tooth_stress
 from tribodyn.gears.rating.capacity import (
     MOST_DAMAGE,
     Capacity,
@@ -62,7 +61,7 @@ def loaded_teeth(
     slices = along["line_load"].shape[1]
     flanks = LoadedFlanks(flexible, case.mesh.modifications, slices, case.mesh.slice_coupling)
     roll, helical = along["roll_angle"], float(case.drive.helix_angle) != 0.0
-    length = slice_contacts(flanks, roll[:, None]).length[:, 0] * flexible.width / slices
+    length = flanks.contacts(roll[:, None]).length[:, 0] * flexible.width / slices
     slice_load = along["line_load"] * length
     # the places of one pair's way are those of all pairs at the positions of a mesh cycle
     positions = round(float(assembly.pitch_angle) / (roll[1] - roll[0]))

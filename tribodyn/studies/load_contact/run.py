@@ -14,7 +14,6 @@ from tribodyn.compliance.sharing.loaded_contact import (
     LoadedContact,
     loaded_error,
     roll_through,
-    slice_contacts,
 )
 from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.errors import SimulationError
@@ -50,7 +49,7 @@ def film_over_face(
     if case is None:
         return {}, {}
     closure = closure_of(case)
-    seen = slice_contacts(flanks_of(study), loaded.roll)
+    seen = flanks_of(study).contacts(loaded.roll)
     speed = case.operating.pinion_speed
     carries = loaded.line_load > 0.0
     position, pair, _ = np.nonzero(carries)
@@ -198,7 +197,7 @@ def record_arrays(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Floa
 def torque_residual(study: PreparedTeeth, loaded: LoadedContact) -> Float[Array, " position"]:
     """Torque of the pairs' loads, friction included, over the gear's torque, less 1, at every position."""
     flanks = flanks_of(study)
-    seen = slice_contacts(flanks, loaded.roll, study.case.friction_coefficient)
+    seen = flanks.contacts(loaded.roll, study.case.friction_coefficient)
     if seen.lever.shape[-1] == 1:
         torque = np.sum(loaded.normal_load * seen.lever[..., 0], axis=1)
     else:
@@ -270,7 +269,7 @@ def single_pair_stiffness(study: PreparedTeeth) -> float:
     """
     alone, flanks = np.zeros((1, 1)), LoadedFlanks(study.flexible)
     shared = flanks.share(alone, study.case.operating.gear_torque)
-    arm = slice_contacts(flanks, alone).arm[0, 0, 0]
+    arm = flanks.contacts(alone).arm[0, 0, 0]
     return float(shared.normal_load[0, 0] / (shared.deflection[0] * arm))
 
 

@@ -51,8 +51,8 @@ def film_by_number() -> Callable[..., Any]:
 # constants 0.97 to 1.06.
 
 
-#: A and B of h/h_s = (1 + A (σ/h_s)²)^B, the mean gap h on the line of centres over the central film h_s of smooth
-#: flanks.
+#: A and B of h/h_s = (1 + A (σ/h_s)²)^B: mean gap h on the line of centres over the central film h_s of
+#: smooth flanks.
 ROUGHENING_FACTOR, ROUGHENING_POWER = 1.25, 0.2
 
 
