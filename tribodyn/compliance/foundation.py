@@ -173,10 +173,10 @@ def ring_compliance(
     fixed at the bore, or around the teeth (a ratio above 1) at its outside, on `pins` there (`rim`) or, with
     0, free as `_ring_receptance` has it (`around` says so where the ratio is traced). As a whole it is `held`
     there (the ratio is not 0), or else free (`rim.free_shift`), whatever the rim, with teeth up to the tip
-    radius, over the root radius, `tip_ratio`. Each tooth loads its arc of the root circle with uniform (N, T) and linear (M) traction along its own axes; displacements are the
-    work conjugates (means over the arc). Truncated after `harmonics` terms: the self term (angle 0) converges
-    like (harmonics · root_half_angle)^−2 and needs about 40/root_half_angle of them, the term between two
-    teeth converges faster.
+    radius, over the root radius, `tip_ratio`. Each tooth loads its arc of the root circle with uniform (N, T)
+    and linear (M) traction along its own axes; displacements are the work conjugates (means over the arc).
+    Truncated after `harmonics` terms: the self term (angle 0) converges like (harmonics · root_half_angle)^−2
+    and needs about 40/root_half_angle of them, the term between two teeth converges faster.
 
     c[i, j] E b is displacement i of the tooth at 0 from load j on the tooth at `angle` (rad, counter-
     clockwise), times Young's modulus and width, in units of the root radius: loads (N, T, M/r_root),

@@ -5,8 +5,7 @@ from fractions import Fraction
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.train.kinematics import TrainSpeeds, kinematics
-from tribodyn.train.turning import Joint, Named, Toothed
+from tribodyn.train.kinematics import Joint, Named, Toothed, TrainSpeeds, kinematics
 
 
 def train(

@@ -5,10 +5,9 @@ from itertools import permutations
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.train.kinematics import TrainSpeeds, kinematics
+from tribodyn.train.flow import nominal_torques
+from tribodyn.train.kinematics import Joint, Named, SetMembers, Toothed, TrainSpeeds, kinematics
 from tribodyn.train.planetary import CARRIER, MEMBERS, RING, SUN, SetTeeth, speeds, torques
-from tribodyn.train.statics import nominal_torques
-from tribodyn.train.turning import Joint, Named, SetMembers, Toothed
 
 TEETH = SetTeeth(18, 36, -93)
 BODIES = [Named(name, name) for name in (*MEMBERS, "planet-1", "planet-2", "planet-3", "load")]

@@ -11,7 +11,7 @@ from tribodyn.input.quantity import Table, Text, broken
 from tribodyn.input.specific_keys import Owner, key_schema, own_key_errors, own_values
 from tribodyn.numerics.registry import Registry
 from tribodyn.train.links import LINK_LAWS
-from tribodyn.train.links.linear import LAW as LINEAR_LINK
+from tribodyn.train.links.law import LAW as LINEAR_LINK
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO, FilmData

@@ -18,8 +18,8 @@ from tribodyn.geometry.drive import BodyMass, Side
 from tribodyn.numerics.curve import Table
 from tribodyn.sensing.data import HousingData, SensorData
 from tribodyn.solve.methods import SolverData
+from tribodyn.train.links.law import LAW as LINEAR_LINK
 from tribodyn.train.links.law import LinkLaw
-from tribodyn.train.links.linear import LAW as LINEAR_LINK
 from tribodyn.train.phases import ToothedShaft
 from tribodyn.train.planetary import SetTeeth
 from tribodyn.tribology.law import FilmData, FrictionData

@@ -24,7 +24,7 @@ from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.kernels.native.arguments import function_layout
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
-from tribodyn.mesh.teeth.flank_positions import flank_places
+from tribodyn.mesh.teeth.table import flank_places
 from tribodyn.numerics.files.output_files import WRITTEN, check_output, write_output
 from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.numerics.registry import FROM_PYTHON

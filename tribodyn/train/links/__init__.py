@@ -6,7 +6,7 @@ from tribodyn.train.links.law import LinkLaw
 LINK_LAWS: Registry[LinkLaw] = Registry(
     "link.law",
     "link law",
-    {"linear": "tribodyn.train.links.linear:LAW", "play": "tribodyn.train.links.play:LAW"},
+    {"linear": "tribodyn.train.links.law:LAW", "play": "tribodyn.train.links.play:LAW"},
     "tribodyn.link_laws",
     LinkLaw,
 )

@@ -14,8 +14,7 @@ from tribodyn.errors import InputError
 from tribodyn.numerics.elementary import law, namespace, skippable, where
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.static import StaticInt
-from tribodyn.train.links.law import LinkLaw, try_link_law
-from tribodyn.train.links.linear import linear
+from tribodyn.train.links.law import LinkLaw, linear, try_link_law
 from tribodyn.train.links.play import Play, with_play
 
 

@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.numerics.elementary import law
 from tribodyn.tribology.law import KeyedLaw
 from tribodyn.tribology.trial import REMEDY, refuse_unmarked
 
@@ -60,3 +61,12 @@ def try_link_law(law: LinkLaw, stiffness: float, parameters: Any) -> None:
     if np.max(np.abs(energy - energy[0] - work)) > _ENERGY_ERROR * np.max(np.abs(work)):
         rule = "its torque is not the derivative of its energy"
         raise InputError(key, name, rule, "return torque, energy, share of the damping that acts")
+
+
+@law
+def linear(twist, stiffness, parameters):
+    """Torque k s, its energy, and all of the damping."""
+    return stiffness * twist, 0.5 * stiffness * twist * twist, 1.0
+
+
+LAW = LinkLaw("linear", "torque and damping linear in twist and its rate", linear)

@@ -7,10 +7,9 @@ import pytest
 
 from tests.support.helical_pairs import ENERGY, STEEL, helical_pair, sliced
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Modifications, Relief
-from tribodyn.mesh.by_compliance import mesh_cycle_of, with_slices
+from tribodyn.mesh.by_compliance import FEWEST, MOST, mesh_cycle_of, with_slices
 from tribodyn.mesh.quasi_static import quasi_static, sliding_side
 from tribodyn.mesh.slices.coupled import couple_slices
-from tribodyn.mesh.slices.number import FEWEST, MOST
 
 MATERIALS, TORQUE, MANY = (STEEL, STEEL), 300.0, 61
 RELIEVED = Modifications(

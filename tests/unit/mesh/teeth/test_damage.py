@@ -10,7 +10,7 @@ from tests.support.own_teeth import errors, made
 from tribodyn.compliance.crack import crack_compliance
 from tribodyn.mesh.teeth.damage.gear import DamagedTeeth, damaged_gear
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
-from tribodyn.mesh.teeth.flank_positions import places_of
+from tribodyn.mesh.teeth.table import places_of
 from tribodyn.studies.motion.prepare import prepare as prepare_train
 
 NAME, TEETH, TOOTH = "involute-23-47", 23, 6

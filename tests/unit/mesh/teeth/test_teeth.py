@@ -111,7 +111,7 @@ def test_a_sample_keeps_its_tolerances_and_its_seed():
 
 
 def _places(case: PreparedGearbox):
-    from tribodyn.mesh.teeth.flank_positions import places_of
+    from tribodyn.mesh.teeth.table import places_of
 
     return places_of(case.assembly, case.pairs[0].mesh, case.cycle)[0].driver
 

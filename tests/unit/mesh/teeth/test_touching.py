@@ -7,7 +7,7 @@ from tests.support.cracked_pair import STEEL, pair
 from tribodyn.compliance.energy import hertz_linear, tooth_compliance, under_uneven_load
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.mesh.teeth.damage.gear import damaged_gear
-from tribodyn.mesh.teeth.damage.touching import softer
+from tribodyn.mesh.teeth.damage.patch import softer
 
 SLICES, STRIPS = 40, 200
 

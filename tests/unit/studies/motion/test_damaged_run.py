@@ -6,7 +6,7 @@ import pytest
 import tribodyn as td
 from tribodyn.mesh.teeth.damage.gear import damaged_gear
 from tribodyn.mesh.teeth.fields import LEADING
-from tribodyn.mesh.teeth.flank_positions import places_of
+from tribodyn.mesh.teeth.table import places_of
 from tribodyn.studies.motion.prepare import prepare
 
 TEETH, SAMPLES, SCUFFED = 18, 40, 12

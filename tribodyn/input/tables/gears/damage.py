@@ -21,12 +21,9 @@ from tribodyn.input.quantity import (
     written,
 )
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
-from tribodyn.mesh.teeth.damage.broken_tip import BrokenTip
 from tribodyn.mesh.teeth.damage.gear import Damage, DamagedTeeth
-from tribodyn.mesh.teeth.damage.patch import Patch
+from tribodyn.mesh.teeth.damage.patch import BrokenTip, MissingMap, Patch, Scuffing, Spall
 from tribodyn.mesh.teeth.damage.root_crack import RootCrack
-from tribodyn.mesh.teeth.damage.scuffing import Scuffing
-from tribodyn.mesh.teeth.damage.spall import MissingMap, Spall
 from tribodyn.mesh.teeth.fields import CARRYING, LEADING, TRAILING, OwnFields
 
 #: Damaged teeth of a scenario, at most.

@@ -1,1 +1,1 @@
-"""Damage of single teeth: what each kind does to the flanks of its tooth; one kind a file."""
+"""Damage of single teeth: what each kind does to the flanks of its tooth; patches and root cracks."""

@@ -12,7 +12,7 @@ from tribodyn.input.quantity import Table, Text, csv_file, written
 from tribodyn.input.tables.duty import broken_duty_rules
 from tribodyn.studies.motion.case import LoadData
 from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics, ends_of
-from tribodyn.train.statics import Torques, nominal_torques
+from tribodyn.train.flow import Torques, nominal_torques
 
 
 def _one_place(value: Any) -> Any:

@@ -33,8 +33,7 @@ from tribodyn.studies.motion.planetary.stages import (
     planetary_stages,
     set_of,
 )
-from tribodyn.train.kinematics import TrainSpeeds, kinematics
-from tribodyn.train.turning import Joint, Named, SetMembers, Toothed
+from tribodyn.train.kinematics import Joint, Named, SetMembers, Toothed, TrainSpeeds, kinematics
 
 #: Names of the gears of a drive file.
 OF_DRIVE = ("pinion", "gear")
