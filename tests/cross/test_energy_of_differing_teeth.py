@@ -17,7 +17,7 @@ def test_run_out_of_any_gear_leaves_no_residual(table: dict[str, Any], gear: str
     """The strain energy at the end is that of the teeth that meet there, not of those at the start.
 
     Seven cycles are no whole turn of either gear; with the first teeth at the end it is 1e-4. Forces of the
-    carrier's frame leave a share of their own, see `dynamics.frame.frame_energy`.
+    carrier's frame leave a share of their own, see `dynamics.loads.frame_energy`.
     """
     run = td.run(table | SHORT, {f"gear.{gear}.eccentricity": "20 um"})
     assert abs(run.summary["energy_residual"]) < RTOL

@@ -198,7 +198,7 @@ def test_energy_balances_over_a_load_step(drive, turning):
     )
     gained = work_in - work_out - damped + parametric
     assert damped > 2e-5 * work_in
-    # with centrifugal forces less what displaced ones do not turn the carrier by, see `dynamics.frame`
+    # with centrifugal forces less what displaced ones do not turn the carrier by, see `dynamics.loads`
     speed = float(after.bodies.frame_speed[3])
     moved = samples[:, [[9, 10], [12, 13], [15, 16]]].transpose(1, 2, 0)
     taken = np.asarray(after.links.lever)[3:, 1, :, None] * samples[:, turn_of(CARRIER, layout)]

@@ -21,10 +21,9 @@ from tribodyn.dynamics.approach import (
     absent,
     sliced,
 )
-from tribodyn.dynamics.contact_energy import parametric_torque
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
-from tribodyn.dynamics.frame import add_frame_forces, carried_along
-from tribodyn.dynamics.loads import link_forces, load_torque
+from tribodyn.dynamics.energy import parametric_torque
+from tribodyn.dynamics.loads import add_frame_forces, carried_along, link_forces, load_torque
 from tribodyn.dynamics.mesh_motion import motion_of, on_body, place_in_mesh
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.numerics.elementary import by_chain_rule, independent, law, plain

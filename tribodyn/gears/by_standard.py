@@ -2,10 +2,9 @@
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from tribodyn.compliance.iso6336 import ReferenceStiffness, pair_of, reference_stiffness
-from tribodyn.gears.metals import metal_of
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData, reference_radius
 from tribodyn.geometry.helix import base_helix_angle, overlap_ratio
@@ -19,6 +18,29 @@ from tribodyn.standards.load_factors import (
     run_in,
     running_in,
 )
+from tribodyn.standards.metals import (
+    BENDING,
+    CONTACT,
+    Grade,
+    Metal,
+    Treatment,
+    stress_number,
+    yield_from_hardness,
+)
+
+
+def metal_of(material: MaterialData) -> Metal | None:
+    """Strength of a material: given, or by ISO 6336-5; None where its heat treatment is not said."""
+    if material.treatment is None:
+        return None
+    treatment, grade = cast(Treatment, material.treatment), cast(Grade, material.grade)
+    contact, root = material.contact_stress_limit, material.bending_stress_limit
+    if contact is None:
+        contact = stress_number(CONTACT[treatment][grade], material.hardness)
+    if root is None:
+        root = stress_number(BENDING[treatment][grade], material.hardness)
+    strength = material.yield_strength or yield_from_hardness(material.hardness)
+    return Metal(treatment, contact, root, material.hardness, strength)
 
 
 class Quality(NamedTuple):

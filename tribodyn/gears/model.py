@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics import parameters
-from tribodyn.dynamics.damping import equivalent_mass, mesh_damping
+from tribodyn.dynamics.data import equivalent_mass, mesh_damping
 from tribodyn.gears.case import GearCase, LubricatedCase
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.geometry.drive import Drive, Side

@@ -47,7 +47,7 @@ class Bodies(NamedTuple):
     load: Float[Array, " body"]  # constant torque against the motion, N m
     load_damping: Float[Array, " body"]  # rise of it per speed above nominal, N m s/rad
     tilting: Float[Array, " spatial"] = np.zeros(0)  # inertia about x and y, kg m²
-    #: of bodies in a carrier's frame, see `dynamics.frame`: its speed over the reference's, counter-clockwise
+    #: of bodies in a carrier's frame, see `dynamics.loads`: its speed over the reference's, counter-clockwise
     #: positive; that of its Coriolis and centrifugal forces, rad/s, 0: without; places from its axis, m
     carried: Float[Array, " planar"] = np.zeros(0)
     frame_speed: Float[Array, " planar"] = np.zeros(0)

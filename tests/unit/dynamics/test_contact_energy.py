@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from tribodyn.dynamics import approach as contact
-from tribodyn.dynamics.contact_energy import compliance_force, mesh_energy, pair_energy
+from tribodyn.dynamics.energy import compliance_force, mesh_energy, pair_energy
 from tribodyn.dynamics.parameters import HERTZ_IN_TABLE, HERTZ_POWER_LAW
 from tribodyn.dynamics.smooth import onset, power_law_force, power_law_stiffness
 

@@ -10,8 +10,7 @@ import numpy as np
 from tribodyn.cases.results import Progress, RunResult
 from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import SimulationError
-from tribodyn.gears.motion.by_revolution import ByRevolution
-from tribodyn.gears.motion.course import RunCourse
+from tribodyn.gears.motion.course import ByRevolution, RunCourse
 from tribodyn.gears.motion.running import MeshOfRun, RunStatistics, judge_balance
 from tribodyn.gears.motion.samples import Sampled, evaluated_with_extremes
 from tribodyn.gears.prepare import MOST_MOTIONS

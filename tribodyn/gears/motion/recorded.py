@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.gears.motion import by_revolution
+from tribodyn.gears.motion.course import REVOLUTION, of_revolutions
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.record_arrays import described
@@ -141,13 +141,13 @@ def scales_of(cycle: MeshCycle, *, in_space: bool = False) -> dict[str, Any]:
 
 def gears_layout(slices: int, *, in_space: bool = False) -> Layout:
     """Of records over time of pairs with so many slices; see `recorded.samples_of`."""
-    scales = {"pair": PAIR, "dof": DOF_SCALE, "revolution": by_revolution.REVOLUTION}
+    scales = {"pair": PAIR, "dof": DOF_SCALE, "revolution": REVOLUTION}
     scales |= {"slice": SLICE} if slices > 1 else {}
     return Layout(
         TIME,
         samples_of(slices, in_space=in_space),
         scales,
-        others=by_revolution.described(of_train=False),
+        others=of_revolutions(of_train=False),
         groups={"mesh_cycle": described(slices), "geometry": GEOMETRY},
     )
 

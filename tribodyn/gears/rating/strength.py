@@ -2,8 +2,8 @@
 
 from typing import cast
 
+from tribodyn.gears.by_standard import metal_of
 from tribodyn.gears.case import GearCase
-from tribodyn.gears.metals import metal_of
 from tribodyn.standards.metals import VICKERS, Grade, Metal, hardness_range
 
 

@@ -17,7 +17,6 @@ from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, inf
 from numba.extending import lower_builtin, lower_getattr, lower_getattr_generic, models, register_model
 
 from tribodyn.kernels.lanes.arrays import ALIGNMENT, ROW, ElementArrayType, indices_of, row_at, subscripts
-from tribodyn.kernels.lanes.fields import Field, SubRecord
 from tribodyn.kernels.lanes.vectors import (
     DOUBLE,
     FLOATS,
@@ -32,6 +31,45 @@ from tribodyn.kernels.lanes.vectors import (
     of_operator,
 )
 from tribodyn.kernels.native import PackedValue
+
+
+class Field(NamedTuple):
+    """A field of a record; places are counted from where the record's own begin."""
+
+    name: str
+    ndim: int  # axes of the table; 0: a number
+    row: int  # among the block's numbers or addresses; -1 of a table among the numbers, see `inline`
+    first_length: int  # where the table's shape begins among all lengths
+    shared: bool = False  # whether the table is the same in every lane
+    #: whether the table stands among the numbers, every entry a row: behind all else of its record, from a
+    #: row on that follows its shape among the lengths
+    inline: bool = False
+
+
+class Extent(NamedTuple):
+    """How many numbers, addresses and lengths."""
+
+    numbers: int
+    addresses: int
+    lengths: int
+
+
+class SubRecord(NamedTuple):
+    """A field that is a record, or several of one kind, one after the other."""
+
+    name: str
+    fields: "tuple[Field | SubRecord, ...]"
+    first: Extent  # where it begins in the record
+    size: Extent  # of one record
+    items: int = 0  # 0: one record and no tuple of several
+
+    def in_types(self) -> "SubRecord":
+        """What code depends on: not where the record begins, nor how many there are."""
+        nothing = Extent(0, 0, 0)
+        return self._replace(
+            first=nothing, size=self.size if self.items else nothing, items=min(self.items, 1)
+        )
+
 
 _FLOATS_AT = types.CPointer(types.float64)
 _INTEGERS_AT = types.CPointer(types.int64)

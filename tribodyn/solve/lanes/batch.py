@@ -12,8 +12,7 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import Model, Options, with_shared_code
 from tribodyn.dynamics.recorded.extremes import Extremes
-from tribodyn.kernels.lanes.fields import Extent, Field, SubRecord
-from tribodyn.kernels.lanes.tables import LaneRecord
+from tribodyn.kernels.lanes.tables import Extent, Field, LaneRecord, SubRecord
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import Ensemble, March, nothing_yet, put

@@ -12,8 +12,7 @@ from typing import NamedTuple
 from tribodyn.dynamics.approach import Motion
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.equations import resultants
-from tribodyn.dynamics.frame import carried_along
-from tribodyn.dynamics.loads import load_torque
+from tribodyn.dynamics.loads import carried_along, load_torque
 from tribodyn.dynamics.mesh_motion import motion_of, on_body, place_in_mesh
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.kernels.native import kernel

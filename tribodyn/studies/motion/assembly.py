@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.damping import spring_damping
-from tribodyn.dynamics.data import matrices_in_space
+from tribodyn.dynamics.data import matrices_in_space, spring_damping
 from tribodyn.gears.model import tilting_inertia
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.tabulated import table_key

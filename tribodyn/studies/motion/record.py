@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.recorded.outputs import IN_SPACE_NAMES, holding_links
-from tribodyn.gears.motion import by_revolution
+from tribodyn.gears.motion.course import REVOLUTION, of_revolutions, revolution_scale
 from tribodyn.gears.motion.recorded import OF_SLICES, PAIR, gears_layout, scales_of
 from tribodyn.gears.motion.recorded import SAMPLES as OF_A_PAIR
 from tribodyn.gears.motion.running import MeshOfRun, mesh_pairs
@@ -194,7 +194,7 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
     bearings = [case.links[k].name for k in holding_links(model)]
     numbers = [number for mesh in meshes for number in mesh_pairs(mesh.cycle)]
     pairs = tuple(range(min(numbers), max(numbers) + 1))
-    scales = by_revolution.scale(case.output.revolutions(case.solver.cycles))
+    scales = revolution_scale(case.output.revolutions(case.solver.cycles))
     if bearings:
         scales["bearing"] = np.array(bearings)
     if not case.named:
@@ -232,8 +232,8 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
         scales["slice"] = np.arange(1, slices + 1)
     if bearings:
         samples, axes = samples | BEARINGS, axes | _BEARING
-    axes = axes | {"revolution": by_revolution.REVOLUTION}
-    others = by_revolution.described(of_train=True)
+    axes = axes | {"revolution": REVOLUTION}
+    others = of_revolutions(of_train=True)
     return GearboxRecord(
         Layout(TIME, samples, axes, others, tables), scales, groups, pairs, meshes, named=True
     )
