@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.support.faces_in_slices import CASES, model, table
-from tribodyn.compliance.sharing.condensed import _condensed, _stiff_together
-from tribodyn.compliance.sharing.load_sharing import contact_deflection, press_pairs
+from tribodyn.compliance.sharing.condensed import _condensed, _stiff_together, press_pairs
+from tribodyn.compliance.sharing.load_sharing import contact_deflection
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family

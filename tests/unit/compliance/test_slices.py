@@ -12,7 +12,8 @@ from tests.support.faces_in_slices import WIDTH
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, half_space_surface
 from tribodyn.compliance.sharing import slices as slices_of_faces
 from tribodyn.compliance.sharing.active_set import press
-from tribodyn.compliance.sharing.load_sharing import half_width, press_pairs
+from tribodyn.compliance.sharing.condensed import press_pairs
+from tribodyn.compliance.sharing.load_sharing import half_width
 from tribodyn.compliance.sharing.slices import by_slices, modes, pair_harmonics
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.helix import face_positions
