@@ -101,7 +101,9 @@ def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> F
         [static_deflection(mesh, max(abs(t), 1e-3)) for mesh, t in zip(model.meshes, loads, strict=True)]
     )
     unknown, equation = displacements(layout), velocities(layout)
-    touch = _first_touch(model, phase, interval)
+    # at which the first of the driving flanks touches while no bearing is loaded
+    touch = np.array([min(by_side[1.0]) for by_side in _apart_unloaded(model, phase, interval)])
+    touch = touch - _APART * np.abs(touch) + 0.0  # not −0
     y = _closed(model, touch, torques)
 
     def residual(values: Trials, model: Model = model) -> Trials:
@@ -293,12 +295,6 @@ def _maximum_gap(model: Model, m: int, interval: int, side: float) -> float:
         return 0.0
     channel = np.asarray(table.channel)[segment][:, there]
     return float(max(0.0, np.max(channel[..., _GAP, 0])) / np.min(channel[..., _COSINE, 0]))
-
-
-def _first_touch(model: Model, phase: float, interval: int) -> Float[Array, " mesh"]:
-    """Rotational errors at which the first of the driving flanks touches while no bearing is loaded, m."""
-    touch = np.array([min(by_side[1.0]) for by_side in _apart_unloaded(model, phase, interval)])
-    return touch - _APART * np.abs(touch) + 0.0  # not −0
 
 
 def initial_state(model: Model, kind: str) -> Float[Array, " state"]:

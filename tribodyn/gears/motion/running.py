@@ -10,6 +10,7 @@ from tribodyn.gears.motion.extremes import RunningExtremes
 from tribodyn.gears.motion.recorded import pair_numbers
 from tribodyn.gears.motion.samples import Sampled
 from tribodyn.geometry.assembly import Assembly, tip_clearance
+from tribodyn.geometry.drive import SIDES
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.record.trust import Judge, heat_of
 from tribodyn.train.structure import (
@@ -123,7 +124,8 @@ def judge_run(
             moved = np.zeros(len(part.cycles))
             for body in ends:
                 moved = np.maximum(moved, part.whole["moved"][:, body])
-            quantities = quantities_of(values, mesh.module, moved / smallest_clearance(mesh.assembly))
+            clearance = min(tip_clearance(mesh.assembly, side) for side in SIDES)  # m
+            quantities = quantities_of(values, mesh.module, moved / clearance)
             quantities |= heat_of(values["flash_temperature_rise"], mesh.oil_temperature)
             places = {"time": part.whole["time"], "mesh_cycle": mesh.cycles(part.cycles)}
             if mesh.number is not None:
@@ -151,11 +153,6 @@ def quantities_of(
         "hertz_pressure": block["hertz_pressure"],
         "bearing_displacement": displaced,
     }
-
-
-def smallest_clearance(assembly: Assembly) -> float:
-    """The smaller of the two distances between a tip and the mate's root, m."""
-    return min(tip_clearance(assembly, "pinion"), tip_clearance(assembly, "gear"))
 
 
 def judge_balance(judge: Judge, summary: Mapping[str, Any], rtol: float) -> None:

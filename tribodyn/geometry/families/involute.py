@@ -58,23 +58,15 @@ def inverse_involute(value: PerContact) -> PerContact:
 def working_pressure_angle(drive: Drive) -> Any:
     """Pressure angle at which the pair works, rad: of its centre distance, or without backlash.
 
-    cos α_w = a_0 cos α/a with the reference centre distance a_0 = m (Z1 + Z2)/2 (ISO 21771).
+    cos α_w = a_0 cos α/a with the reference centre distance a_0 = m (Z1 + Z2)/2 (ISO 21771); without one, of
+    teeth of nominal thickness, inv α_w = inv α + 2 tan α (x1 + x2)/(Z1 + Z2) (DIN 3960).
     """
     if drive.centre_distance is None:
-        return tight_pressure_angle(drive)
+        alpha, teeth = drive.pressure_angle, drive.pinion.teeth + drive.gear.teeth
+        shift = drive.pinion.profile_shift + drive.gear.profile_shift
+        return inverse_involute(involute_function(alpha) + 2 * tan(alpha) * shift / teeth)
     cosine = sum(reference_radii(drive)) * cos(drive.pressure_angle) / drive.centre_distance
     return arctan2(sqrt(maximum(1.0 - cosine**2, 0.0)), cosine)  # closer than the base circles: refused
-
-
-def tight_pressure_angle(drive: Drive) -> Any:
-    """Pressure angle at which the shifted pair of nominal thickness works without backlash, rad.
-
-    inv α_w = inv α + 2 tan α (x1 + x2)/(Z1 + Z2) (ISO 21771, DIN 3960); α itself where x1 + x2 = 0.
-    """
-    alpha = drive.pressure_angle
-    shift = drive.pinion.profile_shift + drive.gear.profile_shift
-    teeth = drive.pinion.teeth + drive.gear.teeth
-    return inverse_involute(involute_function(alpha) + 2 * tan(alpha) * shift / teeth)
 
 
 def working_path(drive: Drive) -> Path:

@@ -106,7 +106,11 @@ def couple_slices(
         along = spread(place, part, falling, slices)
         matrix = slices * _matrix(line, body, between, along, slot)
         if not mesh.held:  # what a load over the whole face does not meet
-            matrix = matrix + _over_the_face(whole - body, even_between - between, slot)
+            over_face, same = _by_slots(even_between - between, slot)
+            bodies_over_face = whole - body
+            matrix = matrix + (
+                over_face + same * (bodies_over_face[:, :, None] + bodies_over_face[:, None, :]) / 2.0
+            )
         lumped = _lumped(matrix, contact, arm, gap, part, force, cycle.hertz_coefficient)
         table = compliance, gaps
         return [_put(xp, field, at, slot, value) for field, value in zip(table, lumped, strict=True)]
@@ -225,14 +229,6 @@ def _matrix(
         root = sqrt(part)
         matrix = matrix + same * root[:, :, None] * spreading * root[:, None, :]
     return matrix
-
-
-def _over_the_face(
-    bodies: Float[Array, "node place"], between: Float[Array, "node slice pair pair"], slot: Any
-) -> Float[Array, "node place place"]:
-    """Deflection of slots per load on slots that depends on the load of the whole face alone."""
-    matrix, same = _by_slots(between, slot)
-    return matrix + same * (bodies[:, :, None] + bodies[:, None, :]) / 2.0
 
 
 def _by_slots(between: Float[Array, "node slice pair pair"], slot: Any) -> tuple[Any, Any]:

@@ -1,7 +1,6 @@
 """Coulomb's law: one coefficient, whatever load and speed; and how laws of a mean coefficient are made."""
 
 from collections.abc import Callable
-from functools import partial
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import as_float, law
@@ -30,14 +29,6 @@ def range_of_constant(contact, film, surfaces, parameters):
     return 0.0 * contact.sliding + parameters.in_range
 
 
-def mean_of_mesh(
-    inputs: LawInput, mean: Callable[[NominalConditions], Any], share: Callable[[NominalConditions], Any]
-) -> Constant:
-    """Parameters from the conditions at the pitch point: mean coefficient, share that its limits allow."""
-    conditions = inputs.nominal()
-    return Constant(as_float(mean(conditions)), as_float(share(conditions)))
-
-
 def mean_law(
     name: str,
     about: str,
@@ -48,12 +39,20 @@ def mean_law(
     ratio: tuple[float, float, float],
     outside: tuple[float, float, float] | None = None,
 ) -> FrictionLaw:
-    """Law of a mean coefficient over the mesh; `ratio` and `outside` as in `JudgedRange`."""
+    """Law of a mean coefficient over the mesh; `ratio` and `outside` as in `JudgedRange`.
+
+    `mean` and `share` give the coefficient, and the share that its limits allow, of the pitch point.
+    """
+
+    def of_mesh(inputs: LawInput) -> Constant:
+        conditions = inputs.nominal()
+        return Constant(as_float(mean(conditions)), as_float(share(conditions)))
+
     return FrictionLaw(
         name,
         about,
         constant,
-        partial(mean_of_mesh, mean=mean, share=share),
+        of_mesh,
         in_range=range_of_constant,
         range=range,
         limits=(limit,),
