@@ -9,7 +9,7 @@ from tribodyn.errors import InputError
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.orbit.periodic import WANDERING, steady_states
 from tribodyn.solve.right_hand_side import engage_next
-from tribodyn.solve.tolerances import MeshScales, absolute_tolerances, table_scales, tolerances_from
+from tribodyn.solve.tolerances import scales_from, table_scales, tolerances_from
 from tribodyn.solve.transient import make_integrator
 from tribodyn.train.structure import (
     DAMPING,
@@ -61,8 +61,8 @@ def models(cases):
 
 
 def scaled(model, difference):
-    deflected = MeshScales([table_scales(mesh) for mesh in model.meshes], np.array([3e-5]), np.zeros(1))
-    scale = absolute_tolerances(model, 1.0, deflected)
+    tables = [table_scales(mesh) for mesh in model.meshes]
+    scale = scales_from(model, tables, np.array([3e-5]), [0.0])
     free = [*displacements(model.layout), *velocities(model.layout)]
     return np.max(np.abs(difference[free]) / scale[free])
 

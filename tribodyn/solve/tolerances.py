@@ -51,14 +51,6 @@ def table_scales(mesh: GearMesh) -> TableScales:
     )
 
 
-class MeshScales(NamedTuple):
-    """Scales of every mesh."""
-
-    tables: list[TableScales]
-    deflection: Float[Array, " mesh"]  # m
-    energy: Float[Array, " mesh"]  # that works are measured by, J
-
-
 def _inertial_mass(model: Model, m: int) -> float:
     """Mass that the inertias of a mesh's bodies have along its pitch tangent, kg."""
     layout, mesh, inertia = model.layout, model.meshes[m], model.bodies.inertia
@@ -72,24 +64,29 @@ def _transmitted(model: Model, m: int, deflection: float, stiffness: float) -> f
     return stiffness * deflection * float(model.meshes[m].driver_radius) * turned
 
 
-def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[Array, " state"]:
-    """Rtol times the scale of every state, from the deflections of the meshes.
+def scales_from(
+    model: Model,
+    tables: Sequence[TableScales],
+    deflection: Float[Array, " mesh"],
+    energy: Sequence[float],
+) -> Float[Array, " state"]:
+    """Sizes of all states, from every mesh's deflection, m, and the energy that works are measured by, J.
 
     Displacements of a body scale with the least deflection of its meshes, velocities with the deflection
     times the mesh's natural frequency, works with a share of an energy. A body without meshes has the scales
     of the one that it is linked to, which may have its own so; on pins, by the lever.
     """
     layout = model.layout
-    frequency = [np.sqrt(t.stiffness / _inertial_mass(model, m)) for m, t in enumerate(scales.tables)]
+    frequency = [np.sqrt(t.stiffness / _inertial_mass(model, m)) for m, t in enumerate(tables)]
     none = np.full(layout.bodies, np.inf)
     shift, shift_rate, turn, turn_rate = none.copy(), none.copy(), none.copy(), none.copy()
     for m, mesh in enumerate(model.meshes):
-        deflection = float(scales.deflection[m])
+        deflected = float(deflection[m])
         ends = ((layout.driver[m], mesh.driver_radius), (layout.driven[m], mesh.driven_radius))
         for body, radius in ends:
-            velocity = deflection * frequency[m]
-            shift[body], shift_rate[body] = (min(shift[body], deflection), min(shift_rate[body], velocity))
-            turn[body] = min(turn[body], deflection / abs(float(radius)))
+            velocity = deflected * frequency[m]
+            shift[body], shift_rate[body] = (min(shift[body], deflected), min(shift_rate[body], velocity))
+            turn[body] = min(turn[body], deflected / abs(float(radius)))
             turn_rate[body] = min(turn_rate[body], velocity / abs(float(radius)))
     of_body = shift, shift_rate, turn, turn_rate
     # one after the other: a flywheel hangs on its carrier, and that on pins
@@ -113,8 +110,8 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
             scale[place + 1 : place + 3] = turn[body]
             scale[half + place + 1 : half + place + 3] = turn_rate[body]
     scale[layout.lag] = turn[0] / float(model.operation.nominal_speed)
-    scale[works(layout)] = SHARE_OF_WORKS * np.max(scales.energy)
-    return rtol * scale
+    scale[works(layout)] = SHARE_OF_WORKS * np.max(energy)
+    return scale
 
 
 def _scaled_by_link(k: int, model: Model, of_body: Sequence[Float[Array, " body"]]) -> bool:
@@ -143,7 +140,7 @@ def state_scales(model: Model, state: Float[Array, " state"]) -> Float[Array, " 
     tables = [table_scales(mesh) for mesh in model.meshes]
     deflection = np.maximum(_loaded(model, state, tables), _least(model))
     energy = [_transmitted(model, m, deflection[m], table.stiffness) for m, table in enumerate(tables)]
-    return absolute_tolerances(model, 1.0, MeshScales(tables, deflection, np.array(energy)))
+    return scales_from(model, tables, deflection, energy)
 
 
 def _least(model: Model) -> float:
@@ -205,8 +202,7 @@ def tolerances_of_many(
         tables = [by_table[id(mesh.table)] for mesh in model.meshes]
         loaded = _loaded(model, states[case], tables)
         energy = [_energy(model, m, loaded[m], table) for m, table in enumerate(tables)]
-        scales = MeshScales(tables, np.maximum(loaded, _least(model)), np.array(energy))
-        tolerances[case] = absolute_tolerances(model, rtol, scales)
+        tolerances[case] = rtol * scales_from(model, tables, np.maximum(loaded, _least(model)), energy)
         # no relative part, see `step_control.relative_factor`: in its place that of the deflection
         tolerances[case, displacements(model.layout)] *= 2.0
     return tolerances

@@ -201,29 +201,12 @@ def _axes(numbers: Any, one_table: bool) -> Any:
 
 
 def _stacked_numbers(models: Sequence[Model], one_table: bool) -> Any:
-    """The numbers of models of one shape, see `_axes`."""
+    """The numbers of models of one shape as arrays of JAX, with an axis of cases where `_axes` has one."""
 
-    def common(part: Any, names: Sequence[str]) -> Any:
-        """A record with some of its fields made arrays of JAX, without an axis of cases."""
-        return {name: jax.tree.map(partial(jnp.asarray, dtype=float), getattr(part, name)) for name in names}
+    def stacked(axis: Any, *parts: Any) -> Any:
+        if axis is None:
+            return jax.tree.map(partial(jnp.asarray, dtype=float), parts[0])
+        return jax.tree.map(lambda *leaves: jnp.asarray(np.array(leaves, dtype=float)), *parts)
 
-    first = models[0]
-    meshes = []
-    for m, mesh in enumerate(first.meshes):
-        shared = common(mesh, ["table"]) if one_table else {}
-        others = [name for name in GearMesh._fields if name not in shared]
-        differing = {name: stacked([getattr(model.meshes[m], name) for model in models]) for name in others}
-        meshes.append(GearMesh(**shared, **differing))
-    names = [name for name in Schedule._fields if name in SHARED]
-    others = [name for name in Schedule._fields if name not in SHARED]
-    differing = {name: stacked([getattr(model.schedule, name) for model in models]) for name in others}
-    schedule = Schedule(**common(first.schedule, names), **differing)
-    bodies, links, operation = (
-        stacked([getattr(model, name) for model in models]) for name in ("bodies", "links", "operation")
-    )
-    return tuple(meshes), bodies, links, schedule, operation
-
-
-def stacked(trees: list[Any]) -> Any:
-    """Pytrees of numbers and arrays as one with a leading axis."""
-    return jax.tree.map(lambda *leaves: jnp.asarray(np.array(leaves, dtype=float)), *trees)
+    numbers = [model.numbers for model in models]
+    return jax.tree.map(stacked, _axes(numbers[0], one_table), *numbers, is_leaf=lambda axis: axis is None)
