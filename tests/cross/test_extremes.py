@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from tests.support.states import recorded
 from tribodyn.dynamics.recorded.extremes import LOWEST
+from tribodyn.dynamics.recorded.outputs import evaluated_with_extremes
 from tribodyn.gears.motion.extremes import RECORDED, RunningExtremes
-from tribodyn.gears.motion.samples import sampled_with_extremes
 from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
@@ -35,7 +35,7 @@ def extremes_of_run(prepared, samples, method="dopri5", rtol=1e-6, cycles=2, den
     settings = TransientSettings(method, rtol, cycles, 10**6, samples, extremes=dense)
     for part in transient(model, static_equilibrium(model), settings):
         if isinstance(part, SampledStates):
-            for found in sampled_with_extremes(part.cycles, part.states, part.extremes, model):
+            for found in evaluated_with_extremes(part.cycles, part.states, part.extremes, model)[1:]:
                 seen.add(found.cycles, found.whole["time"], found.meshes[0])
     return seen
 

@@ -3,8 +3,7 @@
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model
-from tribodyn.dynamics.recorded.outputs import evaluated
-from tribodyn.gears.motion.samples import sampled
+from tribodyn.dynamics.recorded.outputs import evaluated, sampled
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.studies.motion.record import recorded
 

@@ -7,8 +7,8 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
+from tribodyn.dynamics.recorded.outputs import Sampled
 from tribodyn.gears.motion.course import RunCourse
-from tribodyn.gears.motion.samples import Sampled
 from tribodyn.post.verdict import of_gears, over_course
 
 SAMPLES, CYCLES, PITCH = 40, 200, 2.0 * math.pi / 27.0

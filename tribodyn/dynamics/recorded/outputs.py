@@ -1,6 +1,6 @@
 """What is recorded, recomputed from the states alone by the very functions the right-hand side uses."""
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -271,3 +271,37 @@ def at_extremes(
         model,
         np.concatenate([interval, extremes.interval[there].astype(int)]),
     )
+
+
+class Sampled(NamedTuple):
+    """Datasets by name at samples: of the whole train, (n,) or (n, body), and of each mesh, see `mesh_outputs`."""
+
+    cycles: Float[Array, " sample"]  # reference cycles since the start
+    whole: dict[str, np.ndarray]
+    meshes: list[dict[str, np.ndarray]]
+
+    def part(self, which: slice) -> Self:
+        """Some of the samples."""
+        meshes = [{name: values[which] for name, values in mesh.items()} for mesh in self.meshes]
+        whole = {name: values[which] for name, values in self.whole.items()}
+        return self._replace(cycles=self.cycles[which], whole=whole, meshes=meshes)
+
+
+def sampled(samples: Evaluated, shares: bool = False) -> Sampled:
+    """All datasets of states; `shares` as of `mesh_outputs`."""
+    meshes = [mesh_outputs(m, samples, shares) for m in range(len(samples.model.meshes))]
+    loss = sum((mesh["sliding_loss"] for mesh in meshes), np.zeros(samples.size))
+    return Sampled(samples.cycles, train_outputs(samples, loss), meshes)
+
+
+def evaluated_with_extremes(
+    cycles: Float[Array, " sample"],
+    states: Float[Array, "sample state"],
+    extremes: Extremes | None,
+    model: Model,
+    shares: bool = False,
+) -> tuple[Evaluated, Sampled, Sampled]:
+    """States at samples and where the motion between them is extreme, evaluated; datasets of either."""
+    samples, count = at_extremes(cycles, states, extremes, model), len(cycles)
+    both = sampled(samples, shares)
+    return samples, both.part(slice(count)), both.part(slice(count, None))

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.gears.motion.samples import Sampled
+from tribodyn.dynamics.recorded.outputs import Sampled
 from tribodyn.numerics.parameter import Variable
 from tribodyn.post.cycles import CHANGING, amplitude_spectrum
 from tribodyn.record.writer import RecordWriter

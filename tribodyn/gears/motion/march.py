@@ -9,10 +9,10 @@ import numpy as np
 
 from tribodyn.cases.results import Progress, RunResult
 from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.recorded.outputs import Sampled, evaluated_with_extremes
 from tribodyn.errors import SimulationError
 from tribodyn.gears.motion.course import ByRevolution, RunCourse
 from tribodyn.gears.motion.running import MeshOfRun, RunStatistics, judge_balance
-from tribodyn.gears.motion.samples import Sampled, evaluated_with_extremes
 from tribodyn.gears.prepare import MOST_MOTIONS
 from tribodyn.gears.sensing.listening import Listener
 from tribodyn.record.writer import RecordWriter

@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.recorded.outputs import Sampled
 from tribodyn.gears.motion.course import RunCourse
 from tribodyn.gears.motion.extremes import RunningExtremes
 from tribodyn.gears.motion.recorded import pair_numbers
-from tribodyn.gears.motion.samples import Sampled
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.geometry.drive import SIDES
 from tribodyn.mesh.cycle import MeshCycle

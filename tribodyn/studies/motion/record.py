@@ -9,12 +9,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.recorded.outputs import IN_SPACE_NAMES, holding_links
+from tribodyn.dynamics.recorded.outputs import IN_SPACE_NAMES, Sampled, holding_links
 from tribodyn.gears.motion.course import REVOLUTION, of_revolutions, revolution_scale
 from tribodyn.gears.motion.recorded import OF_SLICES, PAIR, gears_layout, scales_of
 from tribodyn.gears.motion.recorded import SAMPLES as OF_A_PAIR
 from tribodyn.gears.motion.running import MeshOfRun, mesh_pairs
-from tribodyn.gears.motion.samples import Sampled
 from tribodyn.geometry.body import GEOMETRY, geometry_arrays
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.record_arrays import as_arrays, described

@@ -1,4 +1,4 @@
-"""The wear laws: one per file, and their registry."""
+"""The wear laws and their registry."""
 
 from tribodyn.numerics.registry import Registry
 from tribodyn.tribology.wear.law import WearData, WearLaw
@@ -10,7 +10,7 @@ WEAR_LAWS: Registry[WearLaw] = Registry(
         "priest-taylor": "tribodyn.tribology.wear.priest_taylor:LAW",
         "archard": "tribodyn.tribology.wear.archard:LAW",
         "archard-asperities": "tribodyn.tribology.wear.archard:ASPERITIES",
-        "energy": "tribodyn.tribology.wear.energy:LAW",
+        "energy": "tribodyn.tribology.wear.priest_taylor:ENERGY",
     },
     "tribodyn.wear_laws",
     WearLaw,

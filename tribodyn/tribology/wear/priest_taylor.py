@@ -1,7 +1,12 @@
-"""Archard's law in mixed lubrication: none above a film parameter, all of it below another, linear between.
+"""Laws that count mixed lubrication: none above a film parameter, all below another, linear between.
 
-M. Priest, C. M. Taylor, Wear 241 (2000) 193 (from memory, not checked against the paper), for piston rings;
-taken over for gears since: K = k for λ < 1/2, (2/7)(4 − λ) k for 1/2 ≤ λ ≤ 4, 0 above.
+Archard's law so: M. Priest, C. M. Taylor, Wear 241 (2000) 193 (from memory, not checked against the paper),
+for piston rings; taken over for gears since: K = k for λ < 1/2, (2/7)(4 − λ) k for 1/2 ≤ λ ≤ 4, 0 above.
+
+By the energy that friction dissipates, V = k_E ∫ μ p |v_s| dA dt: S. Fouvry, P. Kapsa, L. Vincent, Wear 200
+(1996) 186; S. Fouvry, T. Liskiewicz, P. Kapsa, S. Hannel, E. Sauger, Wear 255 (2003) 287. Their coefficients,
+of dry steel in fretting, are orders of magnitude above those of lubricated gears: there is no default.
+Without a lubricant there is no film to count.
 """
 
 from typing import Any
@@ -64,4 +69,32 @@ LAW = WearLaw(
     checked,
     keys=(COEFFICIENT, BOUNDARY, SEPARATING),
     needs_film=True,
+)
+
+
+@law
+def energy(contact, parameters):
+    """K = k_E μ times the share in contact."""
+    share = share_in_contact(
+        contact.film_parameter, parameters.boundary_film_parameter, parameters.separating_film_parameter
+    )
+    return parameters.energy_coefficient * contact.friction_coefficient * share
+
+
+ENERGY = WearLaw(
+    "energy",
+    "volume in proportion to the energy that friction dissipates, Fouvry (1996)",
+    energy,
+    checked,
+    keys=(
+        Parameter(
+            "energy_coefficient",
+            "wear coefficient",
+            "volume worn off a flank per energy dissipated, k_E",
+            example='"2e-8 mm**3/J"',
+        ),
+        BOUNDARY,
+        SEPARATING,
+    ),
+    needs_friction=True,
 )

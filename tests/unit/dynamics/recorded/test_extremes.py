@@ -42,7 +42,7 @@ from tribodyn.dynamics.recorded.extremes import (
     take_in,
     vertex,
 )
-from tribodyn.gears.motion.samples import sampled_with_extremes
+from tribodyn.dynamics.recorded.outputs import evaluated_with_extremes
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of, worthwhile
 from tribodyn.solve.right_hand_side import contacts_of, work_array
@@ -288,7 +288,7 @@ def test_each_side_of_a_boundary_is_recorded_as_its_segment_has_it(prepared, rng
         near = 1e-9
         beside = np.array([4.0 - near, 4.0 + near, 3.0 + boundary[1] - near])
         expected = outputs(beside, np.tile(y, (3, 1)), model)
-        _, extreme = sampled_with_extremes(np.array([2.5]), y[None], extremes, model)
+        _, _, extreme = evaluated_with_extremes(np.array([2.5]), y[None], extremes, model)
         found = recorded(extreme)
         assert extreme.cycles.tolist() == [4.0, 4.0, 3.0 + boundary[1]]
         for name in ("normal_load", "central_film_thickness", "pressure_angle", "time"):

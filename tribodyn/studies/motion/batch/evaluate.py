@@ -13,10 +13,10 @@ import numpy as np
 
 from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.parameters import frictionless
+from tribodyn.dynamics.recorded.outputs import evaluated_with_extremes
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.gears.motion.extremes import RunningExtremes
 from tribodyn.gears.motion.running import add_extremes, judge_run
-from tribodyn.gears.motion.samples import sampled_with_extremes
 from tribodyn.gears.motion.steady import warning_of
 from tribodyn.gears.prepare import MOST_MOTIONS
 from tribodyn.gears.tabulated import TABLES_KEPT, MadeOnce
@@ -68,7 +68,7 @@ def window_quantities(
     engage_next(last, window.first_cycle + count // samples, model)
     cycles = window.first_cycle + np.arange(count + 1) / samples
     states = np.concatenate([window.states, last[None]])
-    block, extreme = sampled_with_extremes(cycles, states, window.extremes, model)
+    _, block, extreme = evaluated_with_extremes(cycles, states, window.extremes, model)
     extremes = [RunningExtremes(mesh.cycle) for mesh in meshes]
     add_extremes(extremes, meshes, block, extreme)
     inside, work = block.part(slice(count)), last - window.states[0]  # both behind their engagement

@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.recorded.outputs import Sampled
 from tribodyn.errors import InputError
 from tribodyn.gears.motion.extremes import RunningExtremes
-from tribodyn.gears.motion.samples import Sampled
 from tribodyn.gears.tabulated import table_key
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names

@@ -16,8 +16,8 @@ from tribodyn.cases import cost
 from tribodyn.cases.cost import Estimate
 from tribodyn.cases.results import CaseHead
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.gears.sensing.listening import BLOCK, Heard, listen
 from tribodyn.gears.sensing.sensor_places import FEWEST
-from tribodyn.gears.sensing.sensor_signals import BLOCK, Heard, listen
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.sensors import Sensed
 from tribodyn.record.sweep_schema import CASE, DONE, FAILED, OF_EVERY_SWEEP, SweepLayout

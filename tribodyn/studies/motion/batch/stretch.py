@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.gears.sensing.sensor_signals import BLOCK
+from tribodyn.gears.sensing.listening import BLOCK
 from tribodyn.signals.resampling import REACH
 from tribodyn.studies.motion.batch.gearboxes import RunSpeed, run_speed_of
 from tribodyn.studies.protocol.batch import SignalRequest
