@@ -9,7 +9,7 @@ from tests.support.states import sampled
 from tests.support.train_scenarios import prepared_train
 from tribodyn.dynamics.parameters import Model
 from tribodyn.dynamics.recorded.extremes import no_extremes, take_in
-from tribodyn.dynamics.recorded.outputs import at_extremes, evaluated, mesh_outputs, train_outputs
+from tribodyn.dynamics.recorded.outputs import evaluated, evaluated_with_extremes, mesh_outputs, train_outputs
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.integrator import Status
@@ -130,7 +130,8 @@ def test_the_extremes_of_every_mesh_are_found():
     for chunk in chunks:
         if chunk.extremes is not None:
             take_in(found, chunk.extremes)
-    dense, both = evaluated(at, states, model), at_extremes(at[:1], states[:1], found, model)
+    both, _, _ = evaluated_with_extremes(at[:1], states[:1], found, model)
+    dense = evaluated(at, states, model)
     for mesh in range(2):
         expected, seen = (mesh_outputs(mesh, samples) for samples in (dense, both))
         for name, sign in (

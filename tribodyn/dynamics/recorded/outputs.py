@@ -254,27 +254,8 @@ def _moved(b: int, y: np.ndarray, model: Model) -> np.ndarray:
     return np.hypot(x, across)
 
 
-def at_extremes(
-    cycles: Float[Array, " sample"],
-    states: Float[Array, "sample state"],
-    extremes: Extremes | None,
-    model: Model,
-) -> Evaluated:
-    """Samples and, behind them, where a motion is extreme, evaluated."""
-    if extremes is None:
-        return evaluated(cycles, states, model)
-    there = extremes.measure > LOWEST
-    _, _, interval = interval_of(cycles, model.schedule)
-    return evaluated(
-        np.concatenate([cycles, extremes.cycles[there]]),
-        np.concatenate([states, extremes.state[there]]),
-        model,
-        np.concatenate([interval, extremes.interval[there].astype(int)]),
-    )
-
-
 class Sampled(NamedTuple):
-    """Datasets by name at samples: of the whole train, (n,) or (n, body), and of each mesh, see `mesh_outputs`."""
+    """Datasets by name at samples: of the whole train, (n,) or (n, body), and `mesh_outputs` of each mesh."""
 
     cycles: Float[Array, " sample"]  # reference cycles since the start
     whole: dict[str, np.ndarray]
@@ -301,7 +282,13 @@ def evaluated_with_extremes(
     model: Model,
     shares: bool = False,
 ) -> tuple[Evaluated, Sampled, Sampled]:
-    """States at samples and where the motion between them is extreme, evaluated; datasets of either."""
-    samples, count = at_extremes(cycles, states, extremes, model), len(cycles)
+    """Samples and, behind them, where the motion between them is extreme, evaluated; datasets of either."""
+    count, interval = len(cycles), interval_of(cycles, model.schedule)[2]
+    if extremes is not None:
+        there = extremes.measure > LOWEST
+        cycles = np.concatenate([cycles, extremes.cycles[there]])
+        states = np.concatenate([states, extremes.state[there]])
+        interval = np.concatenate([interval, extremes.interval[there].astype(int)])
+    samples = evaluated(cycles, states, model, interval)
     both = sampled(samples, shares)
     return samples, both.part(slice(count)), both.part(slice(count, None))
