@@ -32,6 +32,7 @@ class Engine(Protocol):
 
     def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
         """Evaluate; takes the next chunks only as results go out."""
+        ...
 
 
 class LocalEngine:

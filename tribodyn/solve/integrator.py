@@ -82,6 +82,7 @@ class Integrator(Protocol):
 
     def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
         """Integrate `cycles` cycles; `state` stands before the engagement that opens the first."""
+        ...
 
 
 class Ensemble(NamedTuple):

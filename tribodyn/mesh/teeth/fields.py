@@ -60,13 +60,16 @@ class OwnFields(Protocol):
     @property
     def of_gap_alone(self) -> bool:
         """Whether nothing but material is missing: compliance and friction are those of the drawn tooth."""
+        ...
 
     @property
     def early(self) -> float:
         """By how much a flank may stand out against that of the next tooth, m."""
+        ...
 
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """What a flank (`LEADING`, `TRAILING`) of a tooth has at the places; None: nothing."""
+        ...
 
 
 #: Of one gear.

@@ -43,6 +43,7 @@ class SystemFamily(Protocol):
 
         Only those that there are count as cases of the map.
         """
+        ...
 
 
 class BranchEnd(NamedTuple):

@@ -52,6 +52,7 @@ class PeriodMap(Protocol):
         self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int, fine: bool
     ) -> Marched:
         """States (R, N) over some periods; `fine` asks for the accuracy that a fixed point needs."""
+        ...
 
     def tangent(
         self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int, fine: bool = True
@@ -60,6 +61,7 @@ class PeriodMap(Protocol):
 
         Otherwise they need be no better than a step of Newton's method asks for.
         """
+        ...
 
 
 def by_differences(

@@ -59,33 +59,41 @@ class Batch(Protocol):
         Of the cases at both ends of a grid, with the mesh cycles to march instead of seeking a steady state;
         `engine` says where: "native", "jax", "dask".
         """
+        ...
 
     def following(self, settings: Any, unstable: bool) -> Any:
         """The settings of a sweep whose cases go on from each other, and maybe continue branches unstably.
 
         Raises InputError where there are no such branches.
         """
+        ...
 
     def hearing(self, request: SignalRequest) -> "Batch":
         """The batch whose cases give the signals of their sensors; InputError where they have none."""
+        ...
 
     def layout(self, settings: Any) -> SweepLayout:
         """What is recorded of every case."""
+        ...
 
     def size_of_chunk(self, settings: Any, total: int, width: int) -> int:
         """Cases to be evaluated together, of so many; `width` of them at the cost of one."""
+        ...
 
     def estimate(self, case: Any, settings: Any, total: int, width: int) -> Estimate:
         """What one of so many cases takes: the memory of those evaluated together, the bytes of its row."""
+        ...
 
     def sharing(self, case: Any) -> Hashable:
         """Cases for which this is equal share costly work, and are evaluated one after the other."""
+        ...
 
     def check(self, case: Any, settings: Any) -> None:
         """Prepare a case; InputError says why it cannot be evaluated."""
 
     def evaluate(self, chunk: Chunk, settings: Any, workers: int | None) -> dict[str, np.ndarray]:
         """Evaluate; rows (n, …) of every variable of the layout."""
+        ...
 
 
 #: Fields that name a case or hold its text, and say nothing of it beyond the others.

@@ -38,15 +38,19 @@ class Finding(Protocol):
     @property
     def remarks(self) -> Sequence[str]:
         """Sentences that stand below the tables."""
+        ...
 
     def tables(self) -> Sequence["TextTable"]:
         """What the terminal shows."""
+        ...
 
     def as_dict(self) -> dict[str, Any]:
         """What ``--json`` prints."""
+        ...
 
     def plot(self) -> "Figure":
         """Draw it."""
+        ...
 
 
 class Verb(NamedTuple):

@@ -51,13 +51,16 @@ class Damage(Protocol):
     @property
     def tooth(self) -> int:
         """Number of the tooth, from 0."""
+        ...
 
     @property
     def early(self) -> float:
         """By how much the other teeth may stand out against this one, m."""
+        ...
 
     def on_flank(self, gear: DamagedGear, flank: int, places: FlankPlaces) -> ToothFields | None:
         """What it does to a flank of the tooth; None: nothing."""
+        ...
 
 
 @dataclass(frozen=True)
