@@ -50,28 +50,22 @@ class Path(Protocol):
     @property
     def pinion_pitch_radius(self) -> Any:
         """Working pitch radius of the pinion, m."""
-        ...
 
     @property
     def gear_pitch_radius(self) -> Any:
         """Working pitch radius of the gear, m."""
-        ...
 
     def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle α at the signed distance r (m), rad."""
-        ...
 
     def pressure_angle_slope(self, r: PerContact) -> PerContact:
         """Slope dα/dr, rad/m."""
-        ...
 
     def rotation(self, r: PerContact) -> PerContact:
         """Pinion angle φ at the signed distance r, rad; 0 at the pitch point."""
-        ...
 
     def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ (rad): the inverse of `rotation`."""
-        ...
 
 
 class Kinematics(NamedTuple):

@@ -26,12 +26,10 @@ class Loads(Protocol):
     @property
     def normal_load(self) -> Float[Array, "*pair"]:
         """Loads of the pairs."""
-        ...
 
     @property
     def friction_load(self) -> Float[Array, "*pair"]:
         """Loads at which friction acts as along the face."""
-        ...
 
 
 class Contacts(NamedTuple):
