@@ -1,12 +1,12 @@
 """`tribodyn compare`: runs and records in one table and in shared pictures; what cannot be compared."""
 
 import json
+import shutil
 from pathlib import Path
 
 import h5py
 import pytest
 
-from tests.support import synthetic_record
 from tests.support.verbs import complaint, invoke, sets
 from tribodyn.record.reader import Record
 from tribodyn.studies.pages import names
@@ -91,10 +91,10 @@ def test_what_cannot_be_compared_is_refused_before_anything_runs(words: list[str
     assert said in complaint("compare", *words)
 
 
-def test_records_that_cannot_be_compared(tmp_path: Path):
-    first = synthetic_record.write(tmp_path / "first.h5", cycles=2, per_cycle=40)
-    other = synthetic_record.write(tmp_path / "other.h5", cycles=2, per_cycle=40)
-    assert "given twice" in complaint("compare", first, tmp_path / "." / "first.h5")
+def test_records_that_cannot_be_compared(both, tmp_path: Path):
+    first = both[1] / "crc-23-47.h5"
+    other = shutil.copy(first, tmp_path / "other.h5")
+    assert "given twice" in complaint("compare", first, both[1] / ".." / both[1].name / first.name)
     assert "nothing is run" in complaint("compare", first, other, "--set", "solver.cycles=3")
     with h5py.File(other, "r+") as file:
         file.attrs["status"] = "failed"

@@ -26,27 +26,6 @@ def oscillator(frequencies, damping=0.05, mean_force=0.1, error=0.05, variation=
     )
 
 
-@pytest.mark.parametrize("frequency", [0.3, 0.55, 1.3, 2.2])
-def test_without_contact_loss_the_linear_response_is_exact(frequency):
-    damping, mean_force, error = 0.05, 0.5, 0.02
-    response = frequency_response(oscillator([frequency], damping, mean_force, error))
-    complex_amplitude = error * frequency**2 / (1.0 - frequency**2 + 2j * damping * frequency)
-    amplitude = abs(complex_amplitude)
-    assert np.all(response.motion == STABLE)
-    np.testing.assert_allclose(response.mean_displacement, 1.0 + mean_force, atol=1e-8)
-    np.testing.assert_allclose(response.rms_displacement, amplitude / np.sqrt(2.0), rtol=1e-6)
-    np.testing.assert_allclose(response.peak_to_peak_displacement, 2.0 * amplitude, rtol=1e-5)
-    np.testing.assert_allclose(
-        response.section_displacement, 1.0 + mean_force + complex_amplitude.real, atol=2e-7
-    )
-    np.testing.assert_allclose(response.section_velocity, -frequency * complex_amplitude.imag, atol=2e-7)
-    assert np.all(response.contact_loss_fraction == 0.0)
-    modes = -damping + 1j * np.sqrt(1.0 - damping**2) * np.array([1.0, -1.0])
-    multipliers = np.exp(modes * 2.0 * np.pi / frequency)
-    for multiplier in multipliers:
-        assert np.min(np.abs(response.multiplier[0, UP] - multiplier)) < 1e-12
-
-
 @pytest.mark.parametrize(
     "parameters",
     [

@@ -7,6 +7,7 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+from rich.console import Console
 
 from tribodyn.gears.motion.recorded import DOF, LAYOUT, SAMPLES, scales_of
 from tribodyn.mesh.record_arrays import from_arrays
@@ -77,6 +78,14 @@ def gear_pair_writer(
         "gear-pair", LAYOUT, scenario_toml, sha256, datetime.now(UTC), groups, scales_of(from_arrays(table))
     )
     return RecordWriter(path, head, samples, force=force)
+
+
+def printed(table: Any) -> str:
+    """What the terminal shows of a table."""
+    console = Console(width=200, no_color=True)
+    with console.capture() as capture:
+        console.print(table)
+    return capture.get()
 
 
 def block(start: int, stop: int, pairs: int = 2) -> dict[str, np.ndarray]:

@@ -1,10 +1,12 @@
 """The figures of Liu & Ni show the numbers that the paper prints."""
 
+import shutil
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from tests.support import synthetic_record
+from tests.support.involute_run import involute_run
 from tribodyn.record.reader import Record
 from tribodyn.validation.papers.liu_ni_figures import FIGURES, MODELS, WITH_FRICTION, quasi_static_load
 from tribodyn.validation.published import published
@@ -13,8 +15,9 @@ from tribodyn.validation.published import published
 @pytest.fixture(scope="module")
 def records(tmp_path_factory: pytest.TempPathFactory):
     folder = tmp_path_factory.mktemp("liu-ni")
+    path = involute_run(folder / "run.h5")
     for name in {*MODELS.values(), *WITH_FRICTION.values()}:
-        synthetic_record.write(folder / f"{name}.h5", per_cycle=60)
+        shutil.copy(path, folder / f"{name}.h5")
     return folder
 
 

@@ -32,7 +32,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import contacts_of, engage
-from tribodyn.train.structure import IN, velocities, work_of
+from tribodyn.train.structure import velocities
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.law import ActiveLaw
 
@@ -404,13 +404,3 @@ def test_load_torque_adds_table_and_harmonics(prepared):
     harmonic = 10.0 * np.sin(3.0 * 0.5 + 0.5)
     assert load_torque(0.5, operation) == pytest.approx(25.0 + harmonic)
     assert load_torque(9.0, operation) == pytest.approx(50.0 + 10.0 * np.sin(27.5))
-
-
-def test_prescribed_speed_leaves_the_pinion_alone(prepared, rng):
-    model = prepared("crc-23-47").model
-    y = random_state(rng, model)
-    y[SLIP] = 0.0
-    _, dy, _ = evaluate(model, y, 0.3, 0)
-    assert dy[SLIP] == dy[LAG] == 0.0
-    assert dy[work_of(PAIR, IN)] != 0.0
-    assert np.all(np.isfinite(dy[: PAIR.mechanical]))

@@ -39,11 +39,15 @@ def test_bearings_side_by_side_add():
     assert radial_stiffness(replace(BALLS, count=2)) == pytest.approx(2 * radial_stiffness(BALLS))
 
 
+BEARING = {
+    "rolling": {"type": "deep-groove-ball", "elements": 10, "diameter": "12 mm", "radial_load": "2 kN"},
+    "damping_ratio": 0.05,
+}
+BEARINGS = {"title": "balls", "source": "size", "pinion": BEARING, "gear": BEARING}
+
+
 def test_a_scenario_takes_it_in_place_of_a_stiffness():
-    table = {"type": "deep-groove-ball", "elements": 10, "diameter": "12 mm", "radial_load": "2 kN"}
-    bearing = {"rolling": table, "damping_ratio": 0.05}
-    bearings = {"title": "balls", "source": "size", "pinion": bearing, "gear": bearing}
-    case = scenario("crc-23-47", {"bearings": bearings})
+    case = scenario("crc-23-47", {"bearings": BEARINGS})
     assert case.bearings[0].stiffness_x == case.bearings[1].stiffness_y == 2 * radial_stiffness(BALLS)
 
 
@@ -57,10 +61,7 @@ def test_a_scenario_takes_it_in_place_of_a_stiffness():
     ],
 )
 def test_what_contradicts_is_refused(changes, key):
-    table = {"type": "deep-groove-ball", "elements": 10, "diameter": "12 mm", "radial_load": "2 kN"}
-    bearing = {"rolling": table, "damping_ratio": 0.05}
-    bearings = {"title": "balls", "source": "size", "pinion": bearing, "gear": bearing}
     with pytest.raises(InputError) as refused:
-        scenario("crc-23-47", {"bearings": bearings, **changes})
+        scenario("crc-23-47", {"bearings": BEARINGS, **changes})
     errors = getattr(refused.value, "errors", [refused.value])
     assert key in [error.key for error in errors]

@@ -44,11 +44,6 @@ def test_the_mean_sign_is_that_of_a_fine_sum(half):
     np.testing.assert_allclose(mean_sign(at, half), expected, atol=1e-7)
 
 
-def test_positive_part_has_no_force_without_contact():
-    assert positive_part(0.0, 1e-7) == 0.0
-    assert positive_part(-1e-9, 1e-7) == 0.0
-
-
 def test_positive_part_integral_is_the_integral():
     integral = np.concatenate(
         [[0.0], np.cumsum(0.5 * np.diff(X) * (positive_part(X, 0.5)[1:] + positive_part(X, 0.5)[:-1]))]

@@ -84,16 +84,6 @@ def test_loads_are_those_of_the_only_set_of_pairs_that_can_be(rng, rubbed: bool)
     assert len(counts) > 1
 
 
-def test_stiffness_is_what_the_deflection_grows_by(rng):
-    """Of springs without gaps: force over deflection."""
-    table = Table(rng, 0.0)
-    table.gap = 0.0 * table.gap
-    found = quasi_static(table, 90.0)  # pyright: ignore[reportArgumentType]
-    np.testing.assert_allclose(
-        found.mesh_stiffness * found.deflection, 90.0 / table.gear_pitch_radius, rtol=1e-12
-    )
-
-
 def test_integrals_are_those_of_scipys_splines(rng):
     """Of rough values, up to any phase of any segment, one of no length among them."""
     values = rng.uniform(-1.0, 1.0, (4, 7, 2))

@@ -1,7 +1,6 @@
 """Drives that differ in size, in stiffness or in which gear drives: what has to change, and by how much."""
 
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.sheet import geometry_sheet
-from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, mean_efficiency, quasi_static
+from tribodyn.mesh.quasi_static import mean_efficiency, quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import tabulate
 
@@ -121,47 +120,3 @@ def test_with_the_gears_exchanged_a_pair_goes_its_way_back(family, drive):
     # and the shares of a load without friction are the same
     turns = quasi_static(first, 300.0 * ratio), quasi_static(last, 300.0)
     np.testing.assert_allclose(turns[1].normal_load[0, ::-1, ::-1], turns[0].normal_load[0], rtol=1e-6)
-
-
-def test_loads_share_the_deflection_and_balance_the_torque():
-    """Two pairs, their compliances, coupling and gaps: two equations solved by hand."""
-    family, drive = SOUND[0]
-    small = table(family, drive)
-    rng = np.random.default_rng(3)
-    gap = 2e-6 * rng.random(small.compliance.shape)
-    cycle = small._replace(gap=gap)
-    friction = 0.1 * np.sign(cycle.signed_distance)
-    found = quasi_static(cycle, 400.0, friction)
-    for node in (0, 5, 16):
-        h = np.cos(cycle.pressure_angle[0, node])
-        arm = cycle.gear_pitch_radius * h + friction[0, node] * (
-            cycle.gear_pitch_radius * np.sin(cycle.pressure_angle[0, node]) - cycle.signed_distance[0, node]
-        )
-        matrix = np.zeros((3, 3))
-        matrix[:2, :2] = np.diag(cycle.compliance[0, node]) + cycle.coupling[0, node]
-        matrix[:2, 2], matrix[2, :2] = -h, arm
-        *load, deflection = np.linalg.solve(matrix, [*-gap[0, node], 400.0])
-        np.testing.assert_allclose(found.normal_load[0, node], load, rtol=1e-9)
-        assert found.deflection[0, node] == pytest.approx(deflection, rel=1e-9)
-        # the force on the pitch circles over the deflection that it adds
-        more = np.linalg.solve(matrix, [*-gap[0, node], 401.0])[2]
-        assert found.mesh_stiffness[0, node] == pytest.approx(
-            1.0 / cycle.gear_pitch_radius / (more - deflection), rel=1e-6
-        )
-
-
-@pytest.mark.parametrize("upto", [0.0, 0.3, 0.85, 1.0])
-def test_integrals_over_the_cycle_are_those_of_cubics(upto):
-    """Of one value per node and of one per pair; each segment has a cubic of its own."""
-    small = table(*SOUND[0])
-    phase, number = small.phase, np.arange(len(small.phase))[:, None]
-    values = 1.0 + number - 2.0 * phase + (3.0 + number) * phase**3
-    exact = 0.0
-    for k, (low, high) in enumerate(pairwise(small.boundary)):
-        high = min(high, upto)
-        if high > low:
-            exact += np.diff(np.polyval([(3.0 + k) / 4, 0.0, -1.0, 1.0 + k, 0.0], [low, high]))[0]
-    assert cycle_integral(small, values, np.array([[upto]])) == pytest.approx(exact, rel=1e-12, abs=1e-15)
-    both = cycle_integral(small, np.stack([values, -2.0 * values], axis=-1), np.array([[upto, upto]]))
-    np.testing.assert_allclose(both, [exact, -2.0 * exact], rtol=1e-12, atol=1e-15)
-    assert cycle_mean(small, 1.0 + 0.0 * values) == pytest.approx(1.0)

@@ -1,14 +1,11 @@
 """The mesh cycle's table against direct evaluation, its options, and its derivatives under JAX."""
 
 import math
-import subprocess
-import sys
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
 from tests.support.compile_fast import ONE_CALL
@@ -23,7 +20,6 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import cycle_mean, mean_efficiency, quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
-from tribodyn.numerics.curve import interpolate
 
 jax.config.update("jax_enable_x64", True)
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
@@ -176,14 +172,6 @@ class TestOptions:
         with pytest.raises(InputError, match="held at its bore"):
             tabulate(assemble(crc.FAMILY, solid), (STEEL, STEEL), mesh(body="held"), 2)
 
-    def test_interpolation_is_the_monotone_one(self):
-        rng = np.random.default_rng(4)
-        for count in (2, 3, 12):
-            x = np.cumsum(rng.uniform(0.1, 1, count))
-            y = rng.normal(size=count)
-            at = np.linspace(x[0], x[-1], 200)
-            np.testing.assert_allclose(interpolate(x, y, at), PchipInterpolator(x, y)(at), atol=1e-12)
-
 
 @FAMILIES
 def test_back_flanks_are_the_mirror_image(family):
@@ -206,22 +194,6 @@ def test_back_flanks_are_the_mirror_image(family):
             np.testing.assert_allclose(np.sort(mine), np.sort(path.signed_distance(touching)), atol=1e-12)
     together = np.interp(cycle.phase[0], front.phase[0], front.compliance[0, :, 1])
     np.testing.assert_allclose(cycle.compliance[0, :, 1], together, rtol=1e-4)
-
-
-def test_no_jax_in_a_plain_run():
-    code = (
-        "import math, sys\n"
-        "from tribodyn.geometry.drive import MaterialData\nfrom tribodyn.mesh.table import MeshData\n"
-        "from tribodyn.geometry.assembly import assemble\nfrom tribodyn.geometry.families import crc\n"
-        "from tribodyn.geometry.drive import Drive, GearBody\n"
-        "from tribodyn.mesh.tabulate import tabulate\n"
-        "steel = MaterialData('steel', 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)\n"
-        "body = lambda z, bore: GearBody(z, 0.0, 1.0, 1.25, 0.25, 0.02, bore)\n"
-        "drive = Drive(0.003, math.radians(22.81), body(23.0, 0.015), body(47.0, 0.025))\n"
-        "tabulate(assemble(crc.FAMILY, drive), (steel, steel), MeshData('energy', 0.05), 2)\n"
-        "assert 'jax' not in sys.modules\n"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def figures(family, parameters, points=33):
@@ -271,24 +243,6 @@ def test_a_thousand_drives_in_one_batch(family):
 
 class TestQuasiStatic:
     """Load sharing and loss against a plain calculation."""
-
-    def test_gap_takes_a_pair_out_of_contact(self):
-        roll = np.linspace(-0.3, 0.3, 3)
-        late = mesh(error_table=(roll, np.array([1e-3, 0.0, 0.0])))  # far too much relief in approach
-        cycle = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), late, 2)
-        loads = quasi_static(cycle, 500.0).normal_load
-        assert loads[0, 0, 1] == 0
-        assert loads[0, 0, 0] * cycle.gear_pitch_radius * math.cos(
-            cycle.pressure_angle[0, 0, 0]
-        ) == pytest.approx(500.0)
-
-    def test_load_dependent_contact_is_in_equilibrium(self):
-        cycle = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), mesh(hertz="load-dependent"), 2)
-        state = quasi_static(cycle, 500.0)
-        loads, arms = state.normal_load[0], np.cos(cycle.pressure_angle[0])
-        approach = cycle.compliance[0] * loads + cycle.hertz_coefficient * loads**0.9
-        approach += np.einsum("nij,nj->ni", cycle.coupling[0], loads)
-        np.testing.assert_allclose(approach, arms * state.deflection[0][:, None], rtol=1e-10)
 
     def test_normal_and_friction_forces_turn_the_gear(self):
         """Moments about the gear's centre from the positions of the contacts, by vectors."""

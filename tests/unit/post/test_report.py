@@ -3,26 +3,39 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
-from rich.console import Console
 
-from tests.support import synthetic_record
-from tests.support.record_samples import block, gear_pair_writer, geometry
+from tests.support.record_samples import block, gear_pair_writer, geometry, printed
 from tribodyn.cli.printing import plain
 from tribodyn.record.reader import Record
 from tribodyn.studies.pages import summary_json, summary_table
 
+SUMMARY = {
+    "contact_ratio": 1.6677,
+    "mesh_frequency": 36.606,
+    "stiffness_single_pair_at_pitch_point": 3.2e8,
+    "transmission_error_mean": 2.2e-5,
+    "transmission_error_normal_mean": 2.1e-5,
+    "normal_load_max": 7850.0,
+    "film_min": 0.9e-7,
+    "hertz_pressure_max": 1.4e9,
+    "friction_force_mean": np.array([150.0, 310.0]),
+    "efficiency": 0.9868,
+    "solver": "dopri5",
+    "steps": 4200,
+}
+
 
 @pytest.fixture
 def record(tmp_path: Path) -> Record:
-    return Record(synthetic_record.write(tmp_path / "run.h5", cycles=1, per_cycle=20))
+    with gear_pair_writer(tmp_path / "run.h5", 9, outlines=geometry()) as writer:
+        writer.write(0, block(0, 9))
+        return Record(writer.finish(SUMMARY))
 
 
-def printed(record: Record) -> str:
-    console = Console(width=100, no_color=True)
-    with console.capture() as capture:
-        console.print(summary_table(record, full=True))
-    return capture.get()
+def figures(record: Record) -> str:
+    return printed(summary_table(record, full=True))
 
 
 def failed(path: Path, summary: dict) -> Record:
@@ -49,21 +62,21 @@ def failed(path: Path, summary: dict) -> Record:
     ],
 )
 def test_figures_are_in_engineers_units(record: Record, line: list[str]):
-    assert any(all(part in row for part in line) for row in printed(record).splitlines()), line
+    assert any(all(part in row for part in line) for row in figures(record).splitlines()), line
 
 
 def test_a_law_that_no_contact_bears_out_is_said(tmp_path: Path):
     judged = {"low": 0.42, "median": 2.2, "high": 13.6, "limits": 0}
     summary = {"friction_law": "xu", "friction_judged": judged, "closure_in_range_fraction": 1.0}
-    text = " ".join(printed(failed(tmp_path / "run.h5", summary)).split())
+    text = " ".join(figures(failed(tmp_path / "run.h5", summary)).split())
     assert "friction law xu has no range by the solved contact" in text
     assert "0.42 to 14 times the solved friction" in text
     summary["friction_judged"] = judged | {"limits": 3}
-    assert "no range by" not in printed(failed(tmp_path / "other.h5", summary))
+    assert "no range by" not in figures(failed(tmp_path / "other.h5", summary))
 
 
 def test_a_failed_run_says_so(tmp_path: Path):
-    text = printed(failed(tmp_path / "run.h5", {}))
+    text = figures(failed(tmp_path / "run.h5", {}))
     assert "failed: stopped at t = 0.1 s: step too small" in text
     assert "4 samples were written" in text
 

@@ -7,11 +7,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from rich.console import Console
 from typer.testing import CliRunner
 
 import tribodyn
-from tests.support.record_samples import block, gear_pair_writer, geometry
+from tests.support.record_samples import block, gear_pair_writer, geometry, printed
 from tribodyn.cli.app import app
 from tribodyn.cli.printing import plain
 from tribodyn.errors import SimulationError
@@ -40,13 +39,6 @@ from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
 DOCS = Path(__file__).parents[3] / "docs"
-
-
-def printed(table) -> str:
-    console = Console(width=200, no_color=True)
-    with console.capture() as capture:
-        console.print(table)
-    return capture.get()
 
 
 def judged(**quantities):

@@ -44,8 +44,9 @@ def test_a_step_is_that_of_scipy(monkeypatch, rng, method, theirs):
     if method is dopri5:
         error = np.abs(solver._estimate_error(solver.K, step))
         inside = np.zeros(STATES)
-        plain(method.sample)(0.3, step, start, buffer, inside, PAIR)
-        np.testing.assert_allclose(inside, solver.dense_output()(first + 0.3 * step), rtol=1e-10)
+        for share in (0.0, 0.3, 0.6, 1.0):
+            plain(method.sample)(share, step, start, buffer, inside, PAIR)
+            np.testing.assert_allclose(inside, solver.dense_output()(first + share * step), rtol=1e-10)
     else:
         k = solver.K[:13]
         fifth, third = (np.abs(weights @ k) for weights in (solver.E5, solver.E3))

@@ -83,6 +83,9 @@ def test_a_step_is_of_fourth_order_also_where_the_phase_drives(monkeypatch, rng,
         inside = np.zeros(STATES)
         rodas4.sample(0.4, step, start, buffer, inside, PAIR)
         insides.append(np.abs(inside - exact[:, 0]).max())
+        for share, end in ((0.0, start), (1.0, buffer[STATE])):
+            rodas4.sample(share, step, start, buffer, inside, PAIR)
+            np.testing.assert_allclose(inside, end)
         again = buffer.copy()
         count = rodas4.attempt(False, step, place, start, control, MODEL, cast(Any, None), buffer)
         assert count == 5

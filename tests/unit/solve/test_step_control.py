@@ -1,4 +1,4 @@
-"""When no step is possible any more, and why; and when a motion has grown without bound."""
+"""When no step is possible any more, and why; how large steps are, and where they end as friction turns."""
 
 from types import SimpleNamespace
 
@@ -7,7 +7,18 @@ import pytest
 
 from tests.support.states import PAIR, TURN_G
 from tribodyn.solve.integrator import Status
-from tribodyn.solve.march.step_control import MINIMUM_STEP, refusal, unbounded
+from tribodyn.solve.march import explicit_8 as triple
+from tribodyn.solve.march.step_control import (
+    MINIMUM_STEP,
+    NEAR,
+    SHARES,
+    UNLIMITED,
+    next_share,
+    refusal,
+    unbounded,
+)
+from tribodyn.solve.methods import dopri5 as pair
+from tribodyn.solve.methods import rodas4 as rosenbrock
 from tribodyn.train.structure import displacements
 
 SMALL, USUAL, LIMIT = MINIMUM_STEP / 2, 1e-3, 10
@@ -41,3 +52,34 @@ def test_only_displacements_beyond_the_centre_distance_are_unbounded(place):
         state = np.zeros(PAIR.states)
         state[place] = per_length * value
         assert unbounded(state, model) == (place in displacements(PAIR) and abs(value) > 0.15)
+
+
+def test_steps_grow_and_shrink_as_their_error_says():
+    """From an error e of order e^(1/p): 0.8 … 0.9 of the step that would have the error 1, within bounds."""
+    assert pair.shrinkage(2.0) == pytest.approx(0.9 / 2.0 ** (1 / 5))
+    assert pair.growth(0.5, 0.5) == pytest.approx(0.8 * 2.0**0.13)
+    assert pair.growth(0.5, 1.0) == pytest.approx(0.8 * 2.0**0.17)
+    assert (pair.growth(0.0, 1.0), pair.growth(1e9, 1.0), pair.shrinkage(1e9)) == (5.0, 0.2, 0.2)
+    assert triple.shrinkage(2.0) == pytest.approx(0.9 / 2.0 ** (1 / 8))
+    assert triple.growth(0.5) == pytest.approx(0.9 * 2.0 ** (1 / 8))
+    assert (triple.growth(0.0), triple.growth(1e12), triple.shrinkage(1e12)) == (6.0, 0.3, 0.3)
+    assert rosenbrock.shrinkage(2.0) == pytest.approx(0.9 / 2.0 ** (1 / 4))
+    assert rosenbrock.growth(0.5, 0.5) == pytest.approx(0.8 * 2.0**0.16)
+    assert rosenbrock.growth(0.5, 1.0) == pytest.approx(0.8 * 2.0**0.21)
+    assert (rosenbrock.growth(0.0, 1.0), rosenbrock.growth(1e9, 1.0)) == (6.0, 0.2)
+    assert rosenbrock.shrinkage(1e9) == 0.1
+
+
+def test_steps_end_at_both_ends_of_the_width_at_a_fifth_of_it_and_where_sliding_vanishes():
+    """The force is C1 at the ends of the width, 1 and -1; its coefficient has a kink at 0."""
+    assert sorted(SHARES) == list(SHARES) == [-place for place in reversed(SHARES)]
+    assert {-1.0, 0.0, 1.0} <= set(SHARES)
+    for place, near in zip(SHARES, NEAR, strict=True):
+        for direction in (1.0, -1.0):
+            distance, allowed = next_share(place - 0.15 * direction, direction)
+            assert distance == pytest.approx(0.15)
+            assert allowed == near
+
+
+def test_nothing_is_ahead_behind_the_last_place():
+    assert next_share(1.5, 1.0)[0] == next_share(-1.5, -1.0)[0] == UNLIMITED

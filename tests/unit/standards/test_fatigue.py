@@ -23,10 +23,6 @@ def test_a_line_has_its_points_and_its_inverse():
     assert math.isinf(LINE.endured(LINE.stress[-1]))
 
 
-def test_the_safety_of_one_load_is_permissible_over_occurring_stress():
-    assert safety([Bin(400e6, 1e6)], LINE) == pytest.approx(LINE.at(1e6) / 400e6, rel=1e-12)
-
-
 @given(st.floats(0.5, 1.0), st.floats(0.05, 0.95))
 def test_the_safety_over_a_spectrum_is_that_of_the_equivalent_load(second: float, share: float):
     """On one line n_1 s_1^p + n_2 s_2^p counts; both loads are damaging at the safety found."""
@@ -46,19 +42,6 @@ def test_life_is_the_inverse_of_the_damage_at_the_required_safety():
     assert life_share(bins, LINE, 1.2) < life_share(bins, LINE, 1.0)
     assert math.isinf(life_share([Bin(1e6, 1e9)], LINE, 1.0))
     assert life_share([Bin(900e6, 1.0)], LINE, 1.0) == 0.0
-
-
-def test_splitting_a_load_into_equal_parts_changes_nothing():
-    parts = [Bin(400e6, 1e5)] * 10
-    assert safety(parts, LINE) == pytest.approx(safety([Bin(400e6, 1e6)], LINE), rel=1e-8)
-
-
-@pytest.mark.parametrize("treatment", TREATMENTS)
-def test_life_factors_fall_from_the_static_value_through_1_to_085(treatment):
-    for curve in (contact_factors(treatment), bending_factors(treatment)):
-        assert list(curve.cycles) == sorted(curve.cycles)
-        assert list(curve.stress) == sorted(curve.stress, reverse=True)
-        assert curve.stress[1:] == (1.0, 0.85)
 
 
 def test_life_factors_between_their_points_have_the_exponents_of_the_standard():

@@ -15,10 +15,6 @@ from tribodyn.standards.load_factors import (
 )
 
 
-def test_even_loads_have_factors_of_one():
-    assert transverse_load_factor(50.0, 50.0) == 1.0
-
-
 def test_the_excess_counts_where_pairs_share():
     # ε_α = 1.5 from 0 to 1.5: two pairs up to a phase of 0.5, then one that carries everything
     phase = np.arange(10) / 10.0

@@ -76,17 +76,6 @@ def test_no_friction_no_loss(studies, name):
     assert found.efficiency == pytest.approx(1.0, abs=1e-13)
 
 
-@pytest.mark.parametrize("name", DRIVES)
-def test_loss_grows_with_friction_and_vanishes_with_it(studies, name):
-    study = studies[name]
-    losses = [
-        1 - cycle_efficiency(study.cycle, study.path, with_coefficient(study, mu)).efficiency
-        for mu in (1e-5, 0.02, 0.04, 0.08)
-    ]
-    assert np.all(np.diff(losses) > 0)
-    assert losses[0] == pytest.approx(losses[1] * 1e-5 / 0.02, rel=0.02)
-
-
 def test_uniform_sharing_is_hoehns_integral_at_small_friction(studies):
     """To first order in μ: 1 − η = μ H_v."""
     study = studies["efficiency-involute-18-36"]

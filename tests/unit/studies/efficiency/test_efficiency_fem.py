@@ -113,12 +113,6 @@ def test_of_modified_flanks_it_is_the_load_contact_models_efficiency(modified):
         assert np.max(tilted.hertz_pressure) > 1.1 * np.max(level.hertz_pressure)
 
 
-def test_no_friction_no_loss(study):
-    duty = study.duty._replace(closure=of_case(study.case, "none"))
-    found = cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
-    assert found.efficiency == pytest.approx(1.0, abs=1e-12)
-
-
 def test_the_quadrature_resolves_where_corners_begin_to_carry(study):
     coarse, fine = (
         cycle_efficiency(study.cycle, study.path, study.duty, n, study.flanks).efficiency for n in (20, 120)

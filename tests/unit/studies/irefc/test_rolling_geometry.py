@@ -25,12 +25,6 @@ def turned(points: np.ndarray, angle: float) -> np.ndarray:
     return np.stack([turn.real, turn.imag], axis=-1)
 
 
-@pytest.mark.parametrize("drive", DRIVES)
-def test_pitch_circles_touch_in_one_point(drive):
-    assert drive.centre_distance + drive.pitch_radius == pytest.approx(drive.crown_pitch_radius)
-    assert drive.eccentricity + drive.cam_pitch_radius == pytest.approx(drive.crown_pitch_radius)
-
-
 def test_distance_and_arm_are_those_of_the_points_in_the_plane():
     angle = np.linspace(0.0, 2 * np.pi, 13)
     from_pitch_point = element_centres(DRIVE, angle) - PITCH_POINT

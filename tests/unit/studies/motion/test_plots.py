@@ -11,9 +11,16 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from tests.support import record_samples, synthetic_record
-from tests.support.synthetic_record import PITCH_ANGLE, approach_and_recess
+from tests.support import record_samples
+from tests.support.involute_run import (
+    PITCH_ANGLE,
+    PITCH_RADII,
+    PRESSURE_ANGLE,
+    approach_and_recess,
+    involute_run,
+)
 from tribodyn.errors import InputError
+from tribodyn.gears.motion.recorded import SAMPLES
 from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.post.cycles import key_points, last_cycles, pair_curve
 from tribodyn.post.figures import sensors
@@ -24,13 +31,8 @@ from tribodyn.studies.pages import figure, overview
 
 
 @pytest.fixture(scope="module")
-def records(tmp_path_factory: pytest.TempPathFactory) -> list[Record]:
-    folder = tmp_path_factory.mktemp("records")
-    paths = [
-        synthetic_record.write(folder / "slippery.h5", per_cycle=100),
-        synthetic_record.write(folder / "rough.h5", per_cycle=100, friction=0.08),
-    ]
-    return [Record(path) for path in paths]
+def record(tmp_path_factory: pytest.TempPathFactory) -> Record:
+    return Record(involute_run(tmp_path_factory.mktemp("record") / "run.h5"))
 
 
 def curve(drawn: Figure, label: str, axes: int = 0) -> tuple[np.ndarray, np.ndarray]:
@@ -38,23 +40,23 @@ def curve(drawn: Figure, label: str, axes: int = 0) -> tuple[np.ndarray, np.ndar
     return np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
 
 
-def test_units_are_converted(records: list[Record]):
-    _, error = curve(figure("transmission-error", records[:1]), "pair 1", axes=1)
-    _, stiffness = curve(figure("mesh-stiffness", records[:1]), "pair 1")
-    window = last_cycles(records[0])
+def test_units_are_converted(record: Record):
+    _, error = curve(figure("transmission-error", [record]), "pair 1", axes=1)
+    _, stiffness = curve(figure("mesh-stiffness", [record]), "pair 1")
+    window = last_cycles(record)
     assert np.nanmax(error) == pytest.approx(
-        1e6 * np.nanmax(records[0]["transmission_error_normal"][window.part])
+        1e6 * np.nanmax(record["transmission_error_normal"][window.part])
     )
     assert np.nanmax(stiffness) == pytest.approx(320, rel=1e-3)  # 3.2e8 N/m in N/µm
 
 
-def test_key_points_stand_at_their_phases(records: list[Record]):
+def test_key_points_stand_at_their_phases(record: Record):
     start, end = approach_and_recess()
-    found = {point.names[1]: point.phase for point in key_points(records[0]) if 1 in point.names}
+    found = {point.names[1]: point.phase for point in key_points(record) if 1 in point.names}
     assert found["B_g"] == 0.0
     assert found["C_p"] == pytest.approx((end - start) / PITCH_ANGLE - 1)
     assert found["P"] == pytest.approx(-start / PITCH_ANGLE)
-    drawn = figure("normal-load", records[:1], cycles=1)
+    drawn = figure("normal-load", [record], cycles=1)
     (marks,) = [line for line in drawn.axes[0].lines if line.get_linestyle() == ":"]
     assert np.asarray(marks.get_xdata())[::3] == pytest.approx([0.0, found["C_p"], found["P"], 1.0])
 
@@ -92,18 +94,17 @@ def at_phase(phase: np.ndarray, values: np.ndarray, where: float) -> float:
     return float(np.interp(where, phase[left : left + 2], values[left : left + 2]))
 
 
-def test_the_total_stiffness_is_told_from_that_of_pairs(records: list[Record]):
-    drawn = figure("mesh-stiffness", records[:1])
+def test_the_total_stiffness_is_told_from_that_of_pairs(record: Record):
+    drawn = figure("mesh-stiffness", [record])
     _, total = curve(drawn, r"all pairs, $\Sigma\, k_i \cos^2 α_i$")
-    record, part = records[0], last_cycles(records[0]).part
+    part = last_cycles(record).part
     angle = np.nan_to_num(record["pressure_angle"][part])
     expected = np.sum(record["mesh_stiffness"][part] * np.cos(angle) ** 2, axis=1) * 1e-6
     np.testing.assert_allclose(total, expected, rtol=1e-12)
 
 
-def test_each_pair_is_followed_to_the_end_of_its_cycle(records: list[Record]):
+def test_each_pair_is_followed_to_the_end_of_its_cycle(record: Record):
     """The teeth that reach C_g as pair 1 go on as pair 0 from the very same value."""
-    record = records[0]
     window = last_cycles(record)
     values = record["sliding_speed"]
     newest = pair_curve(record, values, 1, window, window.phase)
@@ -116,26 +117,26 @@ def test_each_pair_is_followed_to_the_end_of_its_cycle(records: list[Record]):
     np.testing.assert_allclose(slope, slope[0], rtol=1e-9)
 
 
-def test_key_points_lie_on_the_path(records: list[Record]):
+def test_key_points_lie_on_the_path(record: Record):
     """Distances along the involute's straight path: whole pitches and the approach from the tip circles."""
     start, end = approach_and_recess()
-    base = synthetic_record.PITCH_RADII[0] * np.cos(synthetic_record.PRESSURE_ANGLE)
+    base = PITCH_RADII[0] * np.cos(PRESSURE_ANGLE)
     expected = {"B_g": start, "C_p": end - PITCH_ANGLE, "P": 0.0, "C_g": start + PITCH_ANGLE, "B_p": end}
-    found = key_positions(records[0])
+    found = key_positions(record)
     assert list(found) == ["B_g", "C_p", "P", "C_g", "B_p"]
     for name, (x, y) in found.items():
         assert np.hypot(x, y) * np.sign(x) == pytest.approx(base * expected[name], abs=1e-9)
-        assert y == pytest.approx(x * np.tan(synthetic_record.PRESSURE_ANGLE), abs=1e-12)
+        assert y == pytest.approx(x * np.tan(PRESSURE_ANGLE), abs=1e-12)
 
 
 @pytest.mark.parametrize("phase", [0.0, 0.3, 0.8])
-def test_flanks_touch_where_the_contact_is(records: list[Record], phase: float):
+def test_flanks_touch_where_the_contact_is(record: Record, phase: float):
     start, _ = approach_and_recess()
-    base = synthetic_record.PITCH_RADII[0] * np.cos(synthetic_record.PRESSURE_ANGLE)
+    base = PITCH_RADII[0] * np.cos(PRESSURE_ANGLE)
     distance = base * (start + phase * PITCH_ANGLE)
-    angle = synthetic_record.PRESSURE_ANGLE
+    angle = PRESSURE_ANGLE
     contact = distance * np.array([np.cos(angle), np.sin(angle)])
-    for outline in gears_in_mesh(records[0], phase):
+    for outline in gears_in_mesh(record, phase):
         outline = outline[np.any(np.diff(outline, axis=0, append=outline[:1]) != 0, axis=1)]
         along = np.roll(outline, -1, axis=0) - outline
         share = np.clip(np.sum((contact - outline) * along, axis=1) / np.sum(along**2, axis=1), 0, 1)
@@ -143,9 +144,9 @@ def test_flanks_touch_where_the_contact_is(records: list[Record], phase: float):
         assert gap < 15e-6  # chords of the outline, 12 points per flank
 
 
-def test_the_overview_keeps_its_labels_in_the_figure_and_apart(records: list[Record]):
+def test_the_overview_keeps_its_labels_in_the_figure_and_apart(record: Record):
     """Its margins are of fixed size."""
-    drawn = overview(records[0])
+    drawn = overview(record)
     canvas = FigureCanvasAgg(drawn)
     canvas.draw()
     whole = drawn.bbox
@@ -158,7 +159,7 @@ def test_the_overview_keeps_its_labels_in_the_figure_and_apart(records: list[Rec
     assert min(box.y0 for box in boxes) >= max(legend.get_window_extent().y1 for legend in drawn.legends)
 
 
-def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
+def test_pyplot_is_never_imported(record: Record, tmp_path: Path):
     """It takes long to import and keeps figures alive in a global list."""
     drawing = (
         "import sys\n"
@@ -172,7 +173,7 @@ def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
         "assert 'matplotlib.pyplot' not in sys.modules\n"
     )
     picture = str(tmp_path / "picture.png")
-    subprocess.run([sys.executable, "-c", drawing, str(records[0].path), picture], check=True, timeout=300)
+    subprocess.run([sys.executable, "-c", drawing, str(record.path), picture], check=True, timeout=300)
 
 
 @pytest.mark.parametrize(
@@ -184,18 +185,18 @@ def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
         ({"name": "film", "records": []}, "at least one record"),
     ],
 )
-def test_bad_wishes_are_refused(records: list[Record], arguments: dict, message: str):
+def test_bad_wishes_are_refused(record: Record, arguments: dict, message: str):
     with pytest.raises(InputError, match=message):
-        figure(**cast(Any, {"records": records} | arguments))
+        figure(**cast(Any, {"records": [record]} | arguments))
 
 
-def failed_record(path: Path, samples: int) -> Path:
-    values = synthetic_record.samples(2, 100)
-    table, outlines = synthetic_record.mesh_cycle(), synthetic_record.geometry()
-    with record_samples.gear_pair_writer(path, 201, table=table, outlines=outlines) as record:
+def failed_record(path: Path, samples: int, of: Record) -> Path:
+    """The first samples of a record, whose run gave up; where the gears stand it does not say."""
+    outlines = {name: value for name, value in of.geometry.items() if name != "centre"}
+    with record_samples.gear_pair_writer(path, 201, table=of.mesh_cycle, outlines=outlines) as writer:
         if samples:
-            record.write(0, {name: array[:samples] for name, array in values.items()})
-        return record.fail("gave up")
+            writer.write(0, {name: of[name][:samples] for name in SAMPLES} | {"time": of["time"][:samples]})
+        return writer.fail("gave up")
 
 
 HELICAL = {"line-load", "in-space"}
@@ -206,23 +207,23 @@ ASKED = {"revolutions", *sensors.DRAWINGS}
 @pytest.mark.parametrize(
     "name", sorted({*STUDIES["gear-pair"].drawings()} - {"spectrum", "orders"} - HELICAL - ASKED)
 )
-def test_a_run_that_failed_early_is_drawn(tmp_path: Path, name: str):
+def test_a_run_that_failed_early_is_drawn(record: Record, tmp_path: Path, name: str):
     """In all figures of a pair; what it does not have is said."""
-    with Record(failed_record(tmp_path / "run.h5", 60)) as record:
-        if STUDIES["gear-pair"].drawings()[name].fits(record):
-            figure(name, [record]).draw_without_rendering()
+    with Record(failed_record(tmp_path / "run.h5", 60, record)) as failed:
+        if STUDIES["gear-pair"].drawings()[name].fits(failed):
+            figure(name, [failed]).draw_without_rendering()
         else:
             with pytest.raises(InputError, match=r"run\.partial\.h5"):
-                figure(name, [record])
+                figure(name, [failed])
 
 
 @pytest.mark.parametrize(
     ("samples", "name", "message"), [(60, "spectrum", "no whole mesh cycle"), (0, "film", "no samples")]
 )
-def test_a_record_with_too_few_samples_is_refused(tmp_path: Path, samples: int, name: str, message: str):
-    path = failed_record(tmp_path / "run.h5", samples)
-    with Record(path) as record, pytest.raises(InputError, match=message):
-        figure(name, [record])
+def test_a_record_with_too_few_samples_is_refused(record, tmp_path: Path, samples, name, message):
+    path = failed_record(tmp_path / "run.h5", samples, record)
+    with Record(path) as failed, pytest.raises(InputError, match=message):
+        figure(name, [failed])
 
 
 def test_a_record_without_outlines_has_no_path_figure(tmp_path: Path):

@@ -4,6 +4,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import tomli_w
 
@@ -21,6 +22,7 @@ def split(angle: str | None = None) -> dict[str, Any]:
     gear = {"face_width": "30 mm"}
     turned = {} if angle is None else {"tooth_angle": angle}
     stage = {"module": "3 mm", "pressure_angle": "20 deg"}
+    inward = float(np.arcsin(90.0 * np.sin(np.radians(100.0)) / 166.5))  # half sums of teeth, mm
     return {
         "gear": {
             "pinion": {"teeth": 20, **gear},
@@ -33,8 +35,7 @@ def split(angle: str | None = None) -> dict[str, Any]:
         "stage": [
             {"gears": ["pinion", "up-1"], "azimuth": "100 deg", **stage},
             {"gears": ["pinion", "down-1"], "azimuth": "-100 deg", **stage},
-            # 90 mm sin(100°) = 166.5 mm sin(32.16°)
-            {"gears": ["up-2", "bull"], "azimuth": "-32.1632 deg", **stage},
+            {"gears": ["up-2", "bull"], "azimuth": f"{-inward!r} rad", **stage},
             {"gears": ["down-2", "bull"], **stage},
         ],
         "shaft": [
@@ -53,6 +54,7 @@ def test_a_train_of_two_ways_goes_together_with_the_angle_that_is_said(reduced):
     assert "do not meet" in error.rule
     said = error.remedy.partition('tooth_angle = "')[2].partition('"')[0]
     case = reduced(**split(said))
+    assert_teeth_touch(case)
     assert [mesh.driven for mesh in case.meshes] == [1, 2, 3, 3]
     torques = [mesh.pair.operating.gear_torque for mesh in case.meshes]
     assert torques == pytest.approx([1800 * 21 / 90 / 2] * 2 + [900] * 2)

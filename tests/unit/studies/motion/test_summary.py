@@ -194,17 +194,7 @@ def test_a_minimum_has_its_place_on_the_path_of_contact():
         assert found == pytest.approx(-0.2 + pitches * PITCH)
     extremes.by_name["film_parameter_min"] = Extreme(1.2, 0.1, 7.25, 2)
     assert extremes.where("film_parameter_min", cast(Any, cycle)) == {}
-
-
-def test_the_roll_angle_of_an_extreme_is_that_of_its_pair():
-    """Half a cycle after the newest pair has entered, and the one before it a pitch farther on."""
-    cycle = cast(Any, SimpleNamespace(**vars(CYCLE), roll_start=-0.2))
-    extremes = RunningExtremes(cycle)
-    for pair, roll in ((1, -0.2 + 0.5 * PITCH), (0, -0.2 + 1.5 * PITCH)):
-        extremes.by_name["film_min"] = Extreme(1e-7, 0.0, 7.5, pair)
-        assert extremes.where("film_min", cycle) == {"film_min_roll_angle": pytest.approx(roll, rel=1e-12)}
-    extremes.by_name["film_min"] = Extreme(1e-7, 0.0, 7.5, 2)
-    assert extremes.where("film_min", cycle) == extremes.where("normal_load_max", cycle) == {}
+    assert extremes.where("normal_load_max", cast(Any, cycle)) == {}
 
 
 def test_what_is_missing_in_the_balance_of_energy():
