@@ -55,18 +55,16 @@ def tabulate(
     as many for the back flanks, `mesh.backlash` away. Raises InputError if a table does not cover the
     contact, an option lacks its numbers, or options contradict each other.
     """
-    path, corner = assembly.path, assembly.family.corner
+    path = assembly.path
     check_options(assembly, mesh, back)
     at = _slots(assembly, pairs, mesh.points, back)
-    if corner:  # which side of the pitch point a node there is on must not depend on rounding
+    if assembly.family.corner:  # which side of the pitch point a node there is on must not depend on rounding
         xp = namespace(at.roll)
         at = at._replace(roll=xp.where(xp.abs(at.roll) < _MINIMUM_SEGMENT, 0.0, at.roll))
     curve = RollCurve(*assembly.roll_limits)
 
     r_nodes = path.signed_distance(curve.nodes())
-    r = curve.interpolate(r_nodes, at.roll)
-    if corner:  # paths that may be steep at their ends: one of Newton's steps from the series
-        r = r - (path.rotation(r) - at.roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
+    r = distance_at_roll(assembly, curve, r_nodes, at.roll)
     motion = kinematics(path, r)
     compliance, coupling = pair_compliance(assembly, materials, mesh, curve, r_nodes, at.roll, pairs)
     gap = table.unloaded_gap(assembly, mesh, at, motion.pressure_angle)
@@ -156,6 +154,14 @@ class RollCurve(NamedTuple):
         if values.ndim == 3:
             approach = approach[..., None]
         return xp.where(approach, basis @ values[0], basis @ values[1])
+
+
+def distance_at_roll(assembly: Assembly, curve: RollCurve, r_nodes: Float[Array, "2 17"], roll: Any) -> Any:
+    """Signed distance r (m) at roll angles (rad) of the contact, from its values at the curve's nodes."""
+    path, r = assembly.path, curve.interpolate(r_nodes, roll)
+    if assembly.family.corner:  # paths that may be steep at their ends: one of Newton's steps from the series
+        r = r - (path.rotation(r) - roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
+    return r
 
 
 def pair_compliance(

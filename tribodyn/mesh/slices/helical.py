@@ -17,7 +17,7 @@ further on by as much: mirrored, the hand of the helix is the other one.
 
 import dataclasses
 import math
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -39,8 +39,14 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.slices.gaps import TouchingPart, modified_gap, slice_gap
-from tribodyn.mesh.tabulate import RollCurve, check_options, pair_compliance, tabulate
-from tribodyn.numerics.elementary import absolute, cos, is_jax, namespace, within
+from tribodyn.mesh.tabulate import (
+    RollCurve,
+    check_options,
+    distance_at_roll,
+    pair_compliance,
+    tabulate,
+)
+from tribodyn.numerics.elementary import absolute, is_jax, namespace, within
 from tribodyn.numerics.shapes import Array, Float
 
 #: Nodes over which a slice comes into contact; fewer where a table would grow beyond `MAXIMUM_NODES`.
@@ -114,13 +120,7 @@ def tabulate_slices(
     slope = absolute(pitch_slope(assembly))
     curve = RollCurve(*assembly.roll_limits)
     r_nodes = path.signed_distance(curve.nodes())
-
-    def distance(roll: Any) -> Any:
-        r = curve.interpolate(r_nodes, roll)
-        if assembly.family.corner:
-            r = r - (path.rotation(r) - roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
-        return r
-
+    distance = partial(distance_at_roll, assembly, curve, r_nodes)
     r = distance(at.roll)
     slots = layout.pairs * layout.slices, layout.slices
     motion = kinematics(path, r)
