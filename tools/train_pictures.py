@@ -39,7 +39,7 @@ def block(name: str) -> str:
 def frequencies(file: Path, overrides: dict[str, Any]) -> np.ndarray:
     """Natural frequencies, Hz."""
     prepared = prepare(load_scenario(file, overrides))
-    return natural_frequencies(prepared.model, [made.cycle for made in prepared.made])
+    return natural_frequencies(prepared.model, [made.cycle for made in prepared.tables])
 
 
 def draw_modes(file: Path) -> None:

@@ -211,7 +211,7 @@ def test_a_gear_off_its_axis_opens_its_meshes_by_the_shift_along_the_normal(tabl
         driver = mesh.gears[0]
         sense = case.toothed_shafts[driver].sense * np.sign(case.gears[driver].teeth)
         along = sense * np.array([-across[1], across[0]])
-        alpha = float(prepared.made[m].assembly.path.pressure_angle(0.0))
+        alpha = float(prepared.tables[m].assembly.path.pressure_angle(0.0))
         normals = np.array([side * along * np.cos(alpha) + across * np.sin(alpha) for side in SIDES])
         for gear, sign in zip(mesh.gears, (-1.0, 1.0), strict=True):
             if not case.gears[gear].name.startswith(name):

@@ -97,7 +97,7 @@ def solved(q, v, given):
 def distances(prepared, phase, interval):
     """Of the newest pair of either mesh from the pitch point: base radius times the driver's angle."""
     schedule, found = prepared.model.schedule, []
-    for m, made in enumerate(prepared.made):
+    for m, made in enumerate(prepared.tables):
         own = (schedule.offset[0, m] + phase) % 1.0  # the meshes of an idler have one rate
         assert own == pytest.approx(schedule.rate[m] * phase + schedule.offset[interval, m], abs=1e-12)
         roll = float(made.cycle.roll_start) + own * 2.0 * np.pi / TEETH[m]

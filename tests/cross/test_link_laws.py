@@ -66,7 +66,7 @@ def test_torque_is_the_slope_of_the_energy_and_play_is_free():
 def test_play_under_load_is_a_twist_and_nothing_else():
     """Frequencies stay, the shaft is twisted further by half the play, and the motion is the same."""
     linear, loose = (prepare(reducer(keys)) for keys in (SHAFT, PLAY))
-    of = [natural_frequencies(each.model, [made.cycle for made in each.made]) for each in (linear, loose)]
+    of = [natural_frequencies(each.model, [made.cycle for made in each.tables]) for each in (linear, loose)]
     np.testing.assert_allclose(of[1], of[0], rtol=1e-5)
     twists = []
     for each in (linear, loose):

@@ -31,7 +31,7 @@ def test_phases_are_those_of_the_turned_outlines(teeth, places, sense):
     """The teeth put together tooth by tooth against the formula that turned outlines have checked."""
     angles = [f"{360.0 / 108.0 * place:.12f} deg" for place in places]
     prepared = prepare(set_case(teeth, angles=angles, operating={"sense": sense}))
-    own, at_sun, at_ring = prepared.case.sets[0], prepared.made[0], prepared.made[3]
+    own, at_sun, at_ring = prepared.case.sets[0], prepared.tables[0], prepared.tables[3]
     entries = []
     for made in (at_sun, at_ring):
         path = made.assembly.path
@@ -110,7 +110,7 @@ def test_sequential_meshes_do_not_excite_a_rotational_mode_by_its_double():
     largest = {}
     for teeth in (IN_PHASE, SEQUENTIAL):
         prepared = prepare(_lightly_damped(teeth, 900.0))
-        found = modes(prepared.model, [made.cycle for made in prepared.made])
+        found = modes(prepared.model, [made.cycle for made in prepared.tables])
         kinds = kinds_of(prepared, found)
         mode = found.frequency[[i for i, kind in enumerate(kinds) if kind == "rotational"][3]]
         meshing = 900.0 / 60.0 * teeth[0] * teeth[2] / (teeth[0] + teeth[2])
@@ -276,7 +276,7 @@ def test_margin_against_scuffing_by_hand(record):
 
 def test_kinds_of_modes_have_names():
     prepared = prepare(set_case(SEQUENTIAL, 4))
-    kinds = kinds_of(prepared, modes(prepared.model, [made.cycle for made in prepared.made]))
+    kinds = kinds_of(prepared, modes(prepared.model, [made.cycle for made in prepared.tables]))
     count = {kind: kinds.count(kind) for kind in set(kinds)}
     # of 7 bodies 21 coordinates, less the rotation that is prescribed: translational ones in pairs
     assert count == {"rotational": 5, "translational": 12, "planet": 3}

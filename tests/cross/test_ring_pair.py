@@ -74,7 +74,7 @@ def test_the_ring_turns_with_the_planet_and_works_add_up(runs: Any, name: str):
     gained = {
         key: values[-1] - values[0] for key, values in train.items() if "work" in key or "stored" in key
     }
-    torque, turned = pair.pairs[0].operating.gear_torque, train["angle"][-1, 1] - train["angle"][0, 1]
+    torque, turned = pair.warm_pairs[0].operating.gear_torque, train["angle"][-1, 1] - train["angle"][0, 1]
     assert gained["work_out"] == pytest.approx(torque * turned, rel=1e-7)
     assert gained["work_friction"] > 0.0
     left = (
@@ -117,7 +117,7 @@ def test_its_modes_are_those_of_a_spring_along_the_line_of_action(prepared: Any)
     # x_p, y_p, x_g, y_g and the ring's rotation, clockwise, by which its flank moves along the line of action
     reach = along, -along, [-0.9176112]
     row = np.concatenate(reach)
-    (mass_1, _), (mass_2, inertia) = pair.made[0].masses
+    (mass_1, _), (mass_2, inertia) = pair.tables[0].masses
     mass = np.diag([mass_1, mass_1, mass_2, mass_2, inertia])
     bearings = np.diag([*4 * [2e9], 0.0])
     matrix = bearings + stiffness * float(pair.cycle.contact_ratio) * np.outer(row, row)

@@ -59,7 +59,7 @@ def run(name: str) -> Balanced:
             0.0,
         )
         for driver, driven, mesh, made in zip(
-            layout.driver, layout.driven, case.meshes, prepared.made, strict=True
+            layout.driver, layout.driven, case.meshes, prepared.tables, strict=True
         )
     ]
     record = {

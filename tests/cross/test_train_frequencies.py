@@ -34,7 +34,7 @@ TORQUE = {**SPEED, "source": "torque"}
 def found(train, gears, operating, overrides=None):
     """The package's modes."""
     prepared = spring_model(scenario_of(train, gears, DAMPING_RATIO, operating), overrides)
-    return modes(prepared.model, [each.cycle for each in prepared.made]), prepared
+    return modes(prepared.model, [each.cycle for each in prepared.tables]), prepared
 
 
 def meshed(stages, senses=(-1, 1)):

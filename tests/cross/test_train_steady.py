@@ -65,7 +65,7 @@ def linear_train(train: PreparedGearbox, pairs: list[int]) -> Train:
     case, model = train.case, train.model
     layout, bodies, links = model.layout, model.bodies, model.links
     meshes = []
-    for count, part, mesh, made in zip(pairs, case.meshes, model.meshes, train.made, strict=True):
+    for count, part, mesh, made in zip(pairs, case.meshes, model.meshes, train.tables, strict=True):
         alpha = float(np.asarray(made.cycle.pressure_angle)[0, 0, 0])
         radii = float(mesh.driver_radius), float(mesh.driven_radius)
         sense = case.bodies[part.driver].sense

@@ -162,7 +162,8 @@ def test_modes_are_those_of_hand_assembled_matrices(pair):
         np.sqrt((r + module) ** 2 - (r * np.cos(angle)) ** 2) - r * np.sin(angle) for r in radii
     ]  # of the path, beyond the pitch point
     pitch = np.pi * module / np.cos(beta) * np.cos(angle)
-    width = float(min(side.face_width for side in (case.pairs[0].drive.pinion, case.pairs[0].drive.gear)))
+    drive = case.case.pair.drive
+    width = float(min(side.face_width for side in (drive.pinion, drive.gear)))
     normal = np.array([np.cos(angle) * np.cos(base), np.sin(angle) * np.cos(base), np.sin(base)])
     half = width / slices * np.tan(base) / 2.0
     matrix, phases = np.zeros((11, 11)), (np.arange(1500) + 0.5) / 1500

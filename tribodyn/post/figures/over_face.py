@@ -1,4 +1,4 @@
-"""Figures of helical pairs: the line load over a flank, and what moves along and about the axes."""
+"""Figures of helical pairs: the line load over a flank."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
@@ -10,16 +10,13 @@ from matplotlib.figure import Figure
 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.post import style
-from tribodyn.post.cycles import last_cycles, limits_of, mesh_phases
-from tribodyn.post.figures.drawing import Drawing, drawing
-from tribodyn.post.figures.panel import View, abscissa, abscissa_label, record_label, record_title
-from tribodyn.post.figures.scale import scale
+from tribodyn.post.cycles import limits_of, mesh_phases
+from tribodyn.post.figures.drawing import drawing
+from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.record.reader import Record
 
 #: Places of the map along the path of contact, and across the face.
 _PLACES = 241
-#: Dash patterns of pinion and gear.
-_LINES = {"pinion": "-", "gear": (0, (5, 2))}
 
 
 class FlankMap(NamedTuple):
@@ -137,62 +134,13 @@ def _draw_map(axes: Axes, table: Mapping[str, Any], flank: FlankMap, top: float)
     return image
 
 
-def in_space_figure(records: Sequence[Record], view: View) -> Figure:
-    """Draw axial force, axial displacements and tilts of pinion and gear."""
-    figure = style.new_figure(style.WIDTH, 3 * (style.PANEL_HEIGHT + 0.15) + 0.5)
-    rows = figure.subplots(3, 1, sharex=True)
-    shown: list[list[np.ndarray]] = [[], [], []]
-    for number, record in enumerate(records):
-        window = last_cycles(record, view.cycles)
-        x = abscissa(window, view)
-        moved = {name: 1e6 * record.over_bodies(name)[window.part] for name in ("z", "tilt_x", "tilt_y")}
-        name = record_label(record) if len(records) > 1 else ""
-        curves = [(0, "", record["axial_force"][window.part], "-", 0)]
-        for body, (side, line) in enumerate(_LINES.items()):
-            curves.append((1, side, moved["z"][:, body], line, 0))
-            curves += [
-                (2, f"{side}, about {axis}", moved[f"tilt_{axis}"][:, body], line, i)
-                for i, axis in enumerate("xy")
-            ]
-        for row, label, values, line, shade in curves:
-            color = style.PALETTE[(2 * number + shade) % len(style.PALETTE)]
-            legend_text = ": ".join(part for part in (name, label) if part)
-            rows[row].plot(x, values, color=color, linestyle=line, label=legend_text)
-            shown[row].append(values)
-    labels = (
-        ("Axial force of the teeth on the pinion", "$F_a$ (N)"),
-        ("Displacement along the axes", "$z$ (µm)"),
-        ("Tilts about the pitch tangent (x) and the line of centres (y)", "tilt (µrad)"),
-    )
-    for letter, axes, values, (title, label) in zip("abc", rows, shown, labels, strict=True):
-        axes.set_ylabel(label)
-        scale(axes, values)
-        axes.autoscale(axis="x", tight=True)
-        style.mark_panel(axes, letter, title)
-        if axes is not rows[0] or len(records) > 1:
-            axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=7)
-    rows[-1].set_xlabel(abscissa_label(view, records[0]))
-    figure.align_ylabels()
-    if len(records) == 1:
-        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    return figure
-
-
-_MISSING = "{path} is of spur gears", "run a scenario with drive.helix_angle"
-DRAWINGS: dict[str, Drawing] = {
-    "line-load": drawing(
-        "line load of a helical pair over roll angle and face, with its lines of contact",
-        line_load_figure,
-        helical,
-        ("line-load", *_MISSING),
-        samples=2,
-        timeless="the line load over the face",
-    ),
-    "in-space": drawing(
-        "axial force, axial displacements and tilts of a helical pair",
-        in_space_figure,
-        helical,
-        ("in-space", *_MISSING),
-        samples=2,
-    ),
-}
+#: What is said of a record of spur gears.
+MISSING = "{path} is of spur gears", "run a scenario with drive.helix_angle"
+LINE_LOAD = drawing(
+    "line load of a helical pair over roll angle and face, with its lines of contact",
+    line_load_figure,
+    helical,
+    ("line-load", *MISSING),
+    samples=2,
+    timeless="the line load over the face",
+)

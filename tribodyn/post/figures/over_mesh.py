@@ -21,19 +21,20 @@ from tribodyn.post.figures.panel import (
     abscissa_label,
     draw,
     legend,
+    record_label,
     record_title,
 )
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
 from tribodyn.post.figures.scale import scale
-from tribodyn.post.figures.spectrum import spectrum_figure
+from tribodyn.post.figures.spectrum import has_spectra, spectrum_figure
 from tribodyn.post.style import PALETTE, new_figure
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import Record, mesh_views
 
 TRANSMISSION_ERROR = Trace("transmission_error_rotational", "Transmission error", "$r_pθ_p - r_gθ_g$", "µm")
 DEFLECTION = Trace("transmission_error_normal", "Deflection along each pair's normal", "$δ$", "µm")
 NORMAL_LOAD = Trace("normal_load", "Normal load of each pair", "$F_n$", "N", from_zero=True)
 FRICTION_FORCE = Trace(
-    "friction_force", "Friction force on the pinion", "$F_f$", "N", flag="friction_in_range"
+    "friction_force", "Friction force on the driving gear", "$F_f$", "N", flag="friction_in_range"
 )
 FRICTION_COEFFICIENT = Trace(
     "friction_coefficient", "Friction coefficient", "$µ$", "–", from_zero=True, flag="friction_in_range"
@@ -48,7 +49,7 @@ FILM_PARAMETER = Trace(
     flag="closure_in_range",
 )
 ENTRAINMENT = Trace("entrainment_speed", "Entrainment speed, mean of both flanks", "$u$", "m/s")
-SLIDING = Trace("sliding_speed", "Sliding speed, pinion less gear", "$v_s$", "m/s")
+SLIDING = Trace("sliding_speed", "Sliding speed, driving gear less driven gear", "$v_s$", "m/s")
 HERTZ_PRESSURE = Trace("hertz_pressure", "Hertz pressure, maximum in the contact", "$p_H$", "GPa")
 FLASH_TEMPERATURE = Trace("flash_temperature_rise", "Flash temperature rise", "$ΔT$", "K", from_zero=True)
 STIFFNESS = Trace(
@@ -56,41 +57,77 @@ STIFFNESS = Trace(
 )
 EFFICIENCY = Trace("efficiency", "Efficiency at each moment", "$η$", "%")
 
+#: Height of a panel where there are more rows than a few, inch; panels that have letters, at most.
+LOW, FEW, MOST_LETTERS = 1.95, 3, 26
 #: Film parameters that divide kinds of lubrication, and what lies between.
 LUBRICATION = ((1.0, "λ = 1: mixed above, boundary below"), (3.0, "λ = 3: full film above"))
 
 
-def _over_phase(panels: Sequence[Trace], records: Sequence[Record], view: View) -> Figure:
-    """Draw panels from top to bottom."""
-    figure = style.new_figure(style.WIDTH, (style.PANEL_HEIGHT + 0.15) * len(panels) + 0.5)
-    rows = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
-    for letter, axes, trace in zip("abc", rows, panels, strict=False):
-        names = draw(axes, records, trace, view, first=axes is rows[0], last=axes is rows[-1])
+def _groups(trace: Trace, records: Sequence[Record]) -> list[tuple[Sequence[Record], int, str]]:
+    """Records and number of a mesh that share a panel, and what to call it.
+
+    All records where none names its meshes; else every mesh of every record has a panel.
+    """
+    if not any(record.names_meshes for record in records):
+        return [(records, 0, "")]
+    groups: list[tuple[Sequence[Record], int, str]] = []
+    for record in records:
+        head = [record_label(record)] if len(records) > 1 else []
+        if "mesh" not in record.dims_of(trace.dataset):
+            groups.append(([record], 0, ", ".join(head)))
+            continue
+        for m, mesh in enumerate(record.meshes):
+            groups.append(([record], m, ", ".join([*head, style.literal(mesh)])))
+    return groups
+
+
+def _over_phase(traces: Sequence[Trace], records: Sequence[Record], view: View) -> Figure:
+    """Draw traces from top to bottom; where meshes have names a row for each mesh, traces side by side."""
+    columns = [_groups(trace, records) for trace in traces]
+    named = any(record.names_meshes for record in records)
+    shape = (max(map(len, columns)), len(traces)) if named else (len(traces), 1)
+    height = style.PANEL_HEIGHT + 0.15 if not named or shape[0] <= FEW else LOW
+    figure = style.new_figure(style.WIDTH * (1.0 if shape[1] == 1 else 1.6), height * shape[0] + 0.5)
+    grid = figure.subplots(*shape, squeeze=False, sharex=not named or len(records) == 1)
+    panels = [
+        (grid[(row, column) if named else (column, 0)], traces[column], group)
+        for column, groups in enumerate(columns)
+        for row, group in enumerate(groups)
+    ]
+    lettered = 1 < len(panels) <= MOST_LETTERS
+    for number, (axes, trace, (some, mesh, name)) in enumerate(panels):
+        last = axes in grid[-1]
+        names = draw(axes, some, trace, view, first=axes is grid[0, 0], last=last, mesh=mesh)
         title = trace.title
-        if trace is STIFFNESS:
-            draw_total_stiffness(axes, records, view)
+        if trace.dataset == STIFFNESS.dataset:
+            draw_total_stiffness(axes, some, view, mesh)
             title = "Stiffness of each pair, and of all pairs together along the pitch tangent"
         if trace is FILM_PARAMETER:
             draw_lubrication(axes)
-        style.mark_panel(axes, letter if len(panels) > 1 else "", title, names)
+        if name:
+            title = f"{name}: {title[0].lower()}{title[1:]}"
+        style.mark_panel(axes, chr(ord("a") + number) if lettered else "", title, names)
     figure.align_ylabels()
-    legend(figure, list(rows), records, view)
+    legend(figure, [axes for axes, _, _ in panels], records, view)
     if len(records) == 1:
         figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
     return figure
 
 
-def draw_total_stiffness(axes: Axes, records: Sequence[Record], view: View) -> None:
-    """Add the stiffness Σ k cos² α of all pairs along the pitch tangent."""
+def draw_total_stiffness(axes: Axes, records: Sequence[Record], view: View, mesh: int = 0) -> None:
+    """Add the stiffness Σ k cos² α of all pairs of a mesh along the pitch tangent."""
     highest = 0.0
     for number, record in enumerate(records):
         window = last_cycles(record, view.cycles)
         if window.phase[-1] > MOST_CYCLES_DRAWN:
             continue
-        angle = np.nan_to_num(record["pressure_angle"][window.part])
-        single = record["mesh_stiffness"][window.part]
+        names = "pressure_angle", "mesh_stiffness"
+        angle, single = (record.over_meshes(name)[window.part, mesh] for name in names)
+        there = np.any(np.isfinite(single), axis=0)  # a mesh of a train may have fewer pairs than another
+        single, angle = single[:, there], np.nan_to_num(angle[:, there])
         cosine = np.cos(angle)  # and of helical gears that of the normal's angle to the transverse section
-        axial = 1.0 + (record.mesh_cycle.get("pitch_slope", 0.0) * cosine) ** 2
+        table = record.of_mesh(record.meshes[mesh], "mesh_cycle")
+        axial = 1.0 + (table.get("pitch_slope", 0.0) * cosine) ** 2
         lean = r"\,\cos^2 β_{n,i}" if np.any(axial > 1.0) else ""
         total = np.sum(single * cosine**2 / axial, axis=1) * STIFFNESS.factor
         color = style.INK if len(records) == 1 else style.PALETTE[number % len(style.PALETTE)]
@@ -129,7 +166,7 @@ TRACES = (DEFLECTION, NORMAL_LOAD, FRICTION_FORCE, FILM_THICKNESS, EFFICIENCY)
 
 def overview_figure(records: Sequence[Record], view: View) -> Figure:
     """Draw what the first record holds in six panels; of a transient its speed and load in the first."""
-    record = records[0]
+    record = next(iter(mesh_views(records[0]).values()))
     figure, rows = style.new_grid(*GRID)
     if view.cycles is None and transient(record):
         draw_speed(rows[0, 0], record, view)
@@ -194,7 +231,9 @@ DRAWINGS: dict[str, Drawing] = {
     "transmission-error": stacked(
         "transmission error, and deflection along the normal of every pair", TRANSMISSION_ERROR, DEFLECTION
     ),
-    "spectrum": Drawing("spectrum of the rotational transmission error, with the modes", spectrum_figure),
+    "spectrum": Drawing(
+        "spectrum of the rotational transmission error, with the modes", spectrum_figure, has_spectra
+    ),
     "normal-load": stacked("normal load of every pair", NORMAL_LOAD),
     "friction": stacked("friction force and coefficient", FRICTION_FORCE, FRICTION_COEFFICIENT),
     "film": stacked("film thickness and film parameter", FILM_THICKNESS, FILM_PARAMETER),

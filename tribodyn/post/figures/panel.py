@@ -258,12 +258,16 @@ def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bo
 
 
 def legend(figure: Figure, panels: Sequence[Axes], records: Sequence[Record], view: View) -> None:
-    """Put one legend below the figure: records by colour, pairs by line, shades, names of key points."""
+    """Put one legend below the figure: records by colour, pairs by line, shades, names of key points.
+
+    Where meshes have names each panel is of one record, and has no key points.
+    """
+    named = any(record.names_meshes for record in records)
     entries: dict[str, Artist] = {}
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
-    if len(records) > 1:
+    if len(records) > 1 and not named:
         of_pairs = {pair_label(pair): pair for record in records for pair in record.pairs}
         lines: dict[str, Artist] = {
             record_label(record): Line2D([], [], color=PALETTE[number % len(PALETTE)])
@@ -275,7 +279,7 @@ def legend(figure: Figure, panels: Sequence[Axes], records: Sequence[Record], vi
             lines[label] = handle if shade else Line2D([], [], color=QUIET, linestyle=style)
         entries = lines
     title = None
-    cycles = [round(last_cycles(record, view.cycles).phase[-1]) for record in records]
+    cycles = [round(last_cycles(record, view.cycles).phase[-1]) for record in records if not named]
     if any(0 < count <= MOST_CYCLES_MARKED for count in cycles):
         names = {name for record in records for point in key_points(record) for name in point.names.values()}
         title = ENTERS + PASSES * ("P" in names) + LEAVES + ALONE * ("C_p" in names)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import CHANGING, Spectrum, Window, amplitude_spectrum, last_cycles
 from tribodyn.post.figures.panel import View, record_label, record_title
-from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, name_above, new_figure
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, name_above, new_figure
 from tribodyn.record.reader import Record
 
 #: Orders of the mesh that are shown at least, and where no mode is known.
@@ -48,10 +48,38 @@ def mode_frequencies(record: Record) -> np.ndarray:
     return np.atleast_1d(np.asarray(record.summary.get("mode_frequencies", []), dtype=float))
 
 
-def draw_spectrum(axes: Axes, record: Record, color: str) -> tuple[float, float]:
-    """Draw amplitude (µm) over frequency (kHz), orders as stems; highest amplitude and frequency."""
-    spectrum, window = steady_spectrum(record)
-    return draw_orders(axes, spectrum, window.mesh_frequency, mode_frequencies(record), color)
+def has_spectra(record: Record) -> bool:
+    """Whether the meshes of a record have spectra: those with names over whole cycles of theirs."""
+    return not record.names_meshes or any(
+        "spectrum_amplitudes" in mesh for mesh in record.mesh_summaries.values()
+    )
+
+
+def mesh_spectra(record: Record) -> list[tuple[str, Spectrum, float]]:
+    """Name, spectrum (m) over its orders, and frequency (Hz) of every mesh that has one.
+
+    Of a mesh without a name that of `steady_spectrum`, of others that of the cycles at the end of a run that
+    means are of. Raises InputError where these are no whole cycles of any mesh.
+    """
+    if not record.names_meshes:
+        spectrum, window = steady_spectrum(record)
+        return [("", spectrum, window.mesh_frequency)]
+    if not has_spectra(record):
+        cycles = int(record.summary.get("averaging_cycles", 0))
+        last = f"{cycles} cycle{'s' if cycles != 1 else ''}"
+        rule = f"{record.path} has no whole cycles of a mesh in its last {last}"
+        remedy = f"run more: solver.cycles = {2 * int(record.summary.get('common_period', 1))}"
+        raise InputError("plot", "spectrum", rule, remedy)
+    found = []
+    for name, mesh in record.mesh_summaries.items():
+        if "spectrum_amplitudes" in mesh:
+            frequency = float(mesh["mesh_frequency"])
+            orders = np.asarray(mesh["spectrum_frequencies"]) / frequency
+            # whole orders are whole but for rounding
+            orders = np.where(np.abs(orders - np.round(orders)) < 1e-6, np.round(orders), orders)
+            amplitudes = np.asarray(mesh["spectrum_amplitudes"])
+            found.append((literal(name), Spectrum(orders, amplitudes), frequency))
+    return found
 
 
 def apart(places: np.ndarray, least: float) -> list[tuple[float, str]]:
@@ -102,23 +130,25 @@ def draw_modes(axes: Axes, modes: np.ndarray, width: float) -> None:
 
 
 def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
-    """Draw the spectrum of each record on axes of its own with common limits; the view does not matter.
+    """Draw the spectrum of each mesh of each record on axes of its own with common limits.
 
-    The second half of a run is used.
+    The view does not matter, see `mesh_spectra`.
     """
-    count = len(records)
+    shown = [(record, *mesh) for record in records for mesh in mesh_spectra(record)]
+    count = len(shown)
     figure = new_figure(WIDTH, count * (PANEL_HEIGHT + 0.1) + 0.5)
     rows = figure.subplots(count, 1, squeeze=False, sharex=True, sharey=True)[:, 0]
     highest = width = 0.0
-    for number, (axes, record) in enumerate(zip(rows, records, strict=True)):
-        top, right = draw_spectrum(axes, record, PALETTE[number % len(PALETTE)])
+    for number, (axes, (record, name, spectrum, mesh)) in enumerate(zip(rows, shown, strict=True)):
+        color = PALETTE[number % len(PALETTE)]
+        top, right = draw_orders(axes, spectrum, mesh, mode_frequencies(record), color)
         highest, width = max(highest, top), max(width, right)
-        mesh = steady_spectrum(record)[1].mesh_frequency
-        named = "" if count == 1 else f"{record_label(record)}: "
-        title = f"{named}Amplitudes of the transmission error, mesh frequency $f_m$ = {mesh:.4g} Hz"
+        named = ", ".join(filter(None, (record_label(record) if len(records) > 1 else "", name)))
+        head = f"{named}: amplitudes" if named else "Amplitudes"
+        title = f"{head} of the transmission error, mesh frequency $f_m$ = {mesh:.4g} Hz"
         mark_panel(axes, "abcdefgh"[number] if 1 < count <= 8 else "", title, 2)
         axes.set_ylabel("Amplitude (µm)")
-    for axes, record in zip(rows, records, strict=True):
+    for axes, (record, *_) in zip(rows, shown, strict=True):
         draw_modes(axes, mode_frequencies(record), width)
     rows[-1].set_yscale("log")
     if highest > 0:
@@ -127,7 +157,7 @@ def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
     beyond = any(modes.size and modes.max() * 1e-3 > width for modes in map(mode_frequencies, records))
     higher = "; higher ones are above half the sampling rate" if beyond else ""
     rows[-1].set_xlabel(f"Frequency (kHz); dashed: natural frequencies at the mean mesh stiffness{higher}")
-    if count == 1:
+    if len(records) == 1:
         figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
     return figure
 

@@ -2,4 +2,4 @@
 
 from tribodyn.post.figures import over_face, over_mesh
 
-DRAWINGS = {**over_mesh.DRAWINGS, "line-load": over_face.DRAWINGS["line-load"]}
+DRAWINGS = {**over_mesh.DRAWINGS, "line-load": over_face.LINE_LOAD}

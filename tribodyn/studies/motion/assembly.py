@@ -52,7 +52,7 @@ def body_inertias(case: Gearbox, pairs: Sequence[Assembly]) -> tuple[BodyInertia
     for body in case.bodies:
         mass, inertia, tilting = body.mass, body.inertia, (body.inertia - body.attached) / 2.0
         for gear in (case.gears[number] for number in body.gears):
-            mass_of_gear, turned = gear.given.mass, gear.given.inertia
+            mass_of_gear, turned = gear.stated.mass, gear.stated.inertia
             if mass_of_gear is None or turned is None:
                 mesh, side = gear.meshes[0]
                 computed = mass_and_inertia(pairs[mesh], side, gear.density)

@@ -39,7 +39,7 @@ class GearData:
     teeth: int  # negative of an internal gear
     plane: int  # gears in the same plane need room beside each other
     tooth_angle: float  # of one of its teeth from the shaft's mark, counter-clockwise, rad
-    given: BodyMass  # mass and inertia that the scenario gives
+    stated: BodyMass  # its mass and inertia, as far as the scenario states them
     density: float  # of its material, kg/m³
     #: meshes that it belongs to, and what it is in the pair of each: "pinion" drives
     meshes: tuple[tuple[int, Side], ...]

@@ -42,7 +42,7 @@ def check(case: Gearbox) -> CheckResult:
     """Check a case, tabulate its meshes, and say what gearbox it describes."""
     prepared = prepare(case)
     listener_of(prepared)
-    mode_set = modes(prepared.model, [one.cycle for one in prepared.made])
+    mode_set = modes(prepared.model, [one.cycle for one in prepared.tables])
     kinds = kinds_of(prepared, mode_set)
     of_meshes = [_of_mesh(prepared, m) for m in range(len(case.meshes))]
     of_modes = {
@@ -108,7 +108,7 @@ def _once(names: list[str], tables: Sequence[Sequence[TextTable]]) -> Iterator[T
 
 
 def _of_mesh(prepared: PreparedGearbox, m: int) -> CheckResult:
-    pair, tabulated = prepared.pairs[m], prepared.made[m]
+    pair, tabulated = prepared.warm_pairs[m], prepared.tables[m]
     thermal = prepared.thermal[m]
     gears = PreparedGears(
         pair, tabulated.assembly, tabulated.cycle, thermal, slice_remark=tabulated.slice_remark
@@ -185,7 +185,7 @@ def _train_tables(prepared: PreparedGearbox, train: dict[str, Any]) -> list[Text
             f"{mesh['phase']:.4f}",
         )
         for (name, mesh), frequency, tabulated in zip(
-            train["train_meshes"].items(), mesh_frequencies(prepared), prepared.made, strict=True
+            train["train_meshes"].items(), mesh_frequencies(prepared), prepared.tables, strict=True
         )
     ]
     return [

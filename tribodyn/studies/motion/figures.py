@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,6 @@ from tribodyn.post.figures.panel import (
     ORDER,
     Trace,
     View,
-    draw,
     record_label,
     record_title,
 )
@@ -37,7 +35,6 @@ from tribodyn.studies.motion.pictures.planet_figures import (
     orbit_figure,
     planet_load_figure,
 )
-from tribodyn.studies.motion.pictures.spectrum_figure import has_spectra, spectrum_figure
 from tribodyn.studies.motion.pictures.train_picture import draw_train, train_figure
 
 MESH_FORCE = Trace("driven_torque", "Force of each mesh along its pitch tangent", "$F_t$", "N")
@@ -47,7 +44,6 @@ ERROR = over_mesh.TRANSMISSION_ERROR._replace(
     title="Transmission error of each mesh", symbol="$r_1θ_1 - r_2θ_2$"
 )
 DISPLACEMENT = Trace("x", "Displacement of each body in its bearing", r"$\sqrt{x^2 + y^2}$", "µm")
-PRESSURE = over_mesh.HERTZ_PRESSURE._replace(title="Maximum Hertz pressure in each contact")
 EFFICIENCY = over_mesh.EFFICIENCY._replace(title="Efficiency of the train at each moment")
 
 #: Height of one of so many panels, inch.
@@ -90,8 +86,10 @@ def displacements(record: Record) -> np.ndarray:
 
 
 def overview_figure(records: Sequence[Record], view: View) -> Figure:
-    """Draw what the first record holds: the train, and forces, errors, films and losses of its meshes."""
+    """Draw what the first record holds: the pairs of its only mesh, or the train and each of its meshes."""
     record = records[0]
+    if len(record.meshes) == 1:
+        return over_mesh.overview_figure(records, view)
     meshes, bodies = mesh_labels(record), body_labels(record)
     figure = style.new_figure(11.0, 6.6)
     rows = figure.subplots(2, 3)
@@ -114,20 +112,6 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
     rows[1, 1].get_legend().set_title("Meshes, in b to e", {"size": 6.5})
     rows[1, 2].get_legend().set_title("Bodies" if held else "", {"size": 6.5})
     figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
-    return figure
-
-
-def _each_mesh(trace: Trace, records: Sequence[Record], view: View) -> Figure:
-    """Draw the pairs of every mesh in a panel of its own, of one record after the other."""
-    places = [(record, m, mesh) for record in records for m, mesh in enumerate(record.meshes)]
-    figure, rows = _rows(len(places), records)
-    for letter, axes, (record, m, mesh) in zip(_letters(places), rows, places, strict=True):
-        draw(axes, [record], trace, view, last=axes is rows[-1], mesh=m)
-        if trace is over_mesh.FILM_PARAMETER:
-            over_mesh.draw_lubrication(axes)
-        head = f"{record_label(record)}, " if len(records) > 1 else ""
-        style.mark_panel(axes, letter, f"{head}{style.literal(mesh)}, {_lower(trace.title)}")
-    _finish(figure, rows, records)
     return figure
 
 
@@ -159,24 +143,28 @@ def paths_figure(records: Sequence[Record], view: View) -> Figure:
 MICRO = 1e6
 AXIAL_FORCE = Trace("axial_force", "Axial force of each mesh on its driver", "$F_a$", "N")
 AXIAL = Trace("z", "Displacement of each body along its axis", "$z$", "µm")
-TILT_X = Trace("tilt_x", "Tilt of each body about x of the train", "tilt", "µrad")
-TILT_Y = TILT_X._replace(dataset="tilt_y", title="Tilt of each body about y of the train")
+TILT_X = Trace("tilt_x", "Tilt of each body about x", "tilt", "µrad")
+TILT_Y = TILT_X._replace(dataset="tilt_y", title="Tilt of each body about y")
 
 
 def in_space_figure(records: Sequence[Record], view: View) -> Figure:
-    """Draw of the first record axial forces of its meshes, and motions of bodies along and about axes."""
-    record = records[0]
-    figure, rows = _rows(4, [record])
-    for letter, axes, trace in zip("abcd", rows, (AXIAL_FORCE, AXIAL, TILT_X, TILT_Y), strict=True):
-        names = mesh_labels(record) if trace is AXIAL_FORCE else body_labels(record)
-        values = record[trace.dataset] * (MICRO if trace.unit == "µrad" else 1.0)
-        draw_curves(axes, record, values, names, trace, view)
-        style.mark_panel(axes, letter, trace.title)
+    """Draw axial forces of the meshes of every record, and motions of bodies along and about their axes."""
+    traces = AXIAL_FORCE, AXIAL, TILT_X, TILT_Y
+    shown = [(record, trace) for record in records for trace in traces]
+    figure, rows = _rows(len(shown), records)
+    for letter, axes, (record, trace) in zip(_letters(shown), rows, shown, strict=True):
+        of_meshes = trace is AXIAL_FORCE
+        names = mesh_labels(record) if of_meshes else body_labels(record)
+        values = record.over_meshes(trace.dataset) if of_meshes else record.over_bodies(trace.dataset)
+        draw_curves(axes, record, values * (MICRO if trace.unit == "µrad" else 1.0), names, trace, view)
+        head = f"{record_label(record)}: " if len(records) > 1 else ""
+        style.mark_panel(axes, letter, f"{head}{_lower(trace.title) if head else trace.title}")
         if trace in (AXIAL_FORCE, AXIAL):
             axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=7)
         axes.set_xlabel("" if axes is not rows[-1] else axes.get_xlabel())
     figure.align_ylabels()
-    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)
+    if len(records) == 1:
+        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
     return figure
 
 
@@ -212,58 +200,24 @@ def _lower(text: str) -> str:
     return text[0].lower() + text[1:]
 
 
-_NAMED = attrgetter("names_meshes")
-_OF_PAIR: dict[str, Drawing] = {
-    **over_mesh.DRAWINGS,
-    **over_face.DRAWINGS,
-    "film-parameter": over_mesh.stacked("film thickness over roughness", over_mesh.FILM_PARAMETER),
-}
-
-
-def _apart(name: str, of_named: Any, *, first: bool = False) -> Drawing:
-    """A figure of pairs of gears; where a record names its meshes, in its place one that tells these apart.
-
-    `first`: which is drawn of the first record alone.
-    """
-    of_pair = _OF_PAIR[name]
-
-    def draw(records: Sequence[Record], view: View) -> Figure:
-        named = any(record.names_meshes for record in (records[:1] if first else records))
-        return (of_named if named else of_pair.draw)(records, view)
-
-    return of_pair._replace(draw=draw)
-
-
-def _panel_for_each(name: str, trace: Trace) -> Drawing:
-    return _apart(name, partial(_each_mesh, trace))
-
-
-def _held(name: str, about: str, draw: Any, fits: Callable[[Record], bool] = _NAMED) -> Drawing:
+def _held(name: str, about: str, draw: Any, fits: Callable[[Record], bool]) -> Drawing:
     """A figure of records that hold what it shows."""
     return drawing(about, draw, fits, (name, "{path} does not hold what it shows", "draw another figure"))
 
 
-_ERROR_OF_EACH = partial(
-    _all_meshes, ERROR, lambda record: record.over_meshes("transmission_error_rotational"), "mesh"
-)
-_EFFICIENCY_OF_TRAIN = partial(_all_meshes, EFFICIENCY, lambda record: record["efficiency"][:, None], "train")
 DRAWINGS: dict[str, Drawing] = {
-    **_OF_PAIR,
-    "overview": _apart("overview", overview_figure, first=True),
-    "transmission-error": _apart("transmission-error", _ERROR_OF_EACH),
-    "spectrum": _apart("spectrum", spectrum_figure)._replace(
-        fits=lambda record: has_spectra(record) or not record.names_meshes
+    **over_mesh.DRAWINGS,
+    "overview": over_mesh.DRAWINGS["overview"]._replace(draw=overview_figure),
+    "path-of-contact": over_mesh.DRAWINGS["path-of-contact"]._replace(draw=paths_figure),
+    "line-load": over_face.LINE_LOAD,
+    "in-space": drawing(
+        "axial forces of helical meshes, axial displacements and tilts of their bodies",
+        in_space_figure,
+        over_face.helical,
+        ("in-space", *over_face.MISSING),
+        samples=2,
     ),
-    "normal-load": _panel_for_each("normal-load", over_mesh.NORMAL_LOAD),
-    "friction": _panel_for_each("friction", over_mesh.FRICTION_COEFFICIENT),
-    "film": _panel_for_each("film", over_mesh.FILM_THICKNESS),
-    "entrainment": _panel_for_each("entrainment", over_mesh.ENTRAINMENT),
-    "pressure": _panel_for_each("pressure", PRESSURE),
-    "efficiency": _apart("efficiency", _EFFICIENCY_OF_TRAIN),
-    "mesh-stiffness": _panel_for_each("mesh-stiffness", over_mesh.STIFFNESS),
-    "path-of-contact": _OF_PAIR["path-of-contact"]._replace(draw=paths_figure),
-    "in-space": _apart("in-space", in_space_figure, first=True),
-    "film-parameter": _panel_for_each("film-parameter", over_mesh.FILM_PARAMETER),
+    "film-parameter": over_mesh.stacked("film thickness over roughness", over_mesh.FILM_PARAMETER),
     "orders": Drawing(
         "orders of the mesh while the speed changes, such as run-up",
         spectrum.orders_figure,

@@ -50,8 +50,8 @@ class PreparedGearbox:
 
     case: Gearbox
     model: parameters.Model
-    made: tuple[Tabulated, ...]  # of every mesh; equal meshes share one
-    pairs: tuple[LubricatedCase, ...]  # of every mesh, with the oil at its teeth's temperature
+    tables: tuple[Tabulated, ...]  # of every mesh; equal meshes share one
+    warm_pairs: tuple[LubricatedCase, ...]  # of every mesh, with the oil at its teeth's temperature
     thermal: tuple[Thermal | None, ...]
     phases: Phases  # of the teeth without load
     order: tuple[int, ...]  # bodies of the case as the model has them; behind these the motor
@@ -60,12 +60,12 @@ class PreparedGearbox:
     @property
     def cycle(self) -> MeshCycle:
         """The mesh cycle of the first mesh."""
-        return self.made[0].cycle
+        return self.tables[0].cycle
 
     @property
     def assembly(self) -> Assembly:
         """The gears of the first mesh, put together."""
-        return self.made[0].assembly
+        return self.tables[0].assembly
 
     @property
     def names(self) -> tuple[str, ...]:

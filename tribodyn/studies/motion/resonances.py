@@ -30,7 +30,7 @@ def resonance_speeds(case: Gearbox, span: tuple[float, float], most: int) -> lis
     beyond it, that end. Raises InputError or SimulationError where the case cannot be prepared.
     """
     prepared = prepare(case)
-    box, cycles = prepared.case, [each.cycle for each in prepared.made]
+    box, cycles = prepared.case, [each.cycle for each in prepared.tables]
     mode_set = modes(prepared.model, cycles)
     angular = 2.0 * math.pi * mode_set.frequency
     order = np.arange(1, HARMONICS + 1)

@@ -71,7 +71,7 @@ def _run(case: Gearbox, path: Path, force: bool, *, progress: Progress | None) -
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
     rests = [mesh_at_rest(prepared, m) for m in range(len(meshes))]
     # of a train the oil that enters its meshes, which warms in each of them
-    oil = case.meshes[0].pair.lubricant if case.named else prepared.pairs[0].lubricant
+    oil = case.meshes[0].pair.lubricant if case.named else prepared.warm_pairs[0].lubricant
     summary: dict[str, Any] = {
         **constants_of(prepared),
         "lubricant": oil_data(oil),
@@ -111,13 +111,13 @@ def of_meshes(case: Gearbox, each: Sequence[Mapping[str, Any]]) -> dict[str, Any
 def constants_of(prepared: PreparedGearbox) -> dict[str, Any]:
     """What does not depend on the motion: ratio, period, masses, natural frequencies, shares in them."""
     case, model = prepared.case, prepared.model
-    mode_set = modes(model, [one.cycle for one in prepared.made])
+    mode_set = modes(model, [one.cycle for one in prepared.tables])
     layout, ratio = model.layout, np.asarray(model.bodies.ratio)
     masses = np.full(layout.bodies, np.nan)
     masses[: layout.planar] = np.asarray(model.bodies.mass)
     of_modes = {"mode_frequencies": mode_set.frequency, "mode_shares": mode_set.share.ravel()}
     if not case.named:  # gears without what drives and what is driven
-        (pinion, of_pinion), (gear, of_gear) = prepared.made[0].masses
+        (pinion, of_pinion), (gear, of_gear) = prepared.tables[0].masses
         return {
             "pinion_mass": pinion,
             "gear_mass": gear,
@@ -146,7 +146,7 @@ def _concluded(
         windows, work, prepared, meshes, samples, statistics.in_window, changes=changes
     )
     for m, (window, quantities) in enumerate(zip(windows, steady, strict=True)):
-        each[m] |= limits_in(window, prepared.pairs[m]) | quantities
+        each[m] |= limits_in(window, prepared.warm_pairs[m]) | quantities
         judge_tribology(statistics.judge, each[m])
     whole = concluded(prepared, whole, each) | of_meshes(case, each if case.named else [{}])
     if case.sets:

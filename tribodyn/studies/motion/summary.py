@@ -25,6 +25,7 @@ WORST = {
     "transmission_error_peak_to_peak": 1,
     "transmission_error_mean": 1,
     "dynamic_factor": 1,
+    "dynamic_factor_iso": 1,
     "contact_loss_fraction": 1,
     "normal_load_max": 1,
     "hertz_pressure_max": 1,
@@ -66,7 +67,7 @@ def meshes_of_run(prepared: PreparedGearbox) -> list[MeshOfRun]:
     """The meshes, as the summary of a run sees them."""
     meshes = []
     for number, (mesh, tabulated, pair) in enumerate(
-        zip(prepared.case.meshes, prepared.made, prepared.pairs, strict=True)
+        zip(prepared.case.meshes, prepared.tables, prepared.warm_pairs, strict=True)
     ):
         phase = float(prepared.model.schedule.offset[0, number])  # under load
         oil = pair.lubricant.temperature
@@ -81,7 +82,7 @@ def meshes_of_run(prepared: PreparedGearbox) -> list[MeshOfRun]:
 
 def mesh_at_rest(prepared: PreparedGearbox, m: int) -> dict[str, Any]:
     """Quantities of a mesh that do not depend on its motion, and the names of its gears."""
-    rest = at_rest(prepared.pairs[m], prepared.made[m]) | _by_standard(prepared, m)
+    rest = at_rest(prepared.warm_pairs[m], prepared.tables[m]) | _by_standard(prepared, m)
     if not prepared.case.named:
         return rest
     driver, driven = (prepared.case.gears[gear].name for gear in prepared.case.meshes[m].gears)
@@ -91,7 +92,7 @@ def mesh_at_rest(prepared: PreparedGearbox, m: int) -> dict[str, Any]:
 
 def _by_standard(prepared: PreparedGearbox, m: int) -> dict[str, float]:
     """K_v by ISO 6336-1 of an involute mesh with a quality whose driver drives; nothing of others."""
-    pair, tabulated = prepared.pairs[m], prepared.made[m]
+    pair, tabulated = prepared.warm_pairs[m], prepared.tables[m]
     operating = pair.operating
     if pair.quality is None or not tabulated.assembly.family.involute or operating.gear_torque <= 0.0:
         return {}
@@ -144,7 +145,7 @@ def steady_quantities(
             idle.append({name: thermal.pop(name) for name in _TOLD_ONCE if name in thermal})
         quantities |= thermal
         each.append(quantities | extreme.values())
-        each[-1] |= contact_quantities(prepared.pairs[m].lubricant, each[-1])
+        each[-1] |= contact_quantities(prepared.warm_pairs[m].lubricant, each[-1])
         each[-1] |= margins_of(case.meshes[m].pair, mesh.assembly, window, each[-1])
     return whole | _idle_losses(whole, idle), each
 
@@ -203,4 +204,6 @@ def worst_of(meshes: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
             worst, place = max(pairs)
             worst_by[name] = sign * worst
             worst_by.setdefault("worst_mesh", {})[name] = 1 - place
+            if name == "dynamic_factor_iso":
+                worst_by["resonance_ratio_iso"] = meshes[-place]["resonance_ratio_iso"]
     return worst_by

@@ -22,10 +22,10 @@ def damaged(*damage: dict[str, Any], name: str = NAME, **more: Any):
 
 
 def fields_of(case, flank: int, tooth: int = TOOTH):
-    (own,) = case.pairs[0].teeth[0]
+    (own,) = case.warm_pairs[0].teeth[0]
     assert isinstance(own, DamagedTeeth)
-    gear = damaged_gear(case.assembly, case.pairs[0].materials, "pinion", solved=False)
-    places = places_of(case.assembly, case.pairs[0].mesh, case.cycle)[0].driver
+    gear = damaged_gear(case.assembly, case.warm_pairs[0].materials, "pinion", solved=False)
+    places = places_of(case.assembly, case.warm_pairs[0].mesh, case.cycle)[0].driver
     return places, gear, own.in_mesh(gear).fields(tooth, flank, places)
 
 
@@ -57,10 +57,10 @@ def test_where_the_cracked_tooth_carries_alone_it_deflects_by_what_the_crack_add
     added = np.interp(roll, places.roll, own.compliance[0])
     r = case.assembly.path.signed_distance(roll)
     cosine = float(np.cos(case.assembly.path.pressure_angle(r)))
-    load = case.pairs[0].operating.gear_torque / (float(case.assembly.path.gear_pitch_radius) * cosine)
+    load = case.warm_pairs[0].operating.gear_torque / (float(case.assembly.path.gear_pitch_radius) * cosine)
     assert roll < end
     assert found == pytest.approx(load * added / cosine, rel=2e-3)
-    crack = case.pairs[0].teeth[0][0].damage[0].crack
+    crack = case.warm_pairs[0].teeth[0][0].damage[0].crack
     expected = crack_compliance(
         gear.loaded, gear.materials[0], gear.width, np.array([float(r)]), crack, np.array([crack.depth])
     )

@@ -93,9 +93,9 @@ def test_formula_and_measured_flanks_are_the_same():
 def test_a_sample_keeps_its_tolerances_and_its_seed():
     changes = {"drive.quality": 6, "mesh.tooth_sample": 3}
     case = made("involute-23-47", changes)
-    (own,) = case.pairs[0].teeth[0]
-    again = made("involute-23-47", changes).pairs[0].teeth[0][0]
-    other = made("involute-23-47", changes | {"mesh.tooth_sample": 4}).pairs[0].teeth[0][0]
+    (own,) = case.warm_pairs[0].teeth[0]
+    again = made("involute-23-47", changes).warm_pairs[0].teeth[0][0]
+    other = made("involute-23-47", changes | {"mesh.tooth_sample": 4}).warm_pairs[0].teeth[0][0]
     assert own == again != other
     places = _places(case)
     flanks = [own.fields(tooth, LEADING, places).gap for tooth in range(23)]
@@ -113,7 +113,7 @@ def test_a_sample_keeps_its_tolerances_and_its_seed():
 def _places(case: PreparedGearbox):
     from tribodyn.mesh.teeth.table import places_of
 
-    return places_of(case.assembly, case.pairs[0].mesh, case.cycle)[0].driver
+    return places_of(case.assembly, case.warm_pairs[0].mesh, case.cycle)[0].driver
 
 
 @pytest.mark.parametrize("name", ["crc-23-47", "helical-23-47"])

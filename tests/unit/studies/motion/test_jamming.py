@@ -30,7 +30,7 @@ def fits(prepared: PreparedGearbox, errors: np.ndarray) -> bool:
     """
     case, planets = prepared.case, len(errors)
     (of_sun, of_ring) = (case.meshes[m].pair.mesh.backlash for m in (0, planets))
-    cosine = np.cos(float(prepared.made[0].assembly.path.pressure_angle(0.0)))
+    cosine = np.cos(float(prepared.tables[0].assembly.path.pressure_angle(0.0)))
     rows, bounds = [], []
     for k, error in enumerate(cosine * errors):
         for wheel, sign, backlash in ((0, 1.0, of_sun), (1, -1.0, of_ring)):
@@ -77,7 +77,7 @@ def test_tangential_errors_against_the_room_that_is_left():
 @pytest.mark.parametrize(("member", "sign"), [("sun", -1.0), ("ring", 1.0)])
 def test_radial_errors_against_the_backlash_at_another_distance(member: str, sign: float):
     m = 0 if member == "sun" else 3
-    assembly = thinner().made[m].assembly
+    assembly = thinner().tables[m].assembly
     distance = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
 
     def left(error: float) -> float:

@@ -217,7 +217,7 @@ def two_sets() -> Any:
     shapes = {
         mesh.name: geometry_arrays(made.assembly)
         | {"pinion_teeth": made.cycle.pinion_teeth, "roll_start": 0.0}
-        for mesh, made in zip(prepared.case.meshes, prepared.made, strict=True)
+        for mesh, made in zip(prepared.case.meshes, prepared.tables, strict=True)
     }
     content = {"geometry": geometry_of(prepared), "of_mesh": lambda _, mesh, group: shapes[mesh]}
     return type("OfTrain", (dict, MeshesOfRecord), content)(

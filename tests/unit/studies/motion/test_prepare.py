@@ -29,7 +29,7 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
     plain = prepared("crc-23-47")
     cycle = plain.cycle._replace(coupling=plain.cycle.coupling * factor)
     lifted = cycle._replace(gap=cycle.gap + np.array([0.0, 10e-6]))
-    tabulated = tables(plain.pairs[0])._replace(cycle=lifted, table=polynomials(lifted))
+    tabulated = tables(plain.warm_pairs[0])._replace(cycle=lifted, table=polynomials(lifted))
     model = prepare(plain.case, (tabulated,)).model
     assert model.options.sweeps == sweeps
     (mesh,) = model.meshes

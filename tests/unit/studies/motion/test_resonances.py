@@ -22,7 +22,7 @@ def highest(cases: list) -> list[float]:
 
 def test_harmonics_of_the_error_are_those_of_its_transform():
     prepared = prepare(load_scenario(NAME))
-    cycle, torque = prepared.cycle, prepared.pairs[0].operating.gear_torque
+    cycle, torque = prepared.cycle, prepared.warm_pairs[0].operating.gear_torque
     error = quasi_static(cycle, torque).deflection
     phase = np.concatenate(
         [
@@ -47,7 +47,7 @@ def test_between_stiff_bearings_it_is_the_one_of_the_mesh():
     # one pair at a time has k, two have 2 k, along the line of action: (ε − 1) and (2 − ε) of the time
     stiffness = 3e8 * float(cycle.contact_ratio)
     base = float(cycle.pinion_pitch_radius) * math.cos(float(cycle.pressure_angle[0, 0, 0]))
-    inertia = prepared.made[0].masses[1][1]
+    inertia = prepared.tables[0].masses[1][1]
     # the pinion's rotation is prescribed
     gear_base = base * float(cycle.gear_pitch_radius) / float(cycle.pinion_pitch_radius)
     angular = math.sqrt(stiffness * gear_base**2 / inertia)
@@ -78,7 +78,7 @@ def test_bearings_less_known_widen_the_range_of_vibration():
     def width(factor: float) -> float:
         keys = {"deviations": False, "bearings": factor, "damping_ratio": [0.05, 0.05]}
         most = []
-        for draw in drawn(ranges_of(case, UnknownsTable.model_validate(keys), 0.05), 6, 1):
+        for draw in drawn(ranges_of(case.pair, UnknownsTable.model_validate(keys), 0.05), 6, 1):
             given = {"bearings": bearings, **draw.keys(bearings)}
             speeds = resonance_speeds(load_scenario(NAME, given), (150.0, 600.0), 1)
             at = [load_scenario(NAME, given | {"operating.pinion_speed": f"{speeds[0]} rad/s"})]

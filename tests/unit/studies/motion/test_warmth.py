@@ -28,7 +28,7 @@ def test_quasi_static_losses_heat_one_oil():
     prepared = prepare(load_scenario("two-stage-reducer", NETWORK))
     losses = [heat.mesh_loss for heat in prepared.thermal]
     oil, gears = expected(losses)
-    for heat, pair, (pinion, gear) in zip(prepared.thermal, prepared.pairs, gears, strict=True):
+    for heat, pair, (pinion, gear) in zip(prepared.thermal, prepared.warm_pairs, gears, strict=True):
         assert heat.temperatures.oil == pytest.approx(oil, abs=0.1)
         assert heat.temperatures.pinion == pytest.approx(pinion, abs=0.1)
         assert heat.temperatures.gear == pytest.approx(gear, abs=0.1)

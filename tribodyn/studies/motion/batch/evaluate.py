@@ -175,7 +175,7 @@ def _evaluate(
             )
             ready[i] = prepared, start
             frequencies = natural_frequencies(
-                prepared.model, [tabulated.cycle for tabulated in prepared.made]
+                prepared.model, [tabulated.cycle for tabulated in prepared.tables]
             )
             rows["mode_frequency"][i, : len(frequencies)] = frequencies
         except (InputError, SimulationError) as error:
@@ -261,7 +261,7 @@ def _fill(
         rows[name][i, mesh_places(prepared.case, settings)] = value
     if settings.periods_differ:
         rows["common_period"][i] = prepared.case.period
-    warning = warning_of(quantities["friction_work_on_vibration"], prepared.pairs[0].friction.sliding)
+    warning = warning_of(quantities["friction_work_on_vibration"], prepared.warm_pairs[0].friction.sliding)
     texts = [*jams(prepared), *remarks(trust | {"warning": warning})]
     texts += prepared.case.remarks_in_brief()
     rows["message"][i] = remarked(rows["message"][i], *map(warned, texts))

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.geometry.drive import SIDES
 from tribodyn.numerics.shapes import Array, Int
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
@@ -64,7 +65,8 @@ def mesh_labels(record: Record) -> list[str]:
 
 def body_labels(record: Record) -> list[str]:
     """Names of the bodies, one for all planets of a set."""
-    return _labels(list(map(str, record["body"])), [carried.planets for carried in sets_of(record)])
+    names = record["body"] if "body" in record else SIDES
+    return _labels(list(map(str, names)), [carried.planets for carried in sets_of(record)])
 
 
 def _labels(names: list[str], groups: Sequence[Sequence[int]]) -> list[str]:

@@ -137,7 +137,7 @@ def _gearbox(scenario: Scenario, pair: LubricatedCase) -> Gearbox:
                 teeth=teeth[number],
                 plane=1,
                 tooth_angle=0.0,
-                given=pair.masses[number],
+                stated=pair.masses[number],
                 density=pair.materials[number].density,
                 meshes=((0, side),),
                 face_width=float((drive.pinion, drive.gear)[number].face_width),

@@ -65,7 +65,7 @@ def _by_pins(prepared: PreparedGearbox, gearset: SetData, none: Sequence[int]) -
             backlash = mesh.pair.mesh.backlash
             if backlash is None or m in none:
                 return ""
-            assembly = prepared.made[m].assembly
+            assembly = prepared.tables[m].assembly
             angle_there = float(assembly.path.pressure_angle(0.0))
             lean = 1.0 / np.hypot(1.0, float(pitch_slope(assembly)) * np.cos(angle_there))
             internal = min(case.gears[gear].teeth for gear in mesh.gears) < 0
