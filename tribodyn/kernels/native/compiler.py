@@ -5,10 +5,12 @@ turned into machine code that nobody runs. Here the functions are lowered one by
 parts of the kernel that calls them, and the kernel alone becomes machine code.
 """
 
+import gc
 import operator
 import re
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, cast
 
 from llvmlite import ir
@@ -68,8 +70,34 @@ class KernelLibrary(JITCodeLibrary):
 _C_FUNCTIONS = set("exp exp2 log log2 log10 pow sin cos tan memcpy memmove memset".split())
 
 
+@contextmanager
+def _in_less_time() -> Iterator[None]:
+    """Type every call once, and collect no garbage: nearly all that numba makes lives until the end.
+
+    numba asks for the type of each call four times and more, and goes through all that its function may mean.
+    """
+    known: dict[Any, Any] = {}
+    collects, typed = gc.isenabled(), types.BaseFunction.get_call_type
+
+    def type_once(function: Any, context: Any, arguments: Any, keywords: Any) -> Any:
+        call = function, tuple(arguments), tuple(keywords.items())
+        if call not in known:
+            known[call] = typed(function, context, arguments, keywords)
+        return known[call]
+
+    gc.disable()
+    types.BaseFunction.get_call_type = type_once
+    try:
+        yield
+    finally:
+        types.BaseFunction.get_call_type = typed
+        if collects:
+            gc.enable()
+
+
 # all of it under the lock: a thread that refreshes numba's tables hides types from one that compiles
 @global_compiler_lock
+@_in_less_time()
 def compiled(function: Callable[..., Any], layout: RecordLayout) -> Compiled:
     """Compile a function for arguments of a layout."""
     register_laws()
@@ -179,6 +207,35 @@ def _from_the_start(builder: Any, sig: Any, args: Any) -> Any:
     return signature(sig.return_type, array, index, *others)
 
 
+def _place(context, builder, sig, args):
+    """Address of an element by whole numbers, which LLVM makes of numba's code too; None where it is numba's.
+
+    That is a fifth of what numba emits, and most of a kernel is elements of arrays.
+    """
+    array, index, *_ = sig.args
+    several = isinstance(index, types.BaseTuple)
+    kinds = list(cast(Any, index)) if several else [index]
+    values = cgutils.unpack_tuple(builder, args[1]) if several else [args[1]]
+    if not _in_package(builder) or len(kinds) != array.ndim:
+        return None
+    if any(not isinstance(kind, types.Integer) for kind in kinds):
+        return None
+    if any(isinstance(value, ir.Constant) and value.constant < 0 for value in values):
+        return None
+    model = context.data_model_manager[array]
+    data, shape, strides = (model.get(builder, args[0], name) for name in ("data", "shape", "strides"))
+    whole = [context.cast(builder, *one, types.intp) for one in zip(values, kinds, strict=True)]
+    return cgutils.get_item_pointer2(
+        context,
+        builder,
+        data,
+        cgutils.unpack_tuple(builder, shape),
+        cgutils.unpack_tuple(builder, strides) if array.layout == "A" else [],
+        array.layout,
+        whole,
+    )
+
+
 @lower_builtin(operator.getitem, types.Array, types.Integer)
 def _at(context, builder, sig, args):
     """An element, or a part whose address is not taken apart.
@@ -186,6 +243,8 @@ def _at(context, builder, sig, args):
     Else LLVM keeps and moves on an address for every quantity of a mesh's contacts that a loop over meshes
     uses, some forty, where one would do.
     """
+    if (place := _place(context, builder, sig, args)) is not None:
+        return arrayobj.load_item(context, builder, sig.args[0], place)
     part = arrayobj.getitem_arraynd_intp(context, builder, _from_the_start(builder, sig, args), args)
     kind = sig.return_type
     whole = not isinstance(kind, types.Array) or kind.ndim < 2 or isinstance(args[1], ir.Constant)
@@ -199,10 +258,17 @@ def _at(context, builder, sig, args):
 
 @lower_builtin(operator.getitem, types.Array, types.BaseTuple)
 def _at_several(context, builder, sig, args):
+    if (place := _place(context, builder, sig, args)) is not None:
+        return arrayobj.load_item(context, builder, sig.args[0], place)
     return arrayobj.getitem_array_tuple(context, builder, _from_the_start(builder, sig, args), args)
 
 
 @lower_builtin(operator.setitem, types.Array, types.Integer, types.Any)
 @lower_builtin(operator.setitem, types.Array, types.BaseTuple, types.Any)
 def _put_at(context, builder, sig, args):
+    if (place := _place(context, builder, sig, args)) is not None:
+        array, _, kind = sig.args
+        value = context.cast(builder, args[2], kind, array.dtype)
+        arrayobj.store_item(context, builder, array, value, place)
+        return None
     return arrayobj.setitem_array(context, builder, _from_the_start(builder, sig, args), args)

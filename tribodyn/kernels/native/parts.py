@@ -8,6 +8,14 @@ import numba
 from numba.core import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
+from numba.core.compiler_machinery import PassManager
+from numba.core.typed_passes import (
+    NativeLowering,
+    NoPythonBackend,
+    NopythonTypeInference,
+    PreLowerStripPhis,
+)
+from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
 from numba.extending import overload
 
 #: What LLVM may do with floats: make one rounding of a product and a sum.
@@ -71,8 +79,37 @@ def _mergeable(module):
     return copy
 
 
+#: Of numba's passes those that a function of this package needs. The others are for closures, `with`, `raise`
+#: and tuples of several types, and look for them in vain, or say where a variable ends, for reference counts.
+_PASSES = (
+    TranslateByteCode,
+    FixupArgs,
+    IRProcessing,
+    ReconstructSSA,
+    NopythonTypeInference,
+    PreLowerStripPhis,
+    NativeLowering,
+    NoPythonBackend,
+)
+
+
+@cache
+def _passes() -> Any:
+    manager: Any = PassManager("part")
+    for each in _PASSES:
+        manager.add_pass(each, each.__name__)
+    manager.finalize()
+    return manager
+
+
 class PartCompiler(Compiler):
     """numba's compiler, for parts of kernels."""
+
+    def define_pipelines(self):
+        """Those of `_PASSES` for this package's functions, all of numba's for functions from outside."""
+        if cast(Any, self.state).func_id.modname.startswith("tribodyn."):
+            return [_passes()]
+        return super().define_pipelines()
 
     def __init__(self, typingctx, targetctx, library, args, return_type, flags, locals):
         if library is None:
