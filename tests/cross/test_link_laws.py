@@ -128,9 +128,10 @@ def test_lanes_do_what_a_run_does():
 
 @law
 def hardening(twist, stiffness, parameters):
-    """A spring that stiffens with the square of its twist."""
+    """A spring that stiffens with the square of its twist, as in docs/extending.md: one machine code."""
     cubic = 4.0e6 * stiffness
-    return stiffness * twist + cubic * twist**3, 0.5 * stiffness * twist**2 + 0.25 * cubic * twist**4, 1.0
+    energy = 0.5 * stiffness * twist**2 + 0.25 * cubic * twist**4
+    return stiffness * twist + cubic * twist**3, energy, 1.0
 
 
 def test_a_function_is_a_law(tmp_path):

@@ -35,8 +35,8 @@ class FunctionLayout(NamedTuple):
     """Layout of a function among a kernel's arguments: no words, but the code depends on it."""
 
     function: Callable[..., Any]
-    #: name, and a digest of the function and of all that it refers to; of a function whose code may not be
-    #: kept, a number that is this process's own
+    #: a digest of what the function does and of all that it refers to, whatever its name; of a function whose
+    #: code may not be kept, a number that is this process's own
     identity: str
     kept: bool  # whether machine code that contains the function may be kept on disk
     words: int = 0
@@ -48,14 +48,13 @@ class FunctionLayout(NamedTuple):
 @cache
 def function_layout(function: Callable[..., Any]) -> FunctionLayout:
     """Return the layout of a function."""
-    name = f"{function.__module__}.{function.__qualname__}"
     digest = hashlib.sha256()
     try:
         for part in _parts(function):
             digest.update(len(part).to_bytes(8, "little") + part)
     except _UnknownError:
-        return FunctionLayout(function, f"{name}@{next(_serial)}", False)
-    return FunctionLayout(function, f"{name}#{digest.hexdigest()[:16]}", True)
+        return FunctionLayout(function, f"@{next(_serial)}", False)
+    return FunctionLayout(function, f"#{digest.hexdigest()}", True)
 
 
 class _UnknownError(Exception):
@@ -82,7 +81,8 @@ def _parts(function: Callable[..., Any]) -> Iterator[bytes]:
         if getattr(value, "__module__", "") == elementary.__name__:
             yield str(getattr(value, "__name__", "")).encode()  # compiled code has versions of its own
         elif isinstance(value, FunctionType):
-            yield f"{value.__module__}.{value.__qualname__}".encode()
+            # indices count otherwise in functions of this package, see `compiler`
+            yield repr((value.__module__ or "").partition(".")[0] == "tribodyn").encode()
             yield from _content(value.__code__, value.__doc__)
             waiting += [value.__defaults__, *(value.__kwdefaults__ or {}).items()]
             waiting += [_inside(cell) for cell in value.__closure__ or ()]

@@ -27,6 +27,7 @@ from tests.support.three_gearboxes import (
 from tests.support.train_scenarios import REDUCER
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError
+from tribodyn.numerics.elementary import exp
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import ANGLES
 from tribodyn.record.sensors import read_sensed
@@ -304,13 +305,16 @@ def test_what_is_wrong_with_a_shaft_is_told_of_either(kind: str):
     assert 'bearings.pinon = "pinon"' in refused({"bearings": {"default": SPRINGS, "pinon": SPRINGS}})
 
 
-def test_a_law_from_python_takes_the_place_of_a_trains(tmp_path: Path):
-    def half(contact: Any, film: Any, surfaces: Any, parameters: Any) -> Any:
-        return 0.05 + 0.0 * contact.sliding
+def falling(contact: Any, film: Any, surfaces: Any, parameters: Any) -> Any:
+    """The law of docs/extending.md, whose machine code it shares."""
+    return 0.03 + 0.09 * exp(-contact.entrainment / 2.0)
 
-    box = scenario_of("gear-train", {})
-    summary = run(box, tmp_path / "own.h5", friction=half).summary
-    assert summary["meshes"]["mesh"]["friction_coefficient_mean"] == pytest.approx(0.05, rel=1e-9)
+
+def test_a_law_from_python_takes_the_place_of_a_trains(tmp_path: Path):
+    result = run(scenario_of("gear-train", {}), tmp_path / "own.h5", friction=falling)
+    with Record(result.path) as record:
+        expected = 0.03 + 0.09 * np.exp(-record.over_meshes("entrainment_speed") / 2.0)
+        np.testing.assert_allclose(record.over_meshes("friction_coefficient"), expected, rtol=1e-12)
 
 
 def everything(gearbox: str) -> dict[str, Any]:
