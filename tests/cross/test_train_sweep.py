@@ -10,9 +10,13 @@ import tribodyn as td
 from tests.support.planet_sets import planet_set
 from tribodyn.errors import InputError
 from tribodyn.grid.grid import Grid
+from tribodyn.post.figures.sweep.branch import branches
+from tribodyn.post.figures.sweep.spectra import order_amplitudes
+from tribodyn.record.sweep_reader import SweepRecord, sweeps_of_meshes
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.motion.batch.gearboxes import KEPT, OF_MESH
+from tribodyn.studies.motion.batch.sweep_figures import SWEEP_DRAWINGS
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.report import SWEPT
 from tribodyn.studies.protocol.batch import Chunk
@@ -50,6 +54,8 @@ def test_steady_states_are_those_of_long_runs(tmp_path):
         for name in KEPT:
             of_meshes = [mesh.get(name, np.nan) for mesh in long.summary["meshes"].values()]
             np.testing.assert_allclose(rows[name + OF_MESH][i], of_meshes, rtol=2e-4, atol=1e-9)
+        swing = np.ptp(rows["transmission_error_rotational"][i], axis=-1)
+        np.testing.assert_allclose(swing, rows["transmission_error_peak_to_peak_of_mesh"][i], rtol=0.02)
 
 
 def test_a_marched_case_goes_on_from_its_neighbours_state():
@@ -74,6 +80,20 @@ def test_a_sweep_up_and_down_goes_on_from_neighbours(tmp_path):
         found = swept.dynamic_factor_of_mesh.sel(direction=direction)
         np.testing.assert_allclose(found, expected["dynamic_factor_of_mesh"], rtol=1e-4)
     assert not np.any(swept.cycles % 3)  # whole common periods
+    with SweepRecord(tmp_path / "both.h5") as record:
+        for drawing in SWEEP_DRAWINGS.values():
+            drawing.draw([record], {})
+        for m, views in enumerate(sweeps_of_meshes([record]).values()):
+            branch = branches(views)[0]
+            found = order_amplitudes(branch, 3)
+            np.testing.assert_array_equal(
+                branch.values("mesh_frequency"), swept.mesh_frequency_of_mesh[:, 0, m]
+            )
+            error = swept.transmission_error_rotational.sel(direction="up")[:, m].to_numpy()
+            phase = (1.0, 1 / 3)[m] * np.arange(error.shape[-1]) / 60  # the wheel of 69 on the pinion of 23
+            for order in (1, 2, 3):
+                line = 2.0 * np.abs(np.mean(error * np.exp(-2j * np.pi * order * phase), axis=-1))
+                np.testing.assert_allclose(found[:, order - 1], line, rtol=1e-9)
 
 
 def test_one_law_for_all_cases():

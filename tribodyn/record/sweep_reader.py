@@ -1,7 +1,7 @@
 """Reads the record of a sweep: quantities over the varied parameters, windows of single cases."""
 
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ from tribodyn.errors import InputError, harmless
 from tribodyn.record import schema
 from tribodyn.record.open_record import OpenRecord, attributes, harmless_data, open_file
 from tribodyn.record.reader import Record
-from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING, VariedKey
+from tribodyn.record.sweep_schema import DONE, FAILED, OF_MESH, SWEEP, WAITING, VariedKey
 from tribodyn.record.withheld_efficiency import warnings_in
 
 
@@ -44,6 +44,10 @@ class SweepRecord(OpenRecord):
     def __getitem__(self, name: str) -> np.ndarray:
         """Return one dataset in SI units: the cases' dimensions first, in the order of `dims`."""
         return self._read(name)
+
+    def of_cases(self, name: str) -> np.ndarray:
+        """A dataset as it stands in the record, in a view of one mesh too."""
+        return SweepRecord._read(self, name)
 
     def case(self, name: str, place: tuple[int, ...]) -> np.ndarray:
         """Return a dataset of the case at one place, without reading the others."""
@@ -143,6 +147,36 @@ class SweepRecord(OpenRecord):
         return {
             name: scale[index].item() for name, scale, index in zip(self.dims, scales, place, strict=False)
         }
+
+
+class SweepOfMesh(SweepRecord):
+    """A sweep as one of its meshes sees it; it shares the open file of its record.
+
+    Datasets are without the axis of meshes; those that are of every mesh too are of this one.
+    """
+
+    def __init__(self, record: SweepRecord, mesh: int) -> None:
+        vars(self).update(vars(record))
+        self._mesh = mesh
+
+    def _read(self, name: str, part: Any = ...) -> np.ndarray:
+        of_mesh = f"{name}{OF_MESH}"
+        name = of_mesh if of_mesh in self else name
+        values = super()._read(name, part)
+        dims = self.dims_of(name)
+        return values.take(self._mesh, dims.index("mesh") - len(dims)) if "mesh" in dims else values
+
+
+def sweeps_of_meshes(records: Sequence[SweepRecord]) -> dict[str, list[SweepRecord]]:
+    """The sweeps of every mesh by its name; under "" those of one mesh, and as older versions wrote them."""
+    found: dict[str, list[SweepRecord]] = {}
+    for record in records:
+        if "mesh" not in record.dims_of("poincare_error"):
+            found.setdefault("", []).append(record)
+            continue
+        for m, name in enumerate(map(str, record["mesh"])):
+            found.setdefault(name, []).append(SweepOfMesh(record, m))
+    return found
 
 
 AnyRecord = Record | SweepRecord

@@ -24,6 +24,9 @@ class CaseStatus(IntEnum):
 WAITING, DONE, FAILED = CaseStatus
 DIRECTIONS = ("up", "down")
 
+#: Behind the name of a quantity: that of every mesh.
+OF_MESH = "_of_mesh"
+
 #: Bytes kept of a message and of a word.
 MESSAGE, WORD = 240, 24
 

@@ -58,7 +58,13 @@ class Branch(NamedTuple):
 
     def values(self, name: str) -> np.ndarray:
         """A dataset along the branch, NaN where a case is not done."""
-        values = self.record[name][self.place]
+        return self._of_done(self.record[name][self.place])
+
+    def of_first_mesh(self, name: str) -> np.ndarray:
+        """The same of the mesh whose cycles the samples of a window are counted in."""
+        return self._of_done(self.record.of_cases(name)[self.place])
+
+    def _of_done(self, values: np.ndarray) -> np.ndarray:
         done = self.record["status"][self.place] == DONE
         return np.where(done.reshape(done.shape + (1,) * (values.ndim - 1)), values, np.nan)
 

@@ -5,6 +5,7 @@ orders. In the waterfall a line of the spectrum is a mark at its frequency, colo
 """
 
 from collections.abc import Mapping, Sequence
+from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,18 @@ from tribodyn.errors import InputError
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
 from tribodyn.post.figures.spectrum import apart
 from tribodyn.post.figures.sweep.branch import Branch, axis_label, chosen_branch, sweep_title
-from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, mark_panel, name_above, new_figure, write_beside
-from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.post.style import (
+    INK,
+    PALETTE,
+    QUIET,
+    WIDTH,
+    literal,
+    mark_panel,
+    name_above,
+    new_figure,
+    write_beside,
+)
+from tribodyn.record.sweep_reader import SweepRecord, sweeps_of_meshes
 
 #: Orders of the mesh that the Campbell diagram draws, and that the waterfall shows at least.
 RAYS, LEAST_ORDERS = 6, 4
@@ -32,13 +43,24 @@ LOWEST = 10 ** (-60.0 / 20)
 
 
 def spectra(branch: Branch) -> list[Spectrum | None]:
-    """Spectrum, m over mesh orders, of every case; None where there is no window, InputError if nowhere."""
+    """Spectrum, m over orders of its mesh, of every case; None without a window, InputError if nowhere."""
     size = branch.record.samples_per_cycle
     windows = [window[np.isfinite(window)] for window in branch.values("transmission_error_rotational")]
-    results = [amplitude_spectrum(window, size) if window.size >= size else None for window in windows]
+    rates = branch.values("mesh_frequency") / branch.of_first_mesh("mesh_frequency")
+    results = [
+        _over_own_orders(amplitude_spectrum(window, size), rate) if window.size >= size else None
+        for window, rate in zip(windows, rates, strict=True)
+    ]
     if not any(results):
         raise InputError("record", str(branch.record.path), "no case is done", "wait, or sweep again")
     return results
+
+
+def _over_own_orders(spectrum: Spectrum, rate: float) -> Spectrum:
+    """A spectrum over orders of a mesh with so many cycles to one of the first mesh."""
+    orders = spectrum.orders / rate
+    whole = np.round(orders)  # whole orders are whole but for rounding
+    return spectrum._replace(orders=np.where(np.abs(orders - whole) < 1e-6 * rate, whole, orders))
 
 
 def order_amplitudes(branch: Branch, orders: int) -> np.ndarray:
@@ -49,13 +71,21 @@ def order_amplitudes(branch: Branch, orders: int) -> np.ndarray:
 
 def _beside(
     records: Sequence[SweepRecord], at: Mapping[str, float | str], height: float
-) -> tuple[list[Branch], Figure, Sequence[Axes]]:
-    """The branches, up and down, nearest to `at`; a figure of a height, inch, with axes for each."""
-    curves, name = chosen_branch(records, at)
-    figure = new_figure(WIDTH if len(curves) == 1 else 1.35 * WIDTH, height)
+) -> tuple[list[tuple[Axes, Branch, str]], Figure]:
+    """Axes, branch and mesh: of the branches nearest to `at`, up and down beside each other, meshes below."""
+    of_meshes = {mesh: chosen_branch(some, at) for mesh, some in sweeps_of_meshes(records[:1]).items()}
+    curves, name = next(iter(of_meshes.values()))
+    shape = len(of_meshes), len(curves)
+    figure = new_figure(WIDTH if shape[1] == 1 else 1.35 * WIDTH, height * (1.0 + 0.7 * (shape[0] - 1)))
     title = f"{sweep_title(records)}: {name}" if name else sweep_title(records)
     figure.suptitle(title, x=0.01, ha="left", fontsize=9)
-    return curves, figure, figure.subplots(1, len(curves), sharex=True, sharey=True, squeeze=False)[0]
+    panels = figure.subplots(*shape, sharex=True, sharey=True, squeeze=False)
+    placed = [
+        (axes, branch, literal(mesh))
+        for row, (mesh, (some, _)) in zip(panels, of_meshes.items(), strict=True)
+        for axes, branch in zip(row, some, strict=True)
+    ]
+    return placed, figure
 
 
 def campbell_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str]) -> Figure:
@@ -64,16 +94,18 @@ def campbell_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str
     The area of a marker on an order is the amplitude of the transmission error there. Of several other
     parameters the branch nearest to `at` is drawn, or the first.
     """
-    curves, figure, panels = _beside(records, at, 4.4)
-    largest = max(float(np.nanmax(order_amplitudes(branch, RAYS))) for branch in curves) or 1.0
-    for letter, axes, branch in zip("ab", panels, curves, strict=False):
+    panels, figure = _beside(records, at, 4.4)
+    largest = max(float(np.nanmax(order_amplitudes(branch, RAYS))) for _, branch, _ in panels) or 1.0
+    for letter, (axes, branch, mesh) in zip(ascii_lowercase, panels, strict=False):
         _draw_modes(axes, branch)
         _draw_orders(axes, branch, largest)
         axes.set_xlabel(axis_label(records[0].parameters[0]))
+        axes.set_ylabel("Frequency (kHz)")
+        axes.label_outer()
         way = {"up": "Parameter increasing", "down": "Parameter decreasing"}
         title = way.get(branch.direction, "Modes (dashed) and orders of the mesh frequency $f_m$")
-        mark_panel(axes, letter if len(curves) > 1 else "", title, 1)
-    panels[0].set_ylabel("Frequency (kHz)")
+        title = f"{mesh}: {title[0].lower()}{title[1:]}" if mesh else title
+        mark_panel(axes, letter if len(panels) > 1 else "", title, 1)
     shares = (1.0, 0.5, 0.1)
     figure.legend(
         [_marker(share) for share in shares],
@@ -142,19 +174,21 @@ def waterfall_figure(records: Sequence[SweepRecord], at: Mapping[str, float | st
     Up and down beside each other where both were followed; of several other parameters the branch nearest to
     `at`, or the first.
     """
-    curves, figure, panels = _beside(records, at, 4.6)
-    available = [spectrum for branch in curves for spectrum in spectra(branch) if spectrum]
+    panels, figure = _beside(records, at, 4.6)
+    available = [spectrum for _, branch, _ in panels for spectrum in spectra(branch) if spectrum]
     highest = max(float(spectrum.amplitudes[1:].max()) for spectrum in available) * 1e6 or 1.0
     norm = LogNorm(highest * LOWEST, highest)
-    limit = max(map(_limit, curves))
+    limit = max(_limit(branch) for _, branch, _ in panels)
     lines: Any = None
-    for letter, axes, branch in zip("ab", panels, curves, strict=False):
+    for letter, (axes, branch, mesh) in zip(ascii_lowercase, panels, strict=False):
         lines = _draw(axes, branch, norm, limit)
         way = {"up": ", parameter increasing", "down": ", parameter decreasing"}.get(branch.direction, "")
-        mark_panel(axes, letter if len(curves) > 1 else "", f"Spectra of the transmission error{way}", 2)
+        title = f"{mesh}: spectra" if mesh else "Spectra"
+        mark_panel(axes, letter if len(panels) > 1 else "", f"{title} of the transmission error{way}", 2)
         axes.set_xlabel("Frequency (kHz)")
-    panels[0].set_ylabel(axis_label(records[0].parameters[0]))
-    bar = figure.colorbar(lines, ax=list(panels), label="Amplitude (µm)", pad=0.02)
+        axes.set_ylabel(axis_label(records[0].parameters[0]))
+        axes.label_outer()
+    bar = figure.colorbar(lines, ax=[axes for axes, _, _ in panels], label="Amplitude (µm)", pad=0.02)
     bar.outline.set_visible(False)
     return figure
 

@@ -27,7 +27,6 @@ from tribodyn.solve.branch.gear_pairs import UnstableRange
 from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.studies.motion.batch.gearboxes import (
-    REFERENCE,
     keys_of_tables,
     mesh_places,
     places_of,
@@ -88,7 +87,7 @@ def fill_unstable(
     i: int,
     branches: "Sequence[ContinuedBranch]",
     prepared_at: Callable[[float], Any],
-    samples: int,
+    settings: SweepSettings,
 ) -> None:
     """Put branches into the row of a case, with the quantities of their motions over one period each.
 
@@ -103,12 +102,26 @@ def fill_unstable(
                 continue
             window = CaseWindow(0, motion.samples, motion.end, motion.extremes)
             prepared = prepared_at(value)
-            quantities, _, _ = window_quantities(prepared, window, samples)
+            quantities, _, _ = window_quantities(prepared, window, settings.samples)
             for name in UNSTABLE_QUANTITIES:
                 rows[PREFIX + name][i, end, m] = quantities[name]
-            every = samples * prepared.model.schedule.period
-            section = rotational_error(motion.samples[::every], REFERENCE, prepared.model)
-            rows["unstable_poincare_error"][i, end, m, : len(section)] = section
+            every = settings.samples * prepared.model.schedule.period
+            row = rows["unstable_poincare_error"][i][..., end, m, :]
+            _put(row, _of_meshes(rotational_error, motion.samples[::every], prepared), prepared, settings)
+
+
+def _of_meshes(error: Callable[..., Any], states: np.ndarray, prepared: Any) -> np.ndarray:
+    """An error of every mesh (mesh, point) over states."""
+    model = prepared.model
+    return np.stack([error(states, m, model) for m in range(len(model.meshes))])
+
+
+def _put(row: np.ndarray, errors: np.ndarray, prepared: Any, settings: SweepSettings) -> None:
+    """Put errors (mesh, point) of a case into a row; of a sweep of one mesh it has no axis of meshes."""
+    if row.ndim == 1:
+        row[: errors.shape[1]] = errors[0]
+    else:
+        row[mesh_places(prepared.case, settings), : errors.shape[1]] = errors
 
 
 #: Speed of the pinion at which a static equilibrium is sought, rad/s: forces that go with speed vanish there.
@@ -189,7 +202,7 @@ def _evaluate(
             _fill(rows, i, ready[i][0], outcome, settings)
             if outcome.continued:
                 at = partial(prepared_at, line)
-                fill_unstable(rows, i, outcome.continued, at, settings.samples)
+                fill_unstable(rows, i, outcome.continued, at, settings)
     return rows
 
 
@@ -266,13 +279,15 @@ def _fill(
     texts += prepared.case.remarks_in_brief()
     rows["message"][i] = remarked(rows["message"][i], *map(warned, texts))
     rows[TRUST][i] = number(trust)
-    model, section = prepared.model, outcome.section
-    error = rotational_error(outcome.window.states, REFERENCE, model)
-    room = settings.window * settings.samples
-    whole = min(room, error.size) if outcome.period == 0 else room // error.size * error.size
-    rows["transmission_error_rotational"][i, :whole] = np.resize(error, whole)
-    rows["poincare_error"][i, : len(outcome.section)] = rotational_error(section, REFERENCE, model)
-    rows["poincare_rate"][i, : len(outcome.section)] = rotational_error_rate(section, REFERENCE, model)
+    error = _of_meshes(rotational_error, outcome.window.states, prepared)
+    room, size = settings.window * settings.samples, error.shape[1]
+    whole = min(room, size) if outcome.period == 0 else room // size * size
+    for name, values in (
+        ("transmission_error_rotational", error[:, np.arange(whole) % size]),
+        ("poincare_error", _of_meshes(rotational_error, outcome.section, prepared)),
+        ("poincare_rate", _of_meshes(rotational_error_rate, outcome.section, prepared)),
+    ):
+        _put(rows[name][i], values, prepared, settings)
     rows["state"][i, places_of(prepared, settings)] = outcome.state
     if settings.followed:
         fill_ends(rows, i, outcome.ends)

@@ -12,6 +12,7 @@ from tribodyn.errors import InputError
 from tribodyn.gears.motion.extremes import RunningExtremes
 from tribodyn.gears.tabulated import table_key
 from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.record.sweep_schema import OF_MESH as OF_MESH
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
 from tribodyn.studies.motion.case import Gearbox, refuse_long_period
 from tribodyn.studies.motion.planetary.frames import rolling_of
@@ -20,15 +21,12 @@ from tribodyn.studies.motion.prepare import PreparedGearbox, structure_of
 from tribodyn.studies.motion.summary import concluded, meshes_of_run, steady_quantities
 from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
 
-#: The mesh whose transmission error a sweep samples.
-REFERENCE = 0
 #: What a sweep keeps of every mesh; the name of the dataset is that of the quantity and `OF_MESH`.
 KEPT = (
     *("transmission_error_peak_to_peak", "dynamic_factor", "contact_loss_fraction", "hertz_pressure_max"),
-    *("film_parameter_min", "friction_coefficient_mean", "transmission_error_mean"),
+    *("film_parameter_min", "friction_coefficient_mean", "transmission_error_mean", "mesh_frequency"),
     *("efficiency", "power_friction_mean", "bulk_temperature"),
 )
-OF_MESH = "_of_mesh"
 OF_MESHES = {name + OF_MESH: QUANTITIES[name].variable()._replace(dims=("mesh",)) for name in KEPT}
 #: States that bound the memory of a sweep before its cases are known.
 MOST_STATES = 64

@@ -57,6 +57,12 @@ _ERROR_OF_UNSTABLE = Variable(
     "rotational transmission error at the start of the mesh cycles of an unstable motion",
 )
 
+#: Those of every mesh where there are several.
+_OVER_MESHES = (
+    *("transmission_error_rotational", "poincare_error", "poincare_rate"),
+    "unstable_poincare_error",
+)
+
 #: The scales after those of the cases.
 SAMPLE = Variable(("sample",), "1", "phase of the mesh in mesh cycles, from the start of the window")
 CYCLE = Variable(
@@ -128,6 +134,9 @@ def layout_of(
             for name in UNSTABLE_QUANTITIES
         }
         variables["unstable_poincare_error"] = _ERROR_OF_UNSTABLE
+    if len(settings.meshes) > 1:
+        for name in variables.keys() & _OVER_MESHES:
+            variables[name] = variables[name]._replace(dims=("mesh", *variables[name].dims))
     return SweepLayout(variables, scales, {"samples_per_cycle": settings.samples})
 
 
