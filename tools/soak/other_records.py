@@ -16,7 +16,7 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 from tribodyn.studies import STUDIES
 from tribodyn.studies.design.outcome import REFINEMENT
-from tribodyn.studies.load_contact.prepare import prepare
+from tribodyn.studies.load_contact.run import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 #: Largest share by which the torque of the loads may miss the gear's.

@@ -1,15 +1,19 @@
 """What is said of a case of gears: the geometry sheet, stiffness, oil, laws and a rounded centre distance."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from tribodyn.cases.results import CheckResult, TextTable
+from tribodyn.compliance.sharing.loaded_contact import single_pair_stiffness
+from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.gears.case import LubricatedCase, rounded_in
 from tribodyn.gears.prepare import PreparedGears
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData, Side
+from tribodyn.geometry.helix import pitch_slope
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
@@ -230,6 +234,18 @@ def sheet_and_stiffness(
     about = {"line_load": line_load, "by": by, "remark": remark} | reference
     data = {"geometry": sheet, "stiffness": about}
     return CheckResult(data, (*sheet_tables(sheet), table, *tables), remarks)
+
+
+def check_on_elements(case: Any, flexible: PairFlexibility) -> CheckResult:
+    """What `check` says of gears on finite elements: their sheet, and the stiffness of a pair of them."""
+    assembly, torque = flexible.assembly, case.operating.gear_torque
+    transverse = math.cos(float(assembly.path.pressure_angle(0.0)))
+    # the stiffness along the path of contact, as the standard has it: load and deflection are each cos β_n of
+    # the normal's
+    cosine = 1.0 / math.hypot(1.0, float(pitch_slope(assembly)) * transverse)
+    normal_load = torque / (float(assembly.path.gear_pitch_radius) * transverse * cosine)
+    pair = normal_load, single_pair_stiffness(flexible, torque) * cosine**2
+    return sheet_and_stiffness(assembly, case.materials, "finite elements", pair, gear_torque=torque)
 
 
 def _reference(

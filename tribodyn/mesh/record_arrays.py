@@ -4,6 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.helix import pitch_slope
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.parameter import Variable
 
@@ -65,6 +67,21 @@ MESH_CYCLE: dict[str, Variable] = {
         }.items()
     },
 }
+
+
+def untabulated(assembly: Assembly, face_width: float) -> dict[str, float]:
+    """Numbers of a mesh of which there is no table, by names of `MESH_CYCLE`."""
+    path, (start, end) = assembly.path, assembly.roll_limits
+    return {
+        "pinion_pitch_radius": float(path.pinion_pitch_radius),
+        "gear_pitch_radius": float(path.gear_pitch_radius),
+        "pinion_teeth": float(assembly.drive.pinion.teeth),
+        "face_width": face_width,
+        "contact_ratio": float(assembly.contact_ratio),
+        "roll_start": start,
+        "roll_end": end,
+        "pitch_slope": float(pitch_slope(assembly)),
+    }
 
 
 def described(slices: int) -> dict[str, Variable]:

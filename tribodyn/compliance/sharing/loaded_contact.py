@@ -19,6 +19,7 @@ from tribodyn.compliance.sharing.flank_gap import (
 )
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, SharedLoad, half_width
 from tribodyn.compliance.sharing.section import is_helical
+from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.helix import roll_shift
@@ -280,3 +281,14 @@ def mean_pairs(overlap: Float[Array, "position pair"], positions: int) -> float:
         share = np.where(crossing, here / np.where(crossing, here - there, 1.0), 0.0)
         total += float(np.sum(np.where(crossing, np.where(here > 0, share, 1.0 - share), touching)))
     return total / len(overlap)
+
+
+def single_pair_stiffness(flexible: PairFlexibility, gear_torque: float) -> float:
+    """Load over deflection along the normal of one unmodified pair alone at the pitch point, N/m.
+
+    Of helical teeth as if all their width touched there at once, as c' of ISO 6336-1 is meant.
+    """
+    alone, flanks = np.zeros((1, 1)), LoadedFlanks(flexible)
+    shared = flanks.share(alone, gear_torque)
+    arm = flanks.contacts(alone).arm[0, 0, 0]
+    return float(shared.normal_load[0, 0] / (shared.deflection[0] * arm))

@@ -18,7 +18,7 @@ from tribodyn.cases.assessment_part import (
 from tribodyn.record.reader import Record
 from tribodyn.standards.load_factors import transverse_load_factor
 from tribodyn.studies.load_contact import STUDY
-from tribodyn.studies.load_contact.prepare import ALONG, highest_over_face
+from tribodyn.studies.load_contact.run import ALONG, highest_over_face
 
 _TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-contact-samples"
 _SPECTRUM = "loaded-contact-spectrum"

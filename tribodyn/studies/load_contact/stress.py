@@ -17,7 +17,7 @@ from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.post.figures.panel import record_label, record_title
 from tribodyn.post.style import INK, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.load_contact.prepare import flanks_of, prepare
+from tribodyn.studies.load_contact.run import prepare
 from tribodyn.studies.load_contact.scenario import LoadContactCase
 from tribodyn.studies.protocol.load import load_data
 
@@ -34,7 +34,7 @@ def field_of(record: Record, side: Side) -> ToothField:
     assert isinstance(case, LoadContactCase)
     roll = record["roll_angle"]
     position, pair = at_pitch_point(roll)
-    flanks = flanks_of(prepare(case))
+    flanks = prepare(case).flanks
     return tooth_field(flanks, side, roll[position], record["line_load"][position], pair)
 
 

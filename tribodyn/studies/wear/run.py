@@ -1,7 +1,6 @@
 """From a case of the wear study to its record and worn profiles; a run goes on from what another left."""
 
 import hashlib
-import math
 import tomllib
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -17,12 +16,12 @@ from tribodyn.compliance.sharing.flank_gap import check_modifications
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import check_contact
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.gears.check import oil_data, sheet_and_stiffness
+from tribodyn.gears.check import check_on_elements, oil_data
 from tribodyn.gears.plausibility import checks_gears
 from tribodyn.gears.prepare import assembled
 from tribodyn.geometry.body import geometry_arrays
-from tribodyn.geometry.helix import pitch_slope
 from tribodyn.kernels.native.arguments import function_layout
+from tribodyn.mesh.record_arrays import untabulated
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
 from tribodyn.mesh.teeth.table import flank_places
 from tribodyn.numerics.files.output_files import WRITTEN, check_output, write_output
@@ -116,26 +115,11 @@ def flanks_of(case: WearCase) -> LoadedFlanks:
 
 @checks_gears
 def check(case: WearCase) -> CheckResult:
-    """Check a case, and say what gears it describes and how stiff they are."""
-    flanks = prepare(case).places.held.flanks
-    alone, unmodified, assembly = np.zeros((1, 1)), LoadedFlanks(flanks.flexible), flanks.flexible.assembly
-    shared = unmodified.share(alone, case.operating.gear_torque)
-    angle = float(assembly.path.pressure_angle(0.0))
-    cosine = 1.0 / math.hypot(1.0, float(pitch_slope(assembly)) * math.cos(angle))
-    load = float(shared.normal_load[0, 0])
-    stiffness = load / float(shared.deflection[0]) / math.cos(angle)  # both along the path of contact
-    checked = sheet_and_stiffness(
-        assembly,
-        case.materials,
-        "finite elements",
-        (load * cosine, stiffness * cosine),
-        None,
-        "",
-        case.operating.gear_torque,
-    )
-    law = wear_law_of(case.wear)
-    values = law.made(None, dict(case.wear.values))._asdict()
-    return checked._replace(data={**checked.data, "wear": {"law": law.name, **values}})
+    """Check a case, and say what gears it describes, how stiff they are, and by which law they wear."""
+    study = prepare(case)
+    checked = check_on_elements(case, study.places.held.flanks.flexible)
+    wear = {"law": study.law.name, **study.parameters._asdict()}
+    return checked._replace(data={**checked.data, "wear": wear})
 
 
 def run(
@@ -208,19 +192,8 @@ def _summary(
 
 def _beside(study: Wearing) -> dict[str, Any]:
     """Scales and groups of a record."""
-    case, places, assembly = study.case, study.places, study.places.held.flanks.flexible.assembly
-    path, (start, end) = assembly.path, assembly.roll_limits
+    case, places, flexible = study.case, study.places, study.places.held.flanks.flexible
     pinion, gear = case.counts
-    numbers = {
-        "pinion_pitch_radius": float(path.pinion_pitch_radius),
-        "gear_pitch_radius": float(path.gear_pitch_radius),
-        "pinion_teeth": float(pinion),
-        "face_width": places.held.flanks.flexible.width,
-        "contact_ratio": float(assembly.contact_ratio),
-        "roll_start": start,
-        "roll_end": end,
-        "pitch_slope": float(pitch_slope(assembly)),
-    }
     scales = {
         "body": np.array(BODIES),
         "roll": places.node,
@@ -230,7 +203,9 @@ def _beside(study: Wearing) -> dict[str, Any]:
     }
     if case.each_tooth:
         scales |= {"pinion_tooth": np.arange(pinion), "gear_tooth": np.arange(gear)}
-    return {"groups": {"mesh_cycle": numbers, "geometry": geometry_arrays(assembly)}, "scales": scales}
+    numbers = untabulated(flexible.assembly, flexible.width)
+    groups = {"mesh_cycle": numbers, "geometry": geometry_arrays(flexible.assembly)}
+    return {"groups": groups, "scales": scales}
 
 
 def _recorded(case: WearCase, path: Path) -> dict[str, np.ndarray]:
