@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn import __version__
-from tribodyn.errors import InputError, quoted
+from tribodyn.errors import InputError
 from tribodyn.grid.grid import Grid
 from tribodyn.input import units
-from tribodyn.input.units import NotAQuantity, to_si
+from tribodyn.input.units import NotAQuantity, to_si, to_si_at
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.sweep_schema import CASE, Listed, SweepLayout
 from tribodyn.studies.protocol.batch import RUN_IN, SignalRequest
@@ -50,10 +50,7 @@ def data_set_of(
     """
     if duration is None:
         return None
-    try:
-        seconds = to_si(duration, _DURATION)
-    except NotAQuantity as error:
-        raise InputError("--signals", quoted(duration), error.rule, error.remedy) from None
+    seconds = to_si_at("--signals", duration, _DURATION)
     if not 0.0 <= run_in < np.inf:
         raise InputError("--run-in", f"{run_in:g}", "turns cannot be negative", "write 3")
     if not 0.0 <= test < 1.0:

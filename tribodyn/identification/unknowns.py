@@ -10,7 +10,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.input.names import same_key
-from tribodyn.input.units import Kind, NotAQuantity, to_si
+from tribodyn.input.units import Kind, to_si_at
 from tribodyn.input.vary import given_at, in_si, kind_at
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies import study_of
@@ -83,11 +83,8 @@ def _unknown(key: Any, limits: Any, data: Mapping[str, Any], table: Any) -> Unkn
 def _in_si(key: str, value: Any, kind: Any) -> float:
     value = value.item() if isinstance(value, np.generic) else value
     if isinstance(kind, Kind):
-        try:
-            # zero as the lower end of what has to be positive is as good a bound as any
-            return to_si(value, kind._replace(allowed="any"))
-        except NotAQuantity as error:
-            raise InputError(key, quoted(value), error.rule, error.remedy) from None
+        # zero as the lower end of what has to be positive is as good a bound as any
+        return to_si_at(key, value, kind._replace(allowed="any"))
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         with suppress(OverflowError):
             if math.isfinite(value):

@@ -10,6 +10,7 @@ from functools import cache
 from math import isfinite, pi
 from typing import Any, NamedTuple
 
+from tribodyn.errors import InputError, quoted
 from tribodyn.input.unit_grammar import (
     COMMON_UNITS,
     LONGEST,
@@ -153,6 +154,14 @@ def base_units(value: Any) -> tuple[float, str] | None:
         return None
     value = scaled(float(match["number"]), float(base.magnitude))
     return (value, f"{base.units:~C}".replace("**", "") or "1") if isfinite(value) else None
+
+
+def to_si_at(key: str, value: Any, kind: Kind) -> float:
+    """As `to_si`; raises InputError, which names the key, for what is no quantity of that kind."""
+    try:
+        return to_si(value, kind)
+    except NotAQuantity as error:
+        raise InputError(key, quoted(value), error.rule, error.remedy) from None
 
 
 def _units(text: str, write: str) -> Any:

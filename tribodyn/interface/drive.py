@@ -9,7 +9,6 @@ import numpy as np
 import tomli_w
 
 from tribodyn.drawing.picture import gears_in_mesh
-from tribodyn.errors import InputError
 from tribodyn.gears.check import sheet_of_gear, sheet_tables
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import gear_polygon
@@ -18,7 +17,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.limits.limits import plain_distances
 from tribodyn.interface import shown
-from tribodyn.interface.scenario import checked, in_python, in_toml
+from tribodyn.interface.scenario import changes_of, in_toml, public
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
@@ -35,8 +34,8 @@ if TYPE_CHECKING:
 def _loaded(
     model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None, mesh: str | None = None
 ) -> DriveModel:
-    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
-    return load_drive(in_toml(model) if isinstance(model, Mapping) else str(model), changes, mesh)
+    text = in_toml(model) if isinstance(model, Mapping) else str(model)
+    return load_drive(text, changes_of(overrides), mesh)
 
 
 class GearPair:
@@ -91,7 +90,7 @@ class GearPair:
         """The path of contact from the first to the last contact, (points, 2), m; in axes as `outlines`."""
         return np.asarray(self._mesh.path)
 
-    @in_python()
+    @public
     def stiffness(self, gear_torque: float | str | Any = 100.0) -> "xarray.DataArray":
         """Mesh stiffness over a mesh cycle by the energy method, N/m: all pairs, along the pitch tangent.
 
@@ -112,13 +111,10 @@ class GearPair:
         """
         import xarray as xr
 
-        from tribodyn.input.units import TORQUE, NotAQuantity, to_si
+        from tribodyn.input.units import TORQUE, to_si_at
 
         text = in_toml(gear_torque)
-        try:
-            torque = to_si(text, TORQUE) if isinstance(text, str) else float(text)
-        except NotAQuantity as error:
-            raise InputError("gear_torque", repr(gear_torque), error.rule, error.remedy) from None
+        torque = to_si_at("gear_torque", text, TORQUE) if isinstance(text, str) else float(text)
         slots = pair_slots(self._assembly)
         cycle = tabulate(self._assembly, self._model.materials, MeshData("energy", 0.05), slots)
         phase = np.asarray(cycle.phase).ravel()
@@ -137,7 +133,7 @@ class GearPair:
         """The pair as a drive file, with everything that it refers to."""
         return tomli_w.dumps(self._model.table)
 
-    @in_python()
+    @public
     def as_spline(self, n: int = 9) -> "GearPair":
         """Fit a free-form path, family ``"spline"``, to the path of contact: teeth to change value by value.
 
@@ -159,7 +155,7 @@ class GearPair:
         """
         return GearPair(as_spline(self._model, n).table)
 
-    @in_python()
+    @public
     def plot(self, ax: "Axes | None" = None) -> "Figure":
         """Draw the pair: both gears, and the teeth in contact with their path.
 
@@ -238,8 +234,7 @@ class NamedGear:
         return f"<tribodyn gear: {self.name}, {teeth:g} teeth, in {meshes}>"
 
 
-@in_python()
-@checked
+@public
 def gear(
     model: str | Path | Mapping[str, Any], name: str, overrides: Mapping[str, Any] | None = None
 ) -> NamedGear:
@@ -263,12 +258,10 @@ def gear(
         If there is none of that name, or no such gears can be made.
     """
     text = in_toml(model) if isinstance(model, Mapping) else str(model)
-    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
-    return NamedGear(name, load_gear(text, changes, name))
+    return NamedGear(name, load_gear(text, changes_of(overrides), name))
 
 
-@in_python()
-@checked
+@public
 def drive(
     model: str | Path | Mapping[str, Any],
     overrides: Mapping[str, Any] | None = None,
@@ -297,8 +290,7 @@ def drive(
     return GearPair(model, overrides, mesh)
 
 
-@in_python()
-@checked
+@public
 def constraints(
     model: str | Path | Mapping[str, Any] | GearPair,
     overrides: Mapping[str, Any] | None = None,

@@ -11,7 +11,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.interface import shown
-from tribodyn.interface.scenario import Source, checked, in_python, scenario
+from tribodyn.interface.scenario import Source, public, scenario
 from tribodyn.studies import study_of
 from tribodyn.tribology.closure import closure_of
 
@@ -60,23 +60,21 @@ class Gradient:
         return f"<tribodyn gradient: {self.of} = {_with_unit(self.value, self.unit)}; {slopes}>"
 
     def _repr_html_(self) -> str:
-        head = "<tr><th>key</th><th>value</th><th>derivative</th><th>change for 1 % more</th></tr>"
         rows = []
         for key, slope in self.gradient.items():
             over = f"{self.unit} per {self.units[key]}" if self.units[key] != "1" else self.unit
             more = f"{self.sensitivity[key]:+.3g} %" if self.at[key] else "–"
-            cells = (key, _with_unit(self.at[key], self.units[key]), _with_unit(slope, over), more)
-            rows.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>")
+            rows.append((key, _with_unit(self.at[key], self.units[key]), _with_unit(slope, over), more))
         title = f"{escape(self.about)}: <b>{escape(_with_unit(self.value, self.unit))}</b>"
-        return shown.block(f"<p>{title}</p><table>{head}{''.join(rows)}</table>")
+        columns = "key", "value", "derivative", "change for 1 % more"
+        return shown.block(f"<p>{title}</p>", shown.table(columns, rows))
 
 
 def _with_unit(value: float, unit: str) -> str:
     return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
 
 
-@in_python()
-@checked
+@public
 def gradient(
     source: Source, of: str, wrt: str | Sequence[str], overrides: Mapping[str, Any] | None = None
 ) -> Gradient:
@@ -126,8 +124,7 @@ def gradient(
     return Gradient(of, function.about[0], function.units[0], value, by_key, at, units)
 
 
-@in_python()
-@checked
+@public
 def differentiable(
     source: Source,
     of: str | Sequence[str],

@@ -13,9 +13,9 @@ from tribodyn.identification.fit import WHITE, Fit, evolution, fitted, sobol, wh
 from tribodyn.identification.simulated import SignalComparison, measured_of, turn_of
 from tribodyn.identification.unknowns import Unknown, case_at, shares_of, unknowns_of
 from tribodyn.input import units
-from tribodyn.input.units import NotAQuantity, to_si
+from tribodyn.input.units import to_si_at
 from tribodyn.interface import shown
-from tribodyn.interface.scenario import Source, checked, in_python, in_toml, scenario
+from tribodyn.interface.scenario import Source, in_toml, public, scenario
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.batch import RUN_IN
@@ -76,23 +76,23 @@ class Identified:
         return f"<tribodyn identified: {'; '.join(parts)} ({100 * LEVEL:g} % intervals)>"
 
     def _repr_html_(self) -> str:
-        head = f"<tr><th>unknown</th><th>estimate</th><th>{100 * LEVEL:g} % interval</th></tr>"
         rows = []
         for key, (low, high) in self.intervals.items():
-            unit = "" if self.units[key] == "1" else f" {self.units[key]}"
-            cells = (key, f"{self.values[key]:.6g}{unit}", f"{low:.6g} to {high:.6g}{unit}")
-            rows.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>")
+            unit = self._unit(key)
+            rows.append((key, f"{self.values[key]:.6g}{unit}", f"{low:.6g} to {high:.6g}{unit}"))
         remarks = "".join(f"<li>{escape(remark)}</li>" for remark in self.remarks)
-        return shown.block(f"<table>{head}{''.join(rows)}</table>", f"<ul>{remarks}</ul>" if remarks else "")
+        table = shown.table(("unknown", "estimate", f"{100 * LEVEL:g} % interval"), rows)
+        return shown.block(table, f"<ul>{remarks}</ul>" if remarks else "")
 
     def _shown(self, key: str) -> str:
         low, high = self.intervals[key]
-        unit = "" if self.units[key] == "1" else f" {self.units[key]}"
-        return f"{self.values[key]:.5g}{unit} ({low:.5g} to {high:.5g})"
+        return f"{self.values[key]:.5g}{self._unit(key)} ({low:.5g} to {high:.5g})"
+
+    def _unit(self, key: str) -> str:
+        return "" if self.units[key] == "1" else f" {self.units[key]}"
 
 
-@in_python()
-@checked
+@public
 def identify(
     source: Source,
     measured: Any,
@@ -161,7 +161,8 @@ def identify(
     if method not in ("least-squares", "cma-es"):
         raise InputError("method", quoted(method), "no such method", '"least-squares" or "cma-es"')
     sought = unknowns_of(case, unknowns)
-    data = measured_of(measured, case, _time(start), run_in * turn_of(case))
+    first = to_si_at("start", in_toml(start), units.TIME)
+    data = measured_of(measured, case, first, run_in * turn_of(case))
     count = sum(len(one.values) for one in data)
     if count <= len(sought) + len(data):
         rule = f"{count} samples for {len(sought)} unknowns"
@@ -251,11 +252,3 @@ def _identified(case: Any, sought: Sequence[Unknown], compare: SignalComparison,
         tuple(dict.fromkeys(remarks)),
         case_at(case, sought, fit.shares),
     )
-
-
-def _time(value: Any) -> float:
-    value = in_toml(value)
-    try:
-        return to_si(value, units.TIME)
-    except NotAQuantity as error:
-        raise InputError("start", quoted(value), error.rule, error.remedy) from None

@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.tables.oil.lubricant import read_lubricant
-from tribodyn.interface.scenario import in_python
+from tribodyn.interface.scenario import public
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid import Fluid, Rheology
 from tribodyn.tribology.ehl.grid import STEP
@@ -121,7 +121,7 @@ class SolvedContact:
         )
 
 
-@in_python()
+@public
 def line_contact(
     *,
     line_load: float,

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from tribodyn.interface import shown
-from tribodyn.interface.scenario import in_python
+from tribodyn.interface.scenario import public
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 
@@ -90,7 +90,7 @@ class Run:
         with Record(self.path) as record:
             return (OVERVIEW, *names([record]))
 
-    @in_python()
+    @public
     def plot(
         self,
         name: str = "overview",
@@ -141,7 +141,7 @@ class Run:
                 return measured_figure(records, measured, align)
             return figure(name, records, cycles=cycles, against=against)
 
-    @in_python()
+    @public
     def report(
         self,
         path: str | Path | None = None,
@@ -181,7 +181,7 @@ class Run:
             target = path or f"{self.path.stem}.html"
             return write_report(records, target, force=force, measured=measured, align=align)
 
-    @in_python()
+    @public
     def animate(self, *others: "Run") -> shown.Animation:
         """Roll the teeth through mesh, with the path of contact and the loads of the pairs.
 
@@ -206,7 +206,7 @@ class Run:
             shown.check_teeth(records)
             return shown.Animation(report(records, figures=False))
 
-    @in_python()
+    @public
     def save(self, path: str | Path, *, force: bool = False) -> Path:
         """Copy the record to a file.
 

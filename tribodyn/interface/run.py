@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from tribodyn.input.sources import find_scenario
 from tribodyn.interface.result import Run
-from tribodyn.interface.scenario import Source, checked, in_python, in_toml, resolved, scenario
+from tribodyn.interface.scenario import Source, in_toml, public, resolved, scenario
 from tribodyn.post.progress import progress_of
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
@@ -25,8 +25,7 @@ if TYPE_CHECKING:
     from tribodyn.tribology.wear.law import WearLaw
 
 
-@in_python()
-@checked
+@public
 def run(
     source: Source,
     overrides: Mapping[str, Any] | None = None,
@@ -89,8 +88,7 @@ def run(
     )
 
 
-@in_python()
-@checked
+@public
 def run_meshes(
     source: Source,
     overrides: Mapping[str, Any] | None = None,
@@ -165,8 +163,7 @@ def run_class(kind: str) -> type[Run]:
     return type(base.__name__, (base, Run), {"__doc__": base.__doc__, "__module__": base.__module__})
 
 
-@in_python()
-@checked
+@public
 def check(source: Source, overrides: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Check a scenario and compute what needs no run: the data of ``tribodyn check --json``.
 
@@ -246,4 +243,4 @@ def _function(verb: "Verb") -> Callable[..., Any]:
     rest = [parameter for parameter in parameters[1:] if parameter.name not in names]
     shown = [*added, *rest] if verb.answers else [*parameters, *added]
     vars(function)["__signature__"] = inspect.Signature(sorted(shown, key=lambda parameter: parameter.kind))
-    return in_python()(checked(function))
+    return public(function)

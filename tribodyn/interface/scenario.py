@@ -116,27 +116,6 @@ _ARGUMENTS = {
 }
 
 
-def checked(function: Function) -> Function:
-    """Check the arguments of a function by their names before it is called; raises InputError."""
-    accepted = signature(function)
-    names = [name for name in accepted.parameters if name in _ARGUMENTS]
-
-    @wraps(function)
-    def call(*values: Any, **keys: Any) -> Any:
-        try:
-            arguments = accepted.bind(*values, **keys).arguments
-        except TypeError:  # what Python says of the call itself
-            return function(*values, **keys)
-        for name in names:
-            due, default = _ARGUMENTS[name], accepted.parameters[name].default
-            value = arguments.get(name, default)
-            if value is not default and not due.holds(value):
-                raise InputError(name, quoted(value), due.rule, due.remedy)
-        return function(*values, **keys)
-
-    return call  # pyright: ignore[reportReturnType]
-
-
 #: What the options are called that stand for the scenario's keys.
 _NAMES = {OVERRIDES: "overrides", VARY: "vary"}
 #: Options that are on or off.
@@ -156,7 +135,7 @@ def python_words(text: str) -> str:
 
 @contextmanager
 def in_python() -> Iterator[None]:
-    """Put the errors raised inside into Python's words; also a decorator."""
+    """Put the errors raised inside into Python's words."""
     try:
         yield
     except (InputError, OutputError) as error:
@@ -177,6 +156,28 @@ def _translate(error: Any) -> None:
         error.__notes__ = [python_words(note) for note in notes]
 
 
+def public(function: Function) -> Function:
+    """A function that checks its arguments by their names and has its errors in Python's words."""
+    accepted = signature(function)
+    names = [name for name in accepted.parameters if name in _ARGUMENTS]
+
+    @in_python()
+    @wraps(function)
+    def call(*values: Any, **keys: Any) -> Any:
+        try:
+            arguments = accepted.bind(*values, **keys).arguments
+        except TypeError:  # what Python says of the call itself
+            return function(*values, **keys)
+        for name in names:
+            due, default = _ARGUMENTS[name], accepted.parameters[name].default
+            value = arguments.get(name, default)
+            if value is not default and not due.holds(value):
+                raise InputError(name, quoted(value), due.rule, due.remedy)
+        return function(*values, **keys)
+
+    return call  # pyright: ignore[reportReturnType]
+
+
 Source = str | Path | Mapping[str, Any] | CaseHead
 """What names or describes a scenario."""
 
@@ -184,8 +185,7 @@ Source = str | Path | Mapping[str, Any] | CaseHead
 _FILE = Path("scenario")
 
 
-@in_python()
-@checked
+@public
 def scenario(source: Source, overrides: Mapping[str, Any] | None = None) -> Any:
     """Make a case, which `run` and `sweep` take.
 
@@ -218,7 +218,7 @@ def scenario(source: Source, overrides: Mapping[str, Any] | None = None) -> Any:
 
 def resolved(source: Source, overrides: Mapping[str, Any] | None) -> tuple[Resolved, Path]:
     """What a source says with everything in it, and its file; raises as `scenario`."""
-    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
+    changes = changes_of(overrides)
     if isinstance(source, (str, Path)):
         path = find_scenario(str(source))
         return resolve(path, changes, table_of), path
@@ -230,6 +230,11 @@ def resolved(source: Source, overrides: Mapping[str, Any] | None) -> tuple[Resol
         rule = f"expected a name, a path, a mapping or a case, got {type(source).__name__}"
         raise InputError("scenario", None, rule, 'give the name of a scenario: "crc-23-47"')
     return resolve_table(written, _FILE, changes, table_of), _FILE
+
+
+def changes_of(overrides: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Overrides as a scenario file would hold them."""
+    return {str(key): in_toml(value) for key, value in (overrides or {}).items()}
 
 
 def in_toml(value: Any) -> Any:

@@ -105,18 +105,18 @@ def folded(title: str, sentences: Sequence[str]) -> str:
     return f"<details><summary>{escape(title)}</summary><ul>{items}</ul></details>" if items else ""
 
 
-def tables(some: Iterable[TextTable]) -> str:
-    """Write tables beside each other."""
+def table(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Write a table."""
 
     def row(cells: Sequence[str], tag: str) -> str:
         return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
-    written = (
-        f"<div><h4>{escape(table.title)}</h4><table>{row(table.columns, 'th')}"
-        + "".join(row(cells, "td") for cells in table.rows)
-        + "</table></div>"
-        for table in some
-    )
+    return f"<table>{row(columns, 'th')}{''.join(row(cells, 'td') for cells in rows)}</table>"
+
+
+def tables(some: Iterable[TextTable]) -> str:
+    """Write tables beside each other."""
+    written = (f"<div><h4>{escape(one.title)}</h4>{table(one.columns, one.rows)}</div>" for one in some)
     return f'<div class="tables">{"".join(written)}</div>'
 
 

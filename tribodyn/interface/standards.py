@@ -19,7 +19,7 @@ import numpy as np
 from tribodyn.compliance import iso6336
 from tribodyn.errors import InputError, quoted
 from tribodyn.input import units
-from tribodyn.input.units import Kind, NotAQuantity, to_si
+from tribodyn.input.units import Kind, to_si_at
 from tribodyn.interface.scenario import in_toml
 from tribodyn.standards.agma import RELIABILITY
 from tribodyn.standards.micropitting import LUBRICATION_FACTORS
@@ -123,10 +123,7 @@ def _number(where: str, value: Any) -> float:
     """A number in SI units."""
     kind, value = _kind(where), in_toml(value)
     if isinstance(value, str) and kind is not None:
-        try:
-            return to_si(value, kind)
-        except NotAQuantity as error:
-            raise InputError(where, quoted(value), error.rule, error.remedy) from None
+        return to_si_at(where, value, kind)
     if not isinstance(value, Real) or isinstance(value, bool) or not math.isfinite(float(value)):
         due = f'a number in {kind.si} or a text such as "{kind.example}"' if kind else "a number"
         raise InputError(where, quoted(value), "is no finite number", f"give {due}")

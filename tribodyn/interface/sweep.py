@@ -16,7 +16,7 @@ from tribodyn.grid.run import cases_at_most, run, settings_of
 from tribodyn.interface import shown
 from tribodyn.interface.result import Run
 from tribodyn.interface.run import open_run
-from tribodyn.interface.scenario import Source, checked, in_python, in_toml, scenario
+from tribodyn.interface.scenario import Source, changes_of, in_toml, public, scenario
 from tribodyn.numerics.files.output_files import write_output
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.record import trust
@@ -67,7 +67,7 @@ class Sweep:
         with SweepRecord(self.path) as record:
             return sweep_names([record])
 
-    @in_python()
+    @public
     def plot(self, name: str = "overview", **at: float | str) -> "Figure":
         """Draw one figure.
 
@@ -124,8 +124,7 @@ class Sweep:
         return state
 
 
-@in_python()
-@checked
+@public
 def sweep(
     source: Source,
     vary: Mapping[str, Values] | str | Sequence[str],
@@ -224,8 +223,7 @@ def sweep(
             return shown.of_sweep(written).load()
 
 
-@in_python()
-@checked
+@public
 def open_result(path: str | Path) -> Run | Sweep:
     """Open the record of a run or of a sweep.
 
@@ -252,7 +250,7 @@ def _grid(
     overrides: Mapping[str, Any] | None,
     folder: Path,
 ) -> Grid:
-    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
+    changes = changes_of(overrides)
     if isinstance(vary, Mapping):
         options = [f"{key}={_values(key, values)}" for key, values in vary.items()]
     else:

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from tribodyn import validation
-from tribodyn.interface.scenario import checked, in_python
+from tribodyn.interface.scenario import public
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.validation.rows import SHOWN, Row, counted
 
@@ -27,8 +27,7 @@ class PaperComparison(list[Row]):
         return shown.block(shown.tables([TextTable(f"{self.choices}. {counted(self)}", SHOWN, rows)]))
 
 
-@in_python()
-@checked
+@public
 def validate(
     paper: str, progress: Report | bool | None = None, folder: str | Path | None = None
 ) -> PaperComparison:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError, quoted
 from tribodyn.input.names import same_key
 from tribodyn.input.resolve import toml_value
-from tribodyn.input.units import Kind, NotAQuantity, base_units, factor_to_si, to_si
+from tribodyn.input.units import Kind, NotAQuantity, base_units, factor_to_si, to_si, to_si_at
 from tribodyn.input.vary import is_drawn, is_whole, kind_at
 from tribodyn.studies.design import case
 from tribodyn.studies.design.candidates.candidates import PITCH_ERRORS, PROFILE_ERROR
@@ -129,10 +129,7 @@ class _Number(NamedTuple):
 
 def _number(place: str, value: Any, kind: Kind | None) -> _Number:
     if kind is not None:
-        try:
-            number, unit = to_si(value, kind), case.unit_of(value) or ""
-        except NotAQuantity as error:
-            raise InputError(place, quoted(value), error.rule, error.remedy) from None
+        number, unit = to_si_at(place, value, kind), case.unit_of(value) or ""
         amount = _Number(number, unit, kind.si.replace("**", ""), factor_to_si(unit, kind) if unit else 1.0)
     elif isinstance(value, (int, float)) and not isinstance(value, bool):
         amount = _Number(float(value))
