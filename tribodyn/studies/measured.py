@@ -10,7 +10,16 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.input.sources import read_curve
 from tribodyn.input.units import ANGULAR_SPEED, Kind, NotAQuantity, factor_to_si
-from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
+from tribodyn.post.style import (
+    INK,
+    PALETTE,
+    PANEL_HEIGHT,
+    WIDTH,
+    house_style,
+    literal,
+    mark_panel,
+    new_figure,
+)
 from tribodyn.record.reader import Record, mesh_views
 
 #: What a first column may be, besides the axis of the record.
@@ -104,9 +113,8 @@ def beside(record: Record, measured: Measured, name: str, align: str = "given") 
     if align not in ALIGN:
         raise InputError("align", quoted(align), "no such way", f"one of {', '.join(ALIGN)}")
     x, cycle, periodic = _abscissa(record, measured)
-    at = measured.values[measured.abscissa] * _factor(
-        measured, measured.abscissa, _units_of(record, measured)
-    )
+    to_si = _factor(measured, measured.abscissa, _units_of(record, measured))
+    at = measured.values[measured.abscissa] * to_si
     whole = 0.0
     if measured.abscissa.partition(OF_MESH)[0] in (PHASE, ANGLE) and not periodic:
         # a fit leaves half a cycle at both ends where the record is that long
@@ -123,14 +131,14 @@ def beside(record: Record, measured: Measured, name: str, align: str = "given") 
     there = _at(at + whole - shift, x, y, periodic)
     both = np.isfinite(there)
     if np.sum(both) < FEWEST:
-        ends = [f"{a:.4g} to {b:.4g}" for a, b in ((at[0], at[-1]), (x[0] - whole, x[-1] - whole))]
-        rule = f"measured from {ends[0]}, simulated from {ends[1]} (SI): nothing to compare"
+        simulated = f"simulated from {x[0] - whole:.4g} to {x[-1] - whole:.4g}"
+        rule = f"measured from {at[0]:.4g} to {at[-1]:.4g}, {simulated} (SI): nothing to compare"
         raise InputError(f"measured.{measured.abscissa}", None, rule, "shift the column, or simulate longer")
     offset = float(np.mean(target[both] - there[both])) if align != "given" else 0.0
     inside = (x - whole + shift >= at[0]) & (x - whole + shift <= at[-1])
     shown = np.linspace(at[0], at[-1], 601) if periodic else x[inside] - whole + shift
     curve = _at(shown + whole - shift, x, y, periodic)
-    to_unit = 1.0 / _factor(measured, measured.abscissa, _units_of(record, measured))
+    to_unit = 1.0 / to_si
     difference = float(np.sqrt(np.mean((there[both] + offset - target[both]) ** 2)))
     moved = shift * to_unit, offset
     return Beside(shown * to_unit, curve + offset, difference, _correlation(there, target), moved)
@@ -212,84 +220,59 @@ def _factor(measured: Measured, name: str, si: str) -> float:
         raise InputError(f"measured.{name}", f"[{unit}]", error.rule, error.remedy) from None
 
 
-def measured_figure(records: Sequence[Record], source: Source, align: str = "given") -> "Figure":
-    """Draw measured curves and those of records over the measured abscissa, a panel for each quantity."""
-    from tribodyn.post.style import house_style
-    from tribodyn.studies.measured import MeasuredPanel, draw
-
-    measured = read_measured(source)
-    panels = []
-    try:
-        for name, values in measured.values.items():
-            if name != measured.abscissa:
-                curves = [(record, beside(record, measured, name, align)) for record in records]
-                lines = [
-                    (record.label, result.x, result.y, _said(result, measured, name))
-                    for record, result in curves
-                ]
-                panels.append(MeasuredPanel(name, measured.units[name], values, lines))
-    except InputError as error:
-        raise error.moved(
-            lambda place: place or ("" if isinstance(source, Mapping) else str(source))
-        ) from None
-    at = measured.values[measured.abscissa]
-    with house_style():
-        return draw(measured.label, measured.abscissa, measured.units[measured.abscissa], at, panels)
-
-
-def _said(fit: Beside, measured: Measured, name: str) -> str:
-    """How far apart the two are, and how the simulation was moved."""
-    from tribodyn.studies.measured import spelled
-
-    unit = spelled(measured.units[name], name)
-    along = spelled(measured.units[measured.abscissa], measured.abscissa)
-    text = f"difference {fit.difference:.3g} {unit}".rstrip() + f" RMS, correlation {fit.correlation:.3f}"
-    shift, offset = fit.moved
-    moves = [f"{shift:+.3g} {along}"] * (shift != 0.0) + [f"{offset:+.3g} {unit}".rstrip()] * (offset != 0.0)
-    return text + (f"; simulation moved by {' and '.join(moves)}" if moves else "")
-
-
 #: More points than these are drawn as a line.
 MOST_DOTS = 200
 #: Units as a file spells them -> as a figure shows them.
 SPELLED = {"um": "µm", "deg": "°", "N*m": "N m", "1": ""}
 
 
-def spelled(unit: str, name: str) -> str:
-    """A unit of a file as a figure shows it; the phase of the mesh is counted in mesh cycles."""
-    shown = SPELLED.get(unit, unit)
-    return shown or ("mesh cycles" if name.startswith(PHASE) else "")
+def measured_figure(records: Sequence[Record], source: Source, align: str = "given") -> Figure:
+    """Draw measured curves and those of records over the measured abscissa, a panel for each quantity."""
+    measured = read_measured(source)
+    names = [name for name in measured.values if name != measured.abscissa]
+    try:
+        fits = {name: [beside(record, measured, name, align) for record in records] for name in names}
+    except InputError as error:
+        file = "" if isinstance(source, Mapping) else str(source)
+        raise error.moved(lambda place: place or file) from None
+    with house_style():
+        return _drawn(records, measured, fits)
 
 
-class MeasuredPanel(NamedTuple):
-    """A measured quantity and the simulated curves beside it, in the measured units."""
-
-    name: str
-    unit: str
-    measured: np.ndarray  # (points,)
-    curves: Sequence[tuple[str, np.ndarray, np.ndarray, str]]  # (label, x, y, how far they are apart)
-
-
-def draw(label: str, abscissa: str, unit: str, x: np.ndarray, panels: Sequence[MeasuredPanel]) -> Figure:
-    """Draw panels below each other over an abscissa (points,), which has a name and a unit."""
-    figure = new_figure(WIDTH, len(panels) * (PANEL_HEIGHT + 0.2) + 0.4)
-    rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-    marks = (
-        {"marker": ".", "markersize": 4, "linestyle": "none"} if len(x) <= MOST_DOTS else {"linewidth": 1.0}
-    )
-    for letter, axes, panel in zip("abcdef", rows, panels, strict=False):
-        axes.plot(x, panel.measured, color=INK, label=literal(f"measured: {label}"), zorder=3, **marks)
-        notes = []
-        for number, (name, at, values, text) in enumerate(panel.curves):
-            axes.plot(at, values, color=PALETTE[number % len(PALETTE)], label=literal(name), linewidth=1.2)
-            notes.append(f"{name}: {text}" if len(panel.curves) > 1 else text)
-        axes.set_ylabel(literal(spelled(panel.unit, panel.name)))
-        lines = map(literal, [panel.name.replace("_", " ").capitalize(), *notes])
-        mark_panel(axes, letter if len(panels) > 1 else "", "\n".join(lines))
+def _drawn(records: Sequence[Record], measured: Measured, fits: Mapping[str, Sequence[Beside]]) -> Figure:
+    x, label = measured.values[measured.abscissa], literal(f"measured: {measured.label}")
+    figure = new_figure(WIDTH, len(fits) * (PANEL_HEIGHT + 0.2) + 0.4)
+    rows = figure.subplots(len(fits), 1, sharex=True, squeeze=False)[:, 0]
+    dots = {"marker": ".", "markersize": 4, "linestyle": "none"}
+    marks = dots if len(x) <= MOST_DOTS else {"linewidth": 1.0}
+    for letter, axes, (name, curves) in zip("abcdef", rows, fits.items(), strict=False):
+        axes.plot(x, measured.values[name], color=INK, label=label, zorder=3, **marks)
+        lines = [name.replace("_", " ").capitalize()]
+        for number, (record, curve) in enumerate(zip(records, curves, strict=True)):
+            color, text = PALETTE[number % len(PALETTE)], _said(curve, measured, name)
+            axes.plot(curve.x, curve.y, color=color, label=literal(record.label), linewidth=1.2)
+            lines.append(f"{record.label}: {text}" if len(records) > 1 else text)
+        axes.set_ylabel(literal(_spelled(measured, name)))
+        mark_panel(axes, letter if len(fits) > 1 else "", "\n".join(map(literal, lines)))
         axes.margins(x=0.01)
-    along = spelled(unit, abscissa)
-    title = abscissa.replace("_", " ").capitalize()
+    along = _spelled(measured, measured.abscissa)
+    title = measured.abscissa.replace("_", " ").capitalize()
     rows[-1].set_xlabel(literal(f"{title} ({along})" if along else title))
     handles, labels = rows[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=min(3, len(labels)))
     return figure
+
+
+def _said(fit: Beside, measured: Measured, name: str) -> str:
+    """How far apart the two are, and how the simulation was moved."""
+    unit, along = _spelled(measured, name), _spelled(measured, measured.abscissa)
+    text = f"difference {fit.difference:.3g} {unit}".rstrip() + f" RMS, correlation {fit.correlation:.3f}"
+    shift, offset = fit.moved
+    moves = [f"{shift:+.3g} {along}"] * (shift != 0.0) + [f"{offset:+.3g} {unit}".rstrip()] * (offset != 0.0)
+    return text + (f"; simulation moved by {' and '.join(moves)}" if moves else "")
+
+
+def _spelled(measured: Measured, name: str) -> str:
+    """Unit of a column as a figure shows it; the phase of the mesh is counted in mesh cycles."""
+    shown = SPELLED.get(measured.units[name], measured.units[name])
+    return shown or ("mesh cycles" if name.startswith(PHASE) else "")

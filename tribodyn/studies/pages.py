@@ -213,8 +213,8 @@ def report(
     if not records:
         raise InputError("records", None, "there is nothing to report on", "name at least one record")
     studies = _studies_of(records, "make a page of its own")
-    own_page = studies[0].own_page()
-    if own_page and figures and len(records) == 1:
+    own_page = studies[0].own_page() if figures and len(records) == 1 else None
+    if own_page:
         if measured is not None:
             rule = f"{studies[0].about}: its page has no curves over a run"
             raise InputError("measured", None, rule, "omit it")

@@ -1,4 +1,4 @@
-"""Pictures of a search: history, start and best, what the best depends on, the front of two objectives."""
+"""Pictures of a search: history, start and best, what the best depends on, the front; and its page."""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
@@ -12,13 +12,17 @@ from matplotlib.figure import Figure
 from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.figures.scale import scale
+from tribodyn.post.page.page import PageContent
+from tribodyn.post.page.page import page as write
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.case import apart, duty_names, naming_key
 from tribodyn.studies.design.outcome import LOWER, OBJECTIVES, UPPER, searched
-from tribodyn.studies.design.report import quantity_of
+from tribodyn.studies.design.report import PANELS, REPORTED, quantity_of, sentences, verdict
 from tribodyn.studies.design.teeth import has_teeth, teeth_figure
+from tribodyn.studies.pages import figure, sheet
+from tribodyn.studies.protocol.study import TextTable
 
 #: Duties that are drawn as bars, at most.
 MOST_BARS = 6
@@ -49,11 +53,6 @@ class _Shown:
         return lines + (f" ({literal(self.quantity.unit)})" if self.quantity.unit else "")
 
 
-def objective(record: Record, place: int = 0) -> Quantity:
-    """The quantity that is an objective of a record."""
-    return _Shown(record, place).quantity
-
-
 def _feasible(record: Record) -> np.ndarray:
     """Which evaluations of the search are feasible."""
     return record["feasible"][searched(record)] == 1
@@ -64,17 +63,12 @@ def _found(record: Record) -> bool:
 
 
 def _overview(records: Sequence[Record], _view: View) -> Figure:
-    record = records[0]
     figure = new_figure(WIDTH, 2.0 * PANEL_HEIGHT)
-    (upper_left, upper_right), (lower_left, lower_right) = figure.subplots(2, 2)
-    _draw_history(upper_left, [record])
-    if "objective_2" in record:
-        _draw_front(upper_right, [record])
-    else:
-        _draw_duties(upper_right, record)
-    _draw_values(lower_left, record)
-    _draw_sensitivities(lower_right, record)
-    figure.suptitle(record_title(record), fontsize=8.5, fontweight="bold")
+    ends = _draw_front if "objective_2" in records[0] else _draw_duties
+    panels = _draw_history, ends, _draw_values, _draw_sensitivities
+    for axes, draw in zip(figure.subplots(2, 2).ravel(), panels, strict=True):
+        draw(axes, records[:1])
+    figure.suptitle(record_title(records[0]), fontsize=8.5, fontweight="bold")
     return figure
 
 
@@ -96,15 +90,12 @@ def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
         end = abs(shown.factor) * _first(record, "objective")
         axes.plot(count[-1:], [end], "o", color=BEST, ms=5, clip_on=False, label="" if number else "best")
         seen += [values[np.isfinite(values)], np.array([end])]
-    start = records[0].summary.get("objective_start")
-    if start is not None:
-        level = abs(shown.factor) * float(np.atleast_1d(start)[0])
+    level = abs(shown.factor) * _first(records[0], "objective_start")
+    if np.isfinite(level):
         axes.axhline(level, color=START, linestyle=":", label="start")
         seen.append(np.array([level]))
     every = np.concatenate(seen)
-    low, high = np.min(every), np.quantile(every, 0.95)
-    if start is not None:
-        high = max(high, seen[-1][0])
+    low, high = np.min(every), np.fmax(np.quantile(every, 0.95), level)
     if high > low:
         axes.set_ylim(low - 0.08 * (high - low), high + 0.1 * (high - low))
     else:
@@ -115,8 +106,9 @@ def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
     axes.legend(loc="best")
 
 
-def _draw_duties(axes: Axes, record: Record) -> None:
-    """First objective at each duty, at the start and at the best."""
+def _draw_duties(axes: Axes, records: Sequence[Record]) -> None:
+    """First objective at each duty, at the start and at the best, of the first record."""
+    record = records[0]
     shown, duties = _Shown(record), record.summary.get("duties")
     names = duty_names(record.scenario["design"])
     if duties is None:
@@ -149,8 +141,9 @@ def _first(record: Record, name: str) -> float:
     return np.nan if value is None else float(np.atleast_1d(value)[0])
 
 
-def _draw_values(axes: Axes, record: Record) -> None:
+def _draw_values(axes: Axes, records: Sequence[Record]) -> None:
     """Free keys over their ranges: start, best, and those candidates that come within a tenth of it."""
+    record = records[0]
     entries = record.scenario["design"]["free"]
     names = [name for name in record if name.startswith("free_")]
     shown, feasible = _Shown(record), _feasible(record)
@@ -202,8 +195,9 @@ def _number(value: Any, entry: Mapping[str, Any]) -> float:
     return float(value) if base is None else base[0]
 
 
-def _draw_sensitivities(axes: Axes, record: Record) -> None:
-    """Change of the objective with one key or tolerance moved about the best."""
+def _draw_sensitivities(axes: Axes, records: Sequence[Record]) -> None:
+    """Change of the objective with one key or tolerance moved about the best, of the first record."""
+    record = records[0]
     shown, design = _Shown(record), record.scenario["design"]
     keys = [naming_key(entry["key"]) for entry in design["free"]]
     names = [f"{name.replace('_', ' ')} ± 2 %" for name in apart(keys)]
@@ -213,7 +207,7 @@ def _draw_sensitivities(axes: Axes, record: Record) -> None:
         f"{name.replace('_', ' ')} ± {tolerance['plus_minus']}"
         for name, tolerance in zip(of_tolerances, tolerances, strict=True)
     ]
-    best = float(np.atleast_1d(record.summary["objective"])[0]) * abs(shown.factor)
+    best = _first(record, "objective") * abs(shown.factor)
     place = np.arange(len(names))
     for moved, color, label in ((LOWER, PALETTE[5], "down"), (UPPER, PALETTE[2], "up")):
         offset = 0.2 if moved == UPPER else -0.2
@@ -230,27 +224,24 @@ def _draw_sensitivities(axes: Axes, record: Record) -> None:
 
 def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
     """All feasible candidates, and those that no other is better than in both objectives."""
-    first, second = (_Shown(records[0], place) for place in (0, 1))
     for number, record in enumerate(records):
         color = PALETTE[number % len(PALETTE)]
         views, feasible = [_Shown(record, place) for place in (0, 1)], _feasible(record)
-        x, y = (view.values[feasible] for view in views)
-        axes.plot(x, y, ".", color=color, markersize=3, alpha=0.35)
+        every = (view.values[feasible] for view in views)
+        axes.plot(*every, ".", color=color, markersize=3, alpha=0.35)
         front = record.summary.get("front", {})
-        x, y = (
-            view.factor * np.atleast_1d(front[name]) for view, name in zip(views, OBJECTIVES, strict=True)
-        )
+        both = zip(views, OBJECTIVES, strict=True)
+        members = (view.factor * np.atleast_1d(front[name]) for view, name in both)
         label = record_label(record) if len(records) > 1 else "front"
-        axes.plot(x, y, "o-", color=color, markersize=3.5, label=label)
-        start = record.summary.get("objective_start")
-        if start is not None:
-            x, y = (abs(view.factor) * value for view, value in zip(views, start, strict=True))
-            axes.plot(x, y, "s", color=START, label="start")
-        best = record.summary["objective"]
-        x, y = (abs(view.factor) * value for view, value in zip(views, best, strict=True))
-        axes.plot(x, y, "D", color=BEST, label="compromise")
-    axes.set_xlabel(first.label)
-    axes.set_ylabel(second.label)
+        axes.plot(*members, "o-", color=color, markersize=3.5, label=label)
+        for name, mark, shade, text in (
+            ("objective_start", "s", START, "start"),
+            ("objective", "D", BEST, "compromise"),
+        ):
+            if (values := record.summary.get(name)) is not None:
+                end = (abs(view.factor) * value for view, value in zip(views, values, strict=True))
+                axes.plot(*end, mark, color=shade, label=text)
+    axes.set(xlabel=_Shown(records[0], 0).label, ylabel=_Shown(records[0], 1).label)
     axes.margins(x=0.05)
     axes.set_title("Front", loc="left")
     axes.legend()
@@ -258,21 +249,19 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
 
 def _panel(
     about: str,
-    draw: Any,
+    draw: Callable[[Axes, Sequence[Record]], None],
     height: float = 1.3,
-    *,
-    together: bool = False,
     fits: Callable[[Record], bool] = _found,
     missing: tuple[str, str, str] = NO_DESIGN,
 ) -> Drawing:
-    """A figure of one panel, with the first record or all of them in it."""
+    """A figure of one panel."""
 
-    def figure(records: Sequence[Record], _view: View) -> Figure:
+    def drawn(records: Sequence[Record], _view: View) -> Figure:
         canvas = new_figure(WIDTH, height * PANEL_HEIGHT)
-        draw(canvas.subplots(), records if together else records[0])
+        draw(canvas.subplots(), records)
         return canvas
 
-    return drawing(about, figure, fits, missing)
+    return drawing(about, drawn, fits, missing)
 
 
 DRAWINGS: Mapping[str, Drawing] = {
@@ -280,7 +269,7 @@ DRAWINGS: Mapping[str, Drawing] = {
         "history, start and best, free keys, what the best depends on", _overview, _found, NO_DESIGN
     ),
     "teeth": drawing("outlines and reliefs of the start and of the best", teeth_figure, has_teeth, NO_DESIGN),
-    "history": _panel("objective of every candidate, and the best so far", _draw_history, 1.4, together=True),
+    "history": _panel("objective of every candidate, and the best so far", _draw_history, 1.4),
     "duties": _panel("first objective at each duty, at the start and at the best", _draw_duties),
     "free-keys": _panel("where in their ranges good values lie", _draw_values),
     "sensitivities": _panel("change of the objective with one key or tolerance moved", _draw_sensitivities),
@@ -288,8 +277,62 @@ DRAWINGS: Mapping[str, Drawing] = {
         "the front of two objectives",
         _draw_front,
         1.6,
-        together=True,
-        fits=lambda record: _found(record) and "objective_2" in record,
-        missing=("front", "{path} holds no front of two objectives", "name two in design.minimise"),
+        lambda record: _found(record) and "objective_2" in record,
+        ("front", "{path} holds no front of two objectives", "name two in design.minimise"),
     ),
 }
+
+#: Pictures on the page, where the record holds enough for them.
+PICTURES = ("teeth", "overview", "front")
+
+
+def page(record: Record) -> str:
+    """Write the page of a search's record."""
+    pictures = [
+        (name, DRAWINGS[name].about, figure(name, [record]))
+        for name in PICTURES
+        if DRAWINGS[name].fits(record)
+    ]
+    content = PageContent(
+        REPORTED,
+        sentences(record),
+        PANELS,
+        tables=sheet(record),
+        heading="Scenario that was searched through",
+        found=before_and_after(record),
+        pictures=pictures,
+        titles={
+            name: f"Objective: {_Shown(record, place).quantity.title}"
+            for place, name in enumerate(OBJECTIVES)
+            if name in record
+        },
+        verdict=verdict(record),
+    )
+    return write([record], [content])
+
+
+def before_and_after(record: Record) -> tuple[TextTable, ...]:
+    """Free keys, and all quantities that a summary has a line for, at the start and at the best."""
+    summary = record.summary
+    if "best" not in summary:
+        return ()
+    start, best = (summary.get(name, {}) for name in ("start", "best"))
+    keys = [(key, str(start.get(key, "not set")), str(value)) for key, value in best.items()]
+    before, after = (summary.get(f"quantities_{name}", {}) for name in ("start", "best"))
+    rows = [
+        row for name, value in after.items() if (row := _row(record.scenario, name, before.get(name), value))
+    ]
+    columns = ("quantity", "start", "best", "unit", "change")
+    of_keys = TextTable("Values of the free keys", ("key", "start", "best"), keys)
+    return of_keys, TextTable("Quantities before and after", columns, rows)
+
+
+def _row(search: Mapping[str, Any], name: str, before: Any, after: Any) -> tuple[str, ...] | None:
+    quantity = quantity_of(search, name)
+    if quantity is None:
+        return None
+    change = "no start"
+    if before is not None and np.isfinite(before) and before:
+        change = f"{100.0 * (after / before - 1.0):+.1f} %"
+    first = "not known" if before is None else quantity.written(before)
+    return quantity.title, first, quantity.written(after), quantity.unit, change

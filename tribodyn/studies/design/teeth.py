@@ -73,21 +73,32 @@ def _teeth(assembly: Assembly, case: Any) -> _Teeth:
     return _Teeth(pinion, gear, shape["path_of_contact"], roll, relief, face, lead)
 
 
+#: What is taken off the flanks: values, places, factor to the unit of the places, their label, title.
+_RELIEFS = (
+    ("relief", "roll", 180.0 / np.pi, "Roll angle of the pinion from the pitch point (°)", "the profile"),
+    ("lead", "face", 1e3, "Place on the face from its middle (mm)", "the face"),
+)
+
+
 def teeth_figure(records: Sequence[Record], _: View) -> Figure:
     """Draw outlines of start and best in mesh, and where the flanks are modified what is taken off them."""
     start, best = _candidates(records[0])
     reliefs = [
-        draw
-        for draw, values in ((_draw_relief, ("relief",)), (_draw_lead, ("lead",)))
-        if any(np.ptp(getattr(teeth, name)) > NO_RELIEF for teeth in (start, best) for name in values)
+        relief
+        for relief in _RELIEFS
+        if any(np.ptp(getattr(teeth, relief[0])) > NO_RELIEF for teeth in (start, best))
     ]
+    rows = 1 + bool(reliefs)
     figure = new_figure(WIDTH, (1.5 + 0.9 * bool(reliefs)) * PANEL_HEIGHT)
-    grid = figure.add_gridspec(
-        1 + bool(reliefs), max(1, len(reliefs)), height_ratios=[1.5, 0.9][: 1 + bool(reliefs)]
-    )
+    grid = figure.add_gridspec(rows, max(1, len(reliefs)), height_ratios=[1.5, 0.9][:rows])
     _draw_outlines(figure.add_subplot(grid[0, :]), start, best)
-    for column, draw in enumerate(reliefs):
-        draw(figure.add_subplot(grid[1, column]), start, best)
+    for column, (values, places, factor, label, along) in enumerate(reliefs):
+        axes = figure.add_subplot(grid[1, column])
+        for teeth, color, name in ((start, QUIET, "start"), (best, PALETTE[2], "best")):
+            axes.plot(factor * getattr(teeth, places), 1e6 * getattr(teeth, values), color=color, label=name)
+        axes.set(xlabel=label, ylabel="Relief of both flanks (µm)")
+        axes.set_title(f"Relief along {along}", loc="left")
+        axes.legend()
     return figure
 
 
@@ -105,19 +116,3 @@ def _draw_outlines(axes: Axes, start: _Teeth, best: _Teeth) -> None:
     axes.set_title("Teeth as a pair touches at the pitch point", loc="left")
     axes.grid(False)
     axes.legend(loc="upper right")
-
-
-def _draw_relief(axes: Axes, start: _Teeth, best: _Teeth) -> None:
-    for teeth, color, label in ((start, QUIET, "start"), (best, PALETTE[2], "best")):
-        axes.plot(np.degrees(teeth.roll), 1e6 * teeth.relief, color=color, label=label)
-    axes.set(xlabel="Roll angle of the pinion from the pitch point (°)", ylabel="Relief of both flanks (µm)")
-    axes.set_title("Relief along the profile", loc="left")
-    axes.legend()
-
-
-def _draw_lead(axes: Axes, start: _Teeth, best: _Teeth) -> None:
-    for teeth, color, label in ((start, QUIET, "start"), (best, PALETTE[2], "best")):
-        axes.plot(1e3 * teeth.face, 1e6 * teeth.lead, color=color, label=label)
-    axes.set(xlabel="Place on the face from its middle (mm)", ylabel="Relief of both flanks (µm)")
-    axes.set_title("Relief along the face", loc="left")
-    axes.legend()

@@ -41,6 +41,7 @@ _ALSO_IN = {
     "check": ("run",),
     "estimate": ("case", "scenario"),
     "sweep_figures": ("figures",),
+    "page": ("figures",),
 }
 
 
@@ -76,7 +77,7 @@ class Study:
                   `cases.assessment_part`
     derivatives   ``DIFFERENTIABLE``, what makes quantities of a case a function of its numbers (optional:
                   that of a pair of gears), called as `derivatives.differentiable.Differentiable`
-    page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
+    page          ``page(record) -> str``, the HTML of a page of its own for a record (optional; figures)
     verbs         ``VERBS``, verbs and Python functions that it offers (optional), see `protocol.verb`;
                   ``RUN_PROPERTIES``, a class of properties that its runs have in Python beside those of a
                   `Run` (optional): ``tribodyn`` has that class by its name

@@ -163,11 +163,12 @@ def _varied(study: Study, task: Task) -> dict[str, Any]:
     keys, cases = _cases(task)
     batched = task.arrays if study.batch() else ()  # others have their arrays among their quantities
     results = evaluated(study, cases, marched=task.marched, arrays=batched)
+    rows = [{} if isinstance(result, str) else result for result in results]
     return {
         "scenario": tomli_w.dumps(dict(task.scenario)),
         "cases": keys,
-        "quantities": {name: [_number(result, name) for result in results] for name in study.swept()}
-        | {name: _alike([_array(result, name) for result in results]) for name in task.arrays},
+        "quantities": {name: [_known(row.get(name)) for row in rows] for name in study.swept()}
+        | {name: _alike([row.get(name) for row in rows]) for name in task.arrays},
         "failures": list(dict.fromkeys(result for result in results if isinstance(result, str))),
     }
 
@@ -195,21 +196,15 @@ def _cases(task: Task) -> tuple[list[dict[str, Any]], list[Any]]:
     return keys, cases
 
 
-def _number(result: dict[str, Any] | str, name: str) -> float | None:
-    value = None if isinstance(result, str) else result.get(name)
+def _known(value: Any) -> float | None:
     return float(value) if value is not None and np.isfinite(value) else None
 
 
-def _array(result: dict[str, Any] | str, name: str) -> list[float | None] | None:
-    if isinstance(result, str) or result.get(name) is None:
-        return None
-    return [float(value) if np.isfinite(value) else None for value in result[name]]
-
-
-def _alike(rows: list[list[float | None] | None]) -> list[list[float | None]]:
+def _alike(rows: Sequence[Any]) -> list[list[float | None]]:
     """Rows of one length: those that are missing have nothing known in them."""
-    length = max((len(row) for row in rows if row is not None), default=0)
-    return [[*row, *[None] * (length - len(row))] if row is not None else [None] * length for row in rows]
+    known = [[] if row is None else list(map(_known, row)) for row in rows]
+    length = max(map(len, known), default=0)
+    return [[*row, *[None] * (length - len(row))] for row in known]
 
 
 def _first(task: Task) -> Any:

@@ -13,7 +13,7 @@ import pytest
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
-from tribodyn.studies.design.page import before_and_after
+from tribodyn.studies.design.figures import before_and_after
 from tribodyn.studies.design.report import sentences
 from tribodyn.studies.pages import report
 
