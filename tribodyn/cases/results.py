@@ -1,11 +1,15 @@
 """A case's head, its record, and what its run and its check end in."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from tribodyn.errors import InputError
+
 if TYPE_CHECKING:  # `tribodyn --help` imports this file
+    from tribodyn.record.reader import Record
     from tribodyn.record.schema import Layout
     from tribodyn.record.writer import RecordWriter
 
@@ -96,14 +100,51 @@ class CheckResult(NamedTuple):
         return [*self.tables, *self.details]
 
 
-def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
-    """Where a case's record goes; InputError, before any work, where it cannot be written there."""
-    from tribodyn.record.files.previous import Origin
+def record_path(case: CaseHead, output: str | Path | None) -> Path:
+    """Where a case's record goes."""
+    return Path(output) if output is not None else Path(f"{case.name}.h5")
+
+
+def target(case: CaseHead, output: str | Path | None, force: bool, resumed: bool = False) -> Path:
+    """Where a case's record goes; InputError, before any work, where it cannot be written there.
+
+    A complete record beside what is `resumed` is kept as the previous one.
+    """
+    from tribodyn.record.files.previous import Origin, keep_previous
     from tribodyn.record.writer import check_target
 
-    path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    check_target(path, force, Origin(case.kind, case.scenario_file))
+    path, origin = record_path(case, output), Origin(case.kind, case.scenario_file)
+    check_target(path, force or resumed, origin)
+    if resumed and not force:
+        keep_previous(path, origin)
     return path
+
+
+@contextmanager
+def left_over(
+    case: CaseHead, path: Path, same: Callable[["Record"], bool], code: str = "", *, complete: bool = False
+) -> "Iterator[Record | None]":
+    """Give the record that an unfinished run left, or also a `complete` one; None where there is none.
+
+    Raises InputError for one of another kind or not the `same` scenario, or of other code than that of this
+    digest.
+    """
+    from tribodyn.record.reader import Record
+    from tribodyn.record.schema import partial_path, require_same_code
+    from tribodyn.record.writer import check_target
+
+    partial = partial_path(path)
+    file = path if complete and not partial.exists() else partial
+    if not file.exists():
+        yield None
+        return
+    check_target(path, force=True)
+    with Record(file) as record:
+        if record.kind != case.kind or not same(record):
+            remedy = "move it away, or --force to begin anew"
+            raise InputError("--resume", str(file), "made from another scenario", remedy)
+        require_same_code(record.attrs, file, code)
+        yield record
 
 
 def writer(

@@ -9,14 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.cases.results import target, writer
-from tribodyn.errors import InputError, SimulationError
+from tribodyn.cases.results import left_over, record_path, target, writer
+from tribodyn.errors import SimulationError
 from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.numerics.processes.work import usable_cores
-from tribodyn.record.files.previous import Origin, keep_previous
 from tribodyn.record.reader import Record
-from tribodyn.record.schema import partial_path, require_same_code
-from tribodyn.record.writer import RecordWriter, check_target
+from tribodyn.record.writer import RecordWriter
 from tribodyn.studies.design.candidates.archive import (
     FACTORS,
     Archive,
@@ -124,14 +122,12 @@ def run(
     It fails where no candidate satisfies all constraints. Interrupted, it keeps what it has found so far.
     """
     name, reason = method_of(case)
-    path = Path(output) if output is not None else Path(f"{case.name}.h5")
+    path = record_path(case, output)
     before = _unfinished(case, path) if resume and not force else None
     check_targets(case, path, force)
     replace = force or before is not None
+    target(case, path, force, resumed=before is not None)
     before = before or Unfinished()
-    path = target(case, path, replace)
-    if replace and not force:  # a complete one beside what is gone on with
-        keep_previous(path, Origin(case.kind, case.scenario_file))
     begun = perf_counter()
     with ExitStack() as stack:
         pool = stack.enter_context(_pool(case, client))
@@ -247,16 +243,12 @@ def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Candida
 
 def _unfinished(case: DesignCase, path: Path) -> Unfinished | None:
     """What an unfinished search recorded; None where there is no such record."""
-    partial = partial_path(path)
-    if not partial.exists():
-        return None
-    check_target(path, force=True)
-    with Record(partial) as record:
-        if record.kind != case.kind or record.attrs["scenario_sha256"] != case.sha256:
-            rule, remedy = "made from another scenario", "move it away, or --force to begin anew"
-            raise InputError("--resume", str(partial), rule, remedy)
-        require_same_code(record.attrs, partial)
-        return unfinished_in(case, record)
+
+    def same(record: Record) -> bool:
+        return record.attrs["scenario_sha256"] == case.sha256
+
+    with left_over(case, path, same) as record:
+        return record and unfinished_in(case, record)
 
 
 def _why_none(case: DesignCase, archive: Archive) -> str:

@@ -1,9 +1,14 @@
-"""The tables of a scenario of ``kind = "design"``, and what a search takes before any work."""
+"""The scenario of ``kind = "design"``: its tables, what a search takes, and its short form.
 
+The short form is a search from a scenario and a few options, of the command line and of Python.
+"""
+
+import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, create_model
@@ -12,6 +17,8 @@ from tribodyn.cases.cost import CostKey, Estimate, record_bytes
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
+from tribodyn.input.resolve import resolve_table, toml_value
+from tribodyn.input.sources import find_scenario, read_toml
 from tribodyn.input.tables.gears.drive_data import with_axes_held
 from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.design.candidates.archive import FACTORS, resolutions
@@ -19,12 +26,13 @@ from tribodyn.studies.design.candidates.candidates import cases_of, chosen, shap
 from tribodyn.studies.design.candidates.converged import counts
 from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.candidates.sources import BASE, NAME, Source, sources_of
-from tribodyn.studies.design.case import DesignCase, RobustTable, SearchOptions, flat
+from tribodyn.studies.design.case import DesignCase, RobustTable, SearchOptions, flat, unit_of
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import layout_of, names_of, scales_of
 from tribodyn.studies.design.parts import parts_of_design
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
-from tribodyn.studies.protocol.load import load_data, put_chosen, schema_inside
+from tribodyn.studies.protocol.load import Loaded, load_data, loaded_from, put_chosen, schema_inside, table_of
+from tribodyn.studies.protocol.study import CaseHead
 
 KIND = "design"
 
@@ -114,19 +122,13 @@ def _around(base: type[Table] | None, parts: tuple[tuple[str, type[Table] | None
             name: (Annotated[schema or dict[str, Any], scenario_file()], ...) for name, schema in parts
         }
         of_parts: Any = create_model("DesignParts", __base__=Table, __doc__="Further scenarios.", **fields)
-        design: Any = create_model(
-            "DesignTable",
-            __base__=DesignTable,
-            __doc__=DesignTable.__doc__,
-            part=(of_parts, ...),
-        )
-        changed["design"] = (design, ...)
-    if not changed:
-        return DesignScenario
-    model: Any = create_model(
-        "DesignScenario", __base__=DesignScenario, __doc__=DesignScenario.__doc__, **changed
-    )
-    return model
+        changed["design"] = (_with_fields(DesignTable, part=(of_parts, ...)), ...)
+    return _with_fields(DesignScenario, **changed) if changed else DesignScenario
+
+
+def _with_fields(model: type[Table], **fields: Any) -> Any:
+    """A model with some of its fields of other types."""
+    return create_model(model.__name__, __base__=model, __doc__=model.__doc__, **fields)
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
@@ -204,10 +206,6 @@ def _of_scenario(place: str, scenario: Any) -> Iterator[InputError]:
         yield InputError(f"{place}.{error.key}", error.value, error.rule, error.remedy, error.file)
 
 
-#: Evaluations that are usual.
-USUAL = 300
-
-
 def estimate(case: DesignCase) -> Estimate:
     """What a run of a case takes: that of its base scenario, so many times, on every resolution."""
     method, _ = method_of(case)
@@ -230,6 +228,107 @@ def estimate(case: DesignCase) -> Estimate:
         largest.memory,
         record_bytes(layout_of(case), sizes),
         seconds,
-        (CostKey("design.evaluations", count, USUAL), *largest.drivers),
+        (CostKey("design.evaluations", count, 300), *largest.drivers),
         largest.shared,
     )
+
+
+def entries(free: Mapping[str, Any] | Sequence[Any]) -> list[Any]:
+    """Entries of `design.free`, from a mapping of keys to bounds, or from texts as `free_of` reads them.
+
+    Raises InputError for bounds that are none.
+    """
+    if isinstance(free, Mapping):
+        return [{"key": str(key), **_bounds(str(key), bounds)} for key, bounds in free.items()]
+    return [free_of(entry) if isinstance(entry, str) else entry for entry in free]
+
+
+def _bounds(key: str, bounds: Any) -> Mapping[str, Any]:
+    if isinstance(bounds, Mapping):
+        return bounds
+    if isinstance(bounds, list):
+        words = [isinstance(end, str) and end.strip()[:1] not in "+-.0123456789" for end in bounds]
+        if len(bounds) == 2 and not all(words):
+            return {"from": bounds[0], "to": bounds[1]}
+        return {"choices": bounds}
+    rule = "neither two bounds nor a list of choices"
+    raise InputError(key, quoted(bounds), rule, 'give them like ("0 um", "40 um")')
+
+
+def free_of(option: str) -> dict[str, Any]:
+    """Read ``KEY=FROM:TO`` or ``KEY=VALUE,VALUE,…``; a unit may stand once, at the end.
+
+    Raises InputError for what is neither.
+    """
+    key, equals, text = option.partition("=")
+    keys = [part.strip() for part in key.split("+")]
+    if not equals or not text.strip() or not all(keys):
+        raise _refusal(option)
+    named: dict[str, Any] = {"key": keys if len(keys) > 1 else keys[0]}
+    if ":" in text:
+        low, _, high = text.partition(":")
+        unit, low_unit = unit_of(high), unit_of(low)
+        if unit is None or low_unit is None:
+            raise _refusal(option)
+        if unit and not low_unit:
+            low = f"{low.strip()} {unit}"
+        return {**named, "from": toml_value(low.strip()), "to": toml_value(high.strip())}
+    values = [value.strip() for value in text.split(",")]
+    if len(values) < 2 or not all(values):
+        raise _refusal(option)
+    if unit := unit_of(values[-1]):
+        values = [f"{value} {unit}" if re.fullmatch(r"[\d.eE+-]+", value) else value for value in values]
+    return {**named, "choices": [toml_value(value) for value in values]}
+
+
+def _refusal(option: str) -> InputError:
+    remedy = 'write it like --free drive.pinion.modification.tip_relief="0 um:40 um"'
+    return InputError("--free", quoted(option), "neither KEY=FROM:TO nor KEY=VALUE,VALUE,…", remedy)
+
+
+def parts_of(options: Sequence[str]) -> dict[str, str]:
+    """Read several ``NAME=SCENARIO``; raises InputError for what is none."""
+    parts: dict[str, str] = {}
+    for option in options:
+        name, equals, scenario = (part.strip() for part in option.partition("="))
+        if not equals or not name or not scenario or name in parts:
+            rule = "is given twice" if name in parts else "not NAME=SCENARIO"
+            remedy = "write it like --part efficiency=efficiency-involute-18-36"
+            raise InputError("--part", quoted(option), rule, remedy)
+        parts[name] = scenario
+    return parts
+
+
+def loaded_search(
+    source: str | Path | Mapping[str, Any] | CaseHead, design: Mapping[str, Any], overrides: Mapping[str, Any]
+) -> Loaded:
+    """Make the case of a search through a scenario, or of a search: name, file, tables, or a case.
+
+    `design` are keys of its table `[design]`, in place of those of a search; `overrides`, by dotted keys, are
+    of the scenario to search through. Raises InputError for what cannot be searched, and where nothing says
+    what is free and what is sought.
+    """
+    if isinstance(source, CaseHead):
+        path, data = Path("scenario"), tomllib.loads(source.toml)
+    elif isinstance(source, Mapping):
+        path, data = Path("scenario"), dict(source)
+    else:
+        path = find_scenario(str(source))
+        data = read_toml(path)
+    if data.get("kind") == KIND:
+        search = data | {"design": {**data.get("design", {}), **design}}
+    else:
+        name = str(data.get("name", path.stem))
+        search = {
+            "title": f"Search through {data.get('title', name)}",
+            "name": f"{name}-design",
+            "kind": KIND,
+            "scenario": data,
+            "design": {"free": [], **design},
+        }
+    # keys of the scenario within, but for those of the search itself
+    prefixes = (f"{KIND}.", "scenario.")
+    within = {
+        key if key.startswith(prefixes) else f"scenario.{key}": value for key, value in overrides.items()
+    }
+    return loaded_from(resolve_table(search, path, within, table_of), path)

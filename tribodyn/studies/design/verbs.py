@@ -107,7 +107,7 @@ def design(
     InputError
         Before anything is computed.
     """
-    from tribodyn.studies.design.short_form import entries, loaded_search, parts_of
+    from tribodyn.studies.design.scenario import entries, loaded_search, parts_of
 
     keys = {
         "free": entries(free) if free is not None else None,

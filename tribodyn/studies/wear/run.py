@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.cases.results import target, writer
+from tribodyn.cases.results import left_over, record_path, target, writer
 from tribodyn.compliance.sharing.flank_gap import check_modifications
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import check_contact
@@ -28,10 +28,7 @@ from tribodyn.numerics.files.output_files import WRITTEN, check_output, write_ou
 from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.numerics.registry import FROM_PYTHON
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.record.files.previous import Origin, keep_previous
 from tribodyn.record.reader import Record
-from tribodyn.record.schema import partial_path, require_same_code
-from tribodyn.record.writer import check_target
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.studies.wear.case import BODIES, WearCase, layout_of, recorded_at
 from tribodyn.studies.wear.outcome import row_of, state_of, summary_of
@@ -136,24 +133,21 @@ def run(
     With `resume` it goes on from the record of a run of the same scenario with fewer revolutions, which it
     then replaces, or from what an interrupted run left.
     """
-    path = Path(output) if output is not None else Path(f"{case.name}.h5")
+    path = record_path(case, output)
     before = _recorded(case, path) if resume and not force else {}
-    replace = force or bool(before)
     check_profiles(path, force)
-    path = target(case, path, replace)
-    if replace and not force:
-        keep_previous(path, Origin(case.kind, case.scenario_file))
-    begun = perf_counter()
+    target(case, path, force, resumed=bool(before))
+    begun, at = perf_counter(), None
     study = prepare(case)
     done = len(before.get("revolutions", ()))
-    rows = recorded_at(case, float(before["revolutions"][-1])) if done else recorded_at(case)
-    start = state_of(study, {name: values[-1] for name, values in before.items()}) if done else unworn(study)
-    how: dict[str, Any] = {"force": replace, "code": _code_of(case), **_beside(study)}
+    ends = (0, -1) if done else ()  # a run may have been stopped before its first row
+    first, row = [{name: values[end] for name, values in before.items()} for end in ends] or ({}, {})
+    rows = recorded_at(case, float(row["revolutions"])) if done else recorded_at(case)
+    start = state_of(study, row) if done else unworn(study)
+    how: dict[str, Any] = {"force": force or bool(before), "code": _code_of(case), **_beside(study)}
     with writer(case, path, layout_of(case), done + len(rows), **how) as record:
         if done:
             record.write(0, before)
-        first = {name: values[0] for name, values in before.items()}
-        row, at = {name: values[-1] for name, values in before.items()}, None
         try:
             # of what is recorded already, where no row is left
             at = passage(study, start.depths, start.revolutions) if done else None
@@ -213,22 +207,22 @@ def _recorded(case: WearCase, path: Path) -> dict[str, np.ndarray]:
 
     Raises InputError if there is one of another scenario or of other code, or one that is longer.
     """
-    partial = partial_path(path)
-    record_path = partial if partial.exists() else path
-    if not record_path.exists():
-        return {}
-    check_target(path, force=True)
-    with Record(record_path) as record:
-        remedy = "move it away, or --force to begin anew"
-        if record.kind != case.kind or _kept(record.attrs["scenario"]) != _kept(case.toml):
-            raise InputError("--resume", str(record_path), "made from another scenario", remedy)
+
+    def same(record: Record) -> bool:
+        if _kept(record.attrs["scenario"]) != _kept(case.toml):
+            return False
         if not all(map(_is_recognised, _functions_of(case))):
             rule = "a law depends on data of which nobody knows whether they are still the same"
-            raise InputError("--resume", str(record_path), rule, remedy)
-        require_same_code(record.attrs, record_path, _code_of(case))
-        rows = {name: record[name] for name in record}
+            remedy = "move it away, or --force to begin anew"
+            raise InputError("--resume", str(record.path), rule, remedy)
+        return True
+
+    with left_over(case, path, same, _code_of(case), complete=True) as record:
+        if record is None:
+            return {}
+        rows, whole = {name: record[name] for name in record}, record.path == path
     done = float(rows["revolutions"][-1]) if len(rows["revolutions"]) else 0.0
-    if record_path == path and done >= case.revolutions:
+    if whole and done >= case.revolutions:
         rule = f"the record reaches {done:g} revolutions already"
         raise InputError("wear.revolutions", f"{case.revolutions:g}", rule, "write a larger number")
     return {name: values[rows["revolutions"] <= case.revolutions] for name, values in rows.items()}

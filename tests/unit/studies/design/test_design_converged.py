@@ -12,8 +12,7 @@ from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.candidates.candidates import share_of
 from tribodyn.studies.design.candidates.converged import converged
 from tribodyn.studies.design.outcome import headline
-from tribodyn.studies.design.scenario import estimate
-from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.design.scenario import estimate, loaded_search
 from tribodyn.studies.protocol.load import load_scenario
 
 RELIEF = {

@@ -10,7 +10,7 @@ from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.studies.design.candidates.candidates import BEYOND, cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate, loaded_case
-from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.design.scenario import loaded_search
 
 PITCH = "drive.pinion.modification.pitch_errors"
 PROFILE, DISTANCE = "drive.gear.modification.profile_error", "drive.centre_distance"

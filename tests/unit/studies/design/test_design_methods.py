@@ -14,7 +14,7 @@ from tribodyn.studies.design.candidates.archive import Archive, SpentError
 from tribodyn.studies.design.candidates.candidates import start_of
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import chosen_best, headline
-from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.design.scenario import loaded_search
 
 KEYS = ("drive.pinion.profile_shift", "drive.gear.profile_shift")
 #: Figures of a load contact study that stand for values of functions.

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from tribodyn.input.vary import axes_of
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate, loaded_case
-from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.design.scenario import loaded_search
 from tribodyn.studies.protocol.load import load_scenario, table_of
 
 #: Keys of every sort of table, with bounds at which the train exists.

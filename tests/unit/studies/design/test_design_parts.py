@@ -14,7 +14,7 @@ from tribodyn.studies.design.candidates.candidates import (
     start_of,
     value_at,
 )
-from tribodyn.studies.design.short_form import free_of, loaded_search
+from tribodyn.studies.design.scenario import free_of, loaded_search
 from tribodyn.studies.protocol.load import load_scenario
 
 RELIEF = "drive.pinion.modification.tip_relief"

@@ -8,7 +8,7 @@ import pytest
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate
 from tribodyn.studies.design.candidates.scoring import Scoring, derivatives_of
-from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.design.scenario import loaded_search
 
 F, G = "efficiency", "contact_ratio"
 FREE = [{"key": f"drive.{side}.profile_shift", "from": -1.0, "to": 1.0} for side in ("pinion", "gear")]

@@ -17,7 +17,7 @@ from tribodyn.studies.design.candidates.evaluation import evaluate
 from tribodyn.studies.design.candidates.sources import BASE as BASE_NAME
 from tribodyn.studies.design.candidates.sources import refused, require_key, sources_of
 from tribodyn.studies.design.figures import before_and_after
-from tribodyn.studies.design.short_form import loaded_search, parts_of
+from tribodyn.studies.design.scenario import loaded_search, parts_of
 from tribodyn.studies.protocol.load import table_of
 
 RELIEF = "drive.pinion.modification.tip_relief"

@@ -18,7 +18,7 @@ from tribodyn.studies.design.case import (
     Tolerance,
     WeightedDuty,
 )
-from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.design.scenario import loaded_search
 
 KEYS = ("drive.pinion.profile_shift", "drive.gear.profile_shift")
 NAMES = "abc"

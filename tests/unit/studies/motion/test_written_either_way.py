@@ -33,7 +33,7 @@ from tribodyn.record.schema import ANGLES
 from tribodyn.record.sensors import read_sensed
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies import STUDIES
-from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.design.scenario import loaded_search
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.check import check
 from tribodyn.studies.motion.prepare import prepare
