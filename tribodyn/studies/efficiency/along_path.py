@@ -26,7 +26,6 @@ from tribodyn.studies.efficiency.mesh_positions import (
     piecewise,
     places,
     share_evenly,
-    slices_at,
 )
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import range_shares
@@ -90,15 +89,6 @@ class _Loads(NamedTuple):
     deflection: Array
 
 
-def places_at(
-    cycle: MeshCycle, path: Path, phase: Array, sharing: Sharing, flanks: LoadedFlanks | None = None
-) -> Places:
-    """As `places.places`, of pairs that are cut into slices as `slices.slices_at`."""
-    if cycle.slices > 1:
-        return slices_at(cycle, phase, sharing)
-    return places(cycle, path, phase, sharing, flanks)
-
-
 def engage(mesh: Places, duty: MeshDuty) -> PathState:
     """Solve loads and friction together at every phase; raises as `equilibrium.settled`."""
     cycle = mesh.cycle
@@ -143,10 +133,7 @@ def _share(mesh: Places, duty: MeshDuty, seen: Contacts, friction: Array) -> _Lo
         state = quasi_static(mesh.cycle, mesh.cycle.gear_sense * torque, friction)
         return _Loads(state.normal_load, state.normal_load, state.normal_load, state.deflection)
     arms = seen.normal_arm[1] + friction * seen.friction_arm[1]
-    if mesh.cycle.slices > 1:
-        load = share_evenly(seen, mesh.cycle, arms, torque)
-        return _Loads(load, load, load, np.full(load.shape[:2], np.nan))
-    load = seen.carrying * torque / np.sum(seen.carrying * arms, axis=-1, keepdims=True)
+    load = share_evenly(seen, mesh.cycle, arms, torque)
     return _Loads(load, load, load, np.full(load.shape[:2], np.nan))
 
 
@@ -177,7 +164,7 @@ def cycle_efficiency(
         passing = (cycle.pitch_point_phase + np.array([0.5])) % 1.0
         breaks = np.unique(np.concatenate([cycle.boundary, passing]))
         phase, weight = piecewise(breaks, pitch, points)
-    state = engage(places_at(cycle, path, phase, duty.sharing, flanks), duty)
+    state = engage(places(cycle, path, phase, duty.sharing, flanks), duty)
     power_in, power_out, lost = (
         float(weight @ power) for power in (state.power_in, state.power_out, state.power_friction)
     )

@@ -88,8 +88,8 @@ class Places(NamedTuple):
     flanks: LoadedFlanks | None
 
 
-#: Places on the path that are sought at a time.
-AT_A_TIME = 1000
+#: Places on the path that are sought at a time; what to do where one pair cannot carry the load.
+AT_A_TIME, _OTHERS = 1000, 'use "elastic" or "uniform"'
 
 
 def places(
@@ -103,10 +103,13 @@ def places(
 
     `path` and `flanks`, the load contact model, are those that the table was made from. With the latter pairs
     that share elastically touch beyond the path as well, where a corner meets a flank; others know the path
-    only. Raises InputError if one pair shall carry the load over a pitch that its contact does not cover.
+    only. Of slices everything is the table's. Raises InputError if one pair shall carry the load over a pitch
+    that its contact does not cover, or of slices.
     """
+    if cycle.slices > 1:
+        return _slices(cycle, phase, sharing)
     pairs = cycle.front_pairs
-    segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)
+    segment, share = _in_segment(cycle, phase)
     position = phase[:, None] + np.arange(pairs - 1.0, -1.0, -1.0)
     roll = cycle.roll_start + cycle.pitch_angle * position
     start, end = float(cycle.roll_start), float(cycle.roll_end)
@@ -118,12 +121,8 @@ def places(
     if sharing == "single-pair":
         half = cycle.pitch_angle / 2.0
         if start > -half or end < half:
-            raise InputError(
-                "mesh.load_sharing",
-                f'"{sharing}"',
-                "the contact of a pair does not cover half a pitch on either side of the pitch point",
-                'use "elastic" or "uniform"',
-            )
+            rule = "the contact of a pair does not cover half a pitch on either side of the pitch point"
+            raise InputError("mesh.load_sharing", f'"{sharing}"', rule, _OTHERS)
         inside = inside * ((roll >= -half) & (roll < half))
     motion: Kinematics
     if flanks is not None and corners:
@@ -134,8 +133,6 @@ def places(
         parts = [within[first : first + AT_A_TIME] for first in range(0, len(within), AT_A_TIME)]
         motion = kinematics(path, np.concatenate([path.signed_distance(part) for part in parts]))
     table = polynomials(cycle)
-    start_of, end_of = cycle.boundary[segment], cycle.boundary[segment + 1]
-    share = np.clip((phase - start_of) / (end_of - start_of), 0.0, 1.0)
 
     def channel(name: str) -> Array:
         return _value(table.channel[:, :, :, CHANNELS.index(name)], segment, share)[:, None, :pairs]
@@ -154,6 +151,13 @@ def places(
         coupling=_value(table.coupling, segment, share)[:, None, :pairs, :pairs],
     )
     return Places(phase, looked_up, roll, flanks if corners else None)
+
+
+def _in_segment(cycle: MeshCycle, phase: Array) -> tuple[Any, Array]:
+    """Segments of the table at phases (K,), and the shares of these that have passed."""
+    segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)
+    begin, end = cycle.boundary[segment], cycle.boundary[segment + 1]
+    return segment, np.clip((phase - begin) / (end - begin), 0.0, 1.0)
 
 
 def _value(coefficients: Any, segment: Any, share: Array) -> Array:
@@ -176,23 +180,14 @@ _OVER_PHASE = (
 _IN_CONTACT = ("compliance", "gap")
 
 
-def slices_at(cycle: MeshCycle, phase: Array, sharing: Sharing) -> Places:
-    """Look up the slices at phases (K,), 0 … 1; everything is the table's.
-
-    Raises InputError if one pair shall carry the load: helical pairs take it over slice by slice.
-    """
+def _slices(cycle: MeshCycle, phase: Array, sharing: Sharing) -> Places:
+    """Look up the slices at phases (K,), 0 … 1."""
     if sharing == "single-pair":
-        raise InputError(
-            "mesh.load_sharing",
-            f'"{sharing}"',
-            "a helical pair takes over the load slice by slice",
-            'use "elastic" or "uniform"',
-        )
-    front = cycle.front_slots
-    segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)
-    begin, end = cycle.boundary[segment], cycle.boundary[segment + 1]
-    cells = cycle.phase.shape[1] - 1
-    place = np.clip((phase - begin) / (end - begin), 0.0, 1.0) * cells
+        rule = "a helical pair takes over the load slice by slice"
+        raise InputError("mesh.load_sharing", f'"{sharing}"', rule, _OTHERS)
+    front, cells = cycle.front_slots, cycle.phase.shape[1] - 1
+    segment, share = _in_segment(cycle, phase)
+    place = share * cells
     cell = np.clip(place.astype(int), 0, cells - 1)
     beyond = (place - cell)[:, None]
 
@@ -248,7 +243,7 @@ def deflections(cycle: MeshCycle, normal_load: Array) -> Array:
 
 def share_evenly(contacts: Contacts, cycle: MeshCycle, arms: Array, torque: float) -> Array:
     """Loads (K, 1, Q) in proportion to the length of contact, N."""
-    length = contacts.carrying * cycle.share
+    length = contacts.carrying * (cycle.share if cycle.slices > 1 else 1.0)
     return length * torque / np.sum(length * arms, axis=-1, keepdims=True)
 
 

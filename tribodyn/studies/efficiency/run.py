@@ -1,6 +1,7 @@
 """From a case of the efficiency study to its record: one mesh cycle, quasi-static."""
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
@@ -24,7 +25,6 @@ from tribodyn.gears.prepare import (
     thermal_quantities,
 )
 from tribodyn.geometry.body import geometry_arrays
-from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.geometry.sheet import specific_sliding_max
@@ -39,11 +39,10 @@ from tribodyn.studies.efficiency.along_path import (
     Samples,
     cycle_efficiency,
     engage,
-    places_at,
     record_arrays,
     samples,
 )
-from tribodyn.studies.efficiency.mesh_positions import SHARINGS, Places, Sharing, deflections, judged
+from tribodyn.studies.efficiency.mesh_positions import SHARINGS, Places, Sharing, deflections, judged, places
 from tribodyn.studies.efficiency.published import by_loss_factor, path_contact, rotations, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
@@ -65,14 +64,22 @@ class PreparedEfficiency(PreparedGears[EfficiencyCase]):
     """A case made ready, with what the mesh has to do."""
 
     duty: MeshDuty
-    flanks: (
-        LoadedFlanks | None
-    )  # of the load contact model that shares the load, where the scenario asks for it
+    #: of the load contact model that shares the load, where the scenario asks for it
+    flanks: LoadedFlanks | None
 
     @property
     def path(self) -> PathOfContact:
         """The working path of contact."""
         return self.assembly.path
+
+    def means(self, duty: MeshDuty) -> CycleEfficiency:
+        """Means over a mesh cycle at a duty."""
+        return cycle_efficiency(self.cycle, self.path, duty, flanks=self.flanks)
+
+    def engaged(self, phase: np.ndarray) -> tuple[Places, PathState]:
+        """The mesh, its loads and its friction at phases (K,)."""
+        mesh = places(self.cycle, self.path, phase, self.duty.sharing, self.flanks)
+        return mesh, engage(mesh, self.duty)
 
 
 def prepare(case: EfficiencyCase) -> PreparedEfficiency:
@@ -121,13 +128,9 @@ def run(
     over, mesh, state = _sampled(study)
     summary = _quantities(study, over, mesh, state) | spectrum_quantities(case)
     summary["wall_time"] = perf_counter() - begun
-    more = {
-        "groups": {"mesh_cycle": as_arrays(study.cycle), "geometry": geometry_arrays(study.assembly)},
-        "scales": scales_of(study.cycle),
-    }
-    with writer(
-        case, path, gears_layout(study.cycle.slices), len(over.turned), force=force, **more
-    ) as record:
+    layout, scales = gears_layout(study.cycle.slices), scales_of(study.cycle)
+    groups = {"mesh_cycle": as_arrays(study.cycle), "geometry": geometry_arrays(study.assembly)}
+    with writer(case, path, layout, len(over.turned), force=force, groups=groups, scales=scales) as record:
         record.write(0, record_arrays(over, mesh, state, study.duty))
         if progress:
             progress(1.0)
@@ -166,15 +169,12 @@ def _at_jumps(study: PreparedEfficiency) -> tuple[Places, PathState]:
     Extremes lie there as a rule; over samples alone they would change by jumps with the numbers of a drive.
     """
     jumps = study.cycle.boundary[:, None] + np.array([-1.0, 1.0]) * _BESIDE
-    phase = np.clip(jumps.ravel(), _BESIDE, 1.0 - _BESIDE)
-    mesh = places_at(study.cycle, study.path, phase, study.duty.sharing, study.flanks)
-    return mesh, engage(mesh, study.duty)
+    return study.engaged(np.clip(jumps.ravel(), _BESIDE, 1.0 - _BESIDE))
 
 
 def _sampled(study: PreparedEfficiency) -> tuple[Samples, Places, PathState]:
     over = samples(study.cycle, study.case.samples_per_cycle, study.duty.way)
-    mesh = places_at(study.cycle, study.path, over.phase, study.duty.sharing, study.flanks)
-    return over, mesh, engage(mesh, study.duty)
+    return over, *study.engaged(over.phase)
 
 
 def efficiencies(
@@ -187,47 +187,32 @@ def efficiencies(
     """
     results = {}
     for sharing in SHARINGS:
-        duty = study.duty._replace(sharing=sharing)
-        try:
-            means = done.get(sharing) or cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
-        except InputError:
-            continue
-        results[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
-    case, duty = study.case, study.duty
-    if case.drive.helix_angle:
-        return results | _by_loss_factor(study)
-    cycle = study.cycle
-    start, end = study.assembly.roll_limits
-    if not start < 0.0 < end:  # no pair about the pitch point, of some internal pairs
-        return results | _by_loss_factor(study)
-    single = torque_ratio(
-        path_contact(
-            study.path,
-            case.drive.pinion.teeth,
-            rotations(case.drive.pinion.teeth, limits=(float(start), float(end))),
-            exact_speeds=not duty.lever_arms,
-            averaged=not duty.lever_arms,
-        ),
-        -duty.gear_torque if duty.way < 0.0 else duty.gear_torque * float(cycle.speed_ratio),
-        duty.pinion_speed,
-        float(cycle.face_width),
-        duty.closure,
-        gear_drives=duty.way < 0.0,
-    )
-    results["efficiency_torque_ratio"] = float(single.efficiency)
-    return results | _by_loss_factor(study)
-
-
-def _by_loss_factor(study: PreparedEfficiency) -> dict[str, float]:
-    case, friction = study.case, study.duty.closure.friction
-    if not study.assembly.family.involute or friction.functions.coefficient is not constant:
-        return {}
-    return by_loss_factor(family(case.family), case.drive, friction.parameters.coefficient)
+        with suppress(InputError):
+            means = done.get(sharing) or study.means(study.duty._replace(sharing=sharing))
+            results[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
+    drive, duty, friction = study.case.drive, study.duty, study.duty.closure.friction
+    start, end = map(float, study.assembly.roll_limits)
+    # of some internal pairs no pair is about the pitch point
+    if not drive.helix_angle and start < 0.0 < end:
+        exact, teeth = not duty.lever_arms, drive.pinion.teeth
+        over = rotations(teeth, limits=(start, end))
+        single = torque_ratio(
+            path_contact(study.path, teeth, over, exact_speeds=exact, averaged=exact),
+            -duty.gear_torque if duty.way < 0.0 else duty.gear_torque * float(study.cycle.speed_ratio),
+            duty.pinion_speed,
+            float(study.cycle.face_width),
+            duty.closure,
+            gear_drives=duty.way < 0.0,
+        )
+        results["efficiency_torque_ratio"] = float(single.efficiency)
+    if study.assembly.family.involute and friction.functions.coefficient is constant:
+        results |= by_loss_factor(study.assembly.family, drive, friction.parameters.coefficient)
+    return results
 
 
 def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: PathState) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
-    means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
+    means = study.means(duty)
     under_load = {}
     if mesh.flanks is not None:  # the load sharing knows corner contact
         roll, friction = mesh.roll[:-1], duty.way * state.friction_coefficient[:-1]

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.record.trust import Judge, judge_tribology
-from tribodyn.studies.wear.case import OF_FILM, OF_TEETH
+from tribodyn.studies.wear.case import BODIES, OF_FILM, OF_TEETH
 from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, Worn, by_teeth
 from tribodyn.tribology.closure import exceeded_limits, law_quantities
 from tribodyn.tribology.surface_state import fraction_in_range, range_shares
@@ -27,11 +27,13 @@ def row_of(study: Wearing, state: Worn, at: WearPassage) -> dict[str, Any]:
     volume = volumes(study, state.depths)
     density = np.array([material.density for material in case.materials])
     turns = case.operating.pinion_speed / (2.0 * np.pi)
-    line_load = by_teeth(places, at.line_load)[0]
-    carried = line_load > 0.0
+    line_load, loaded = by_teeth(places, at.line_load)[0], at.load > 0.0
+    share = by_teeth(places, loaded.astype(float))[0]
 
     def over_path(values: Any) -> Any:
-        return np.where(carried, _loaded_mean(study, at, values), np.nan)
+        """Mean over teeth of what has a meaning under load only."""
+        mean = by_teeth(places, np.where(loaded, values, 0.0))[0] / np.where(share > 0.0, share, 1.0)
+        return np.where(line_load > 0.0, mean, np.nan)
 
     row: dict[str, Any] = {
         "revolutions": state.revolutions,
@@ -55,15 +57,11 @@ def row_of(study: Wearing, state: Worn, at: WearPassage) -> dict[str, Any]:
     }
     if case.lubricated is not None:
         least = float(np.min(at.contacts.film[at.load > 0.0]))
-        of_film = over_path(at.contacts.film), least, _roughness(at)
-        row |= dict(zip(OF_FILM, of_film, strict=True))
+        roughness = np.nan if at.closure is None else float(at.closure.surfaces.roughness)
+        row |= dict(zip(OF_FILM, (over_path(at.contacts.film), least, roughness), strict=True))
     if case.each_tooth:
         row |= dict(zip(OF_TEETH, state.depths, strict=True))
     return {name: np.asarray(value, dtype=float)[None] for name, value in row.items()}
-
-
-def _roughness(at: WearPassage) -> float:
-    return np.nan if at.closure is None else float(at.closure.surfaces.roughness)
 
 
 def state_of(study: Wearing, row: dict[str, Any]) -> Worn:
@@ -82,21 +80,10 @@ def state_of(study: Wearing, row: dict[str, Any]) -> Worn:
     )
 
 
-def _loaded_mean(study: Wearing, at: WearPassage, values: Any) -> Any:
-    """Mean over teeth of what has a meaning under load only."""
-    loaded = at.load > 0.0
-    share = by_teeth(study.places, loaded.astype(float))[0]
-    return by_teeth(study.places, np.where(loaded, values, 0.0))[0] / np.where(share > 0.0, share, 1.0)
-
-
 def volumes(study: Wearing, depths: Depths) -> np.ndarray:
     """Volume of depths (m) on all teeth of pinion and gear, m³."""
-    return np.array(
-        [
-            float(np.sum(area * np.mean(depth, axis=0)))
-            for area, depth in zip(study.places.area, depths, strict=True)
-        ]
-    )
+    both = zip(study.places.area, depths, strict=True)
+    return np.array([float(np.sum(area * np.mean(depth, axis=0))) for area, depth in both])
 
 
 def summary_of(
@@ -104,7 +91,8 @@ def summary_of(
 ) -> dict[str, Any]:
     """Quantities of a run, from the rows (without their first axis) of new and of worn flanks."""
     case, assembly = study.case, study.places.held.flanks.flexible.assembly
-    depth, volume = np.max(last["worn_depth"], axis=(1, 2)), last["worn_volume"]
+    worn = {"depth_max": np.max(last["worn_depth"], axis=(1, 2))}
+    worn |= {name: last[f"worn_{name}"] for name in ("volume", "mass")}
     summary: dict[str, Any] = {
         "contact_ratio": float(assembly.contact_ratio),
         "gear_torque": case.operating.gear_torque,
@@ -112,12 +100,11 @@ def summary_of(
         "wear_law": study.law.name,
         "wear_revolutions": float(last["revolutions"]),
         "wear_time": float(last["time"]),
-        "pinion_worn_depth_max": float(depth[0]),
-        "gear_worn_depth_max": float(depth[1]),
-        "pinion_worn_volume": float(volume[0]),
-        "gear_worn_volume": float(volume[1]),
-        "pinion_worn_mass": float(last["worn_mass"][0]),
-        "gear_worn_mass": float(last["worn_mass"][1]),
+        **{
+            f"{body}_worn_{name}": float(values[place])
+            for name, values in worn.items()
+            for place, body in enumerate(BODIES)
+        },
         "corner_sliding_share": at.corner_share,
         "wear_balance": balance(last),
         "wear_steps": int(last["steps"]),
@@ -126,7 +113,7 @@ def summary_of(
     for name, dataset in _ENDS.items():
         if dataset in last:
             summary |= {name: float(last[dataset]), f"{name}_unworn": float(first[dataset])}
-    return summary | _of_laws(study, summary, (first, last), at)
+    return summary | _of_laws(study, summary, first, last, at)
 
 
 def balance(row: dict[str, Any]) -> float:
@@ -136,11 +123,10 @@ def balance(row: dict[str, Any]) -> float:
 
 
 def _of_laws(
-    study: Wearing, summary: dict[str, Any], rows: tuple[dict[str, Any], dict[str, Any]], at: WearPassage
+    study: Wearing, summary: dict[str, Any], first: dict[str, Any], last: dict[str, Any], at: WearPassage
 ) -> dict[str, Any]:
     """What the laws of film and friction say of themselves, and whether the contact lies within its model."""
     case, judge, quantities = study.case, Judge(), dict[str, Any]()
-    first, last = rows
     oiled, closure, seen = case.lubricated, at.closure, at.contacts.seen
     if oiled is not None and closure is not None and seen is not None:
         carried = at.load > 0.0
