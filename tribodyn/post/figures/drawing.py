@@ -74,7 +74,7 @@ def single(draw: Callable[[Axes, Record], None]) -> Callable[[Sequence[Record], 
 
 def finished(
     figure: Figure,
-    panels: Sequence[Axes],
+    panels: Sequence[Axes] | np.ndarray,
     titles: Sequence[str],
     records: Sequence[Record],
     key: Sequence[tuple[str, Artist]] | None = (),

@@ -121,7 +121,7 @@ def _root_stress(records: Sequence[Record]) -> Figure:
         for axes in row:
             axes.set_ylim(min(low), max(high))
     titles = [f"{what} in the fillet of the {body}" for what in ("Tension", "Compression") for body in BODIES]
-    return finished(figure, panels.ravel().tolist(), titles, records)
+    return finished(figure, panels.ravel(), titles, records)
 
 
 def draw_root_stress(axes: Axes, records: Sequence[Record], name: str, body: str, style: str = "-") -> None:

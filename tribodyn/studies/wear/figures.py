@@ -113,12 +113,15 @@ def _flank_map(records: Sequence[Record], _view: View) -> Figure:
     depth = 1e6 * record["worn_depth"][-1]
     style: dict[str, Any] = {"vmin": 0.0, "vmax": float(np.max(depth)) or 1.0, "cmap": "viridis"}
     roll, face = np.degrees(record["roll"]), 1e3 * record["slice"]
-    for place, axes in enumerate(panels):
-        mesh = axes.pcolormesh(roll, face, depth[place].T, shading="nearest", rasterized=True, **style)
+    meshes = [
+        axes.pcolormesh(roll, face, values.T, shading="nearest", rasterized=True, **style)
+        for axes, values in zip(panels, depth, strict=True)
+    ]
+    for axes in panels:
         axes.grid(visible=False)
         axes.set_ylabel("Place on the face (mm)")
     panels[-1].set_xlabel(ROLL)
-    figure.colorbar(mesh, ax=list(panels), label="Depth (µm)", pad=0.02)
+    figure.colorbar(meshes[0], ax=list(panels), label="Depth (µm)", pad=0.02)
     return finished(figure, panels, [f"Depth worn off the {body}" for body in BODIES], records, None)
 
 
