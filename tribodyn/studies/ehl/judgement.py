@@ -201,13 +201,12 @@ def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
         for law, values in laws.items():
             stated, ratio = registry[law], values / arrays[dataset]
             ratio = ratio[np.isfinite(ratio)]
-            extent, right = [math.nan] * 3, 0.0
+            extent, right = (math.nan, math.nan, math.nan), 0.0
             if len(ratio):
-                extent = [float(function(ratio)) for function in (np.min, np.median, np.max)]
+                extent = float(np.min(ratio)), float(np.median(ratio)), float(np.max(ratio))
                 right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what]))
-            inside = _inside(study, over, stated)
-            further = {"against": against, "range": stated.stated}
-            comparisons.append(LawRatio(what, law, *extent, *inside, right, **further))
+            compared = LawRatio(what, law, *extent, *_inside(study, over, stated), right)
+            comparisons.append(compared._replace(against=against, range=stated.stated))
     return comparisons
 
 

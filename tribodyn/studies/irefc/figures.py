@@ -91,7 +91,7 @@ CURVES = (
     *("Power lost by one element", "The same, added up"),
 )
 #: Lines of the losses of an element.
-LOSSES = (("cam", "-"), ("crown", "--"), ("both, $N_S$", ":"))
+LOSSES: Any = (("cam", "-"), ("crown", "--"), ("both, $N_S$", ":"))
 #: Their datasets, and the last angle of the loaded half.
 SHOWN, HALF = ("normal_load", "slip_speed", "power_cam", "power_crown"), np.pi * (1 + 1e-12)
 
