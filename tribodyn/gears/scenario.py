@@ -180,6 +180,16 @@ def _tilts_load_the_face(scenario: Any) -> bool:
     return getattr(scenario.mesh, "compliance", "fem") == "fem" or bool(drive.helix_angle)
 
 
+def broken_film_keys(scenario: Any) -> Iterator[InputError]:
+    """Refuse what says something of a film that is not there, in a scenario without a lubricant."""
+    film_keys = {"operating.oil_temperature": scenario.operating.oil_temperature}
+    film_keys |= {name: getattr(scenario, name, None) for name in ("film", "running_in")}
+    remedy = 'add lubricant = "iso-vg-220-mineral", or leave it out'
+    for key, value in film_keys.items():
+        if value is not None:
+            yield InputError(key, rule="without a lubricant there is no film", remedy=remedy)
+
+
 #: Compliances that are given -> the key that gives them, and an example.
 _GIVEN = {
     "constant": ("stiffness", '"2.8e8 N/m"'),

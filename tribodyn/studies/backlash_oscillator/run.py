@@ -27,6 +27,8 @@ from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Te
 #: Relative difference of the RMS above which the ways up and down count as different branches: hundreds of
 #: times what the residuals leave.
 APART = 1e-3
+#: Names of the directions UP and DOWN.
+WAYS = ("up", "down")
 #: Maximum number of single points that the summary remarks on.
 REMARKS = 3
 
@@ -46,7 +48,7 @@ def run(
     begun = perf_counter()
     response = frequency_response(case, progress)
     summary = response_summary(response) | {"wall_time": perf_counter() - begun}
-    scales = {"direction": np.array(["up", "down"]), "multiplier": np.array([1, 2])}
+    scales = {"direction": np.array(WAYS), "multiplier": np.array([1, 2])}
     if response.ends:
         scales["end"] = np.arange(1, len(response.ends) + 1)
     unstable_rows = [row for beyond in response.beyond for row in rows_of(beyond)]
@@ -145,13 +147,12 @@ def response_summary(response: Response) -> dict[str, Any]:
             places = frequency[there]
             summary |= {f"{name}_from": float(places[0]), f"{name}_to": float(places[-1])}
     for number, (direction, end) in enumerate(response.ends, 1):
-        way = "up" if direction == UP else "down"
-        summary[f"end_{number}"] = f"{end.kind} of period {end.period} at {end.value:.6g}, {way}"
+        summary[f"end_{number}"] = f"{end.kind} of period {end.period} at {end.value:.6g}, {WAYS[direction]}"
     for beyond in response.beyond:
         summary[f"unstable_{beyond.end + 1}"] = described(beyond)
     messages = response.messages
     for number, (at, direction, text) in enumerate(messages[:REMARKS]):
-        summary[f"remark_{number + 1}"] = f"frequency {at:g}, {'up' if direction == UP else 'down'}: {text}"
+        summary[f"remark_{number + 1}"] = f"frequency {at:g}, {WAYS[direction]}: {text}"
     if len(messages) > REMARKS:
         summary["remarks_more"] = len(messages) - REMARKS
     return summary

@@ -13,13 +13,8 @@ from tribodyn.studies.design.candidates.sources import split
 
 REPORTED: Reported = {
     "Search": quantities(
-        *(
-            "objective_name",
-            "method",
-            "evaluations",
-            "evaluations_feasible",
-            "evaluations_without_quantities",
-        ),
+        *("objective_name", "method"),
+        *("evaluations", "evaluations_feasible", "evaluations_without_quantities"),
         *("evaluations_finer", "evaluations_about", "evaluations_total"),
     ),
     "Solver": quantities("wall_time"),
@@ -31,13 +26,8 @@ SWEPT = quantities(
 SWEEP_TABLE = quantities("objective", "objective_start", "evaluations")
 
 PANELS = ("objective",)
-TOP = (
-    "objective_start",
-    "objective",
-    "best",
-    "evaluations",
-    "evaluations_total",
-)  # of what `run --json` prints
+#: Of what `run --json` prints.
+TOP = ("objective_start", "objective", "best", "evaluations", "evaluations_total")
 
 
 def verdict(record: Record) -> list[str]:
@@ -45,15 +35,12 @@ def verdict(record: Record) -> list[str]:
     summary = record.summary
     if "objective" not in summary:
         return []
-    names = str(summary["objective_name"]).split(" and ")
-    start, best = (np.atleast_1d(summary.get(f"objective{end}", np.nan)) for end in ("_start", ""))
     won = []
-    for place, name in enumerate(names):
-        before = start[place] if place < len(start) and start[place] is not None else np.nan
-        quantity = _quantity_or_name(record.scenario, name)
-        ratio = float(best[place]) / float(before) if before and np.isfinite(before) else np.nan
+    for name, before, best in _objectives(summary):
+        ratio = best / before if before and np.isfinite(before) else np.nan
         changed = f" ({100.0 * (ratio - 1.0):+.2g} %)" if np.isfinite(ratio) else ""
-        won.append(f"{quantity.title}: {_change(record.scenario, name, before, best[place])}{changed}")
+        title = _quantity_or_name(record.scenario, name).title
+        won.append(f"{title}: {_change(record.scenario, name, before, best)}{changed}")
     texts = [f"{'; '.join(won)}."]
     values = [f"{key} = {value}" for key, value in summary.get("best", {}).items()]
     if values:
@@ -77,15 +64,12 @@ def sentences(record: Record) -> list[str]:
     summary = record.summary
     if "objective" not in summary:
         return []
-    search = record.scenario
-    names = str(summary["objective_name"]).split(" and ")
-    start, best = (np.atleast_1d(summary.get(f"objective{end}", np.nan)) for end in ("_start", ""))
-    texts = []
-    for place, name in enumerate(names):
-        before = start[place] if place < len(start) and start[place] is not None else np.nan
-        texts.append(
-            f"{_quantity_or_name(search, name).title}: {_change(search, name, before, best[place])}."
-        )
+    search, objectives = record.scenario, _objectives(summary)
+    names = [name for name, *_ in objectives]
+    texts = [
+        f"{_quantity_or_name(search, name).title}: {_change(search, name, before, best)}."
+        for name, before, best in objectives
+    ]
     texts += [
         f"{key}: {summary.get('start', {}).get(key, 'not set')} at the start, {value} at the best."
         for key, value in summary.get("best", {}).items()
@@ -107,6 +91,15 @@ def sentences(record: Record) -> list[str]:
             f"{count} candidates have no quantities, most because: {summary['without_quantities_message']}"
         )
     return texts
+
+
+def _objectives(summary: Mapping[str, Any]) -> list[tuple[str, float, float]]:
+    """Name of every objective, and its value at the start (NaN: none) and at the best."""
+    names = str(summary["objective_name"]).split(" and ")
+    start, best = (np.atleast_1d(summary.get(f"objective{end}", np.nan)) for end in ("_start", ""))
+    before = [np.nan if value is None else float(value) for value in start]
+    before += [np.nan] * (len(names) - len(before))
+    return [(name, before[place], float(best[place])) for place, name in enumerate(names)]
 
 
 def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mapping[str, Any]) -> str:

@@ -1,5 +1,6 @@
 """From a case of the gear with rolling elements to its record."""
 
+from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
@@ -127,13 +128,11 @@ def _refuse_locking(case: RollingCase, cycle: ElementStates) -> None:
         return
     rolling = 2.0 * float(np.sum(cycle.power_crown[worst]))
     sliding = float(cycle.power_friction[worst]) - rolling
-    friction, power = case.friction, float(cycle.power_in[worst])
+    (arm, coefficient), power = case.friction, float(cycle.power_in[worst])
     rule = f"friction takes {rolling + sliding:.4g} W of the {power:.4g} W put in: the gear locks"
     if sliding < power:
-        limit, arm = friction.rolling_arm * (power - sliding) / rolling, friction.rolling_arm
-        remedy = f"use less than {limit * 1e3:.3g} mm"
+        remedy = f"use less than {arm * (power - sliding) / rolling * 1e3:.3g} mm"
         raise InputError("friction.rolling_arm", f"{arm * 1e3:g} mm", rule, remedy)
-    coefficient = friction.sliding_coefficient
     remedy = f"use less than {coefficient * power / sliding:.3g}"
     raise InputError("friction.sliding_coefficient", coefficient, rule, remedy)
 
@@ -142,8 +141,8 @@ class RevolutionStatistics:
     """Gathers what the summary reports, block by block."""
 
     def __init__(self) -> None:
-        self.sums: dict[str, float] = {}
-        self.maximum: dict[str, float] = {}
+        self.sums: dict[str, float] = defaultdict(float)
+        self.maximum: dict[str, float] = defaultdict(float)
         self.count = 0
         self.loaded: set[int] = set()
         self.power_out: list[Array] = []
@@ -160,11 +159,10 @@ class RevolutionStatistics:
             "power_crown": state.power_crown.sum(axis=-1),
         }
         for name, values in over_time.items():
-            self.sums[name] = self.sums.get(name, 0.0) + float(np.sum(values[part]))
+            self.sums[name] += float(np.sum(values[part]))
         largest = {name: np.abs(getattr(state, name)) for name in ("normal_load", "slip_speed", "spin_speed")}
         for name, values in (largest | {"power_element": state.power_cam + state.power_crown}).items():
-            maximum = float(np.max(values))
-            self.maximum[name] = max(self.maximum.get(name, 0.0), maximum)
+            self.maximum[name] = max(self.maximum[name], float(np.max(values)))
         loads = state.normal_load
         self.loaded |= {int(n) for n in np.sum(loads > UNLOADED * loads.max(), axis=-1)}
         self.count += len(state.power_in[part])

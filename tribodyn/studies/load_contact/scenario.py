@@ -31,6 +31,7 @@ from tribodyn.gears.scenario import (
     SampleNumber,
     ShaftKeys,
     SliceCoupling,
+    broken_film_keys,
     broken_gear_rules,
     broken_support_keys,
     gear_fields,
@@ -223,7 +224,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     drive, operating, oiled = scenario.drive, scenario.operating, scenario.lubricant is not None
     yield from broken_driving_rules(operating, (drive.pinion.teeth, drive.gear.teeth), speed_needed=oiled)
     if not oiled:
-        yield from _without_oil(scenario)
+        yield from broken_film_keys(scenario)
     torques = operating.gear_torques
     if len(torques) == 1:
         rule = "a single torque makes no map"
@@ -233,12 +234,3 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
             key, rule = f"operating.gear_torques.{number}", f"not greater than the {torque:g} N*m before it"
             yield InputError(key, f"{after:g} N*m", rule, "give the torques in increasing order")
             break
-
-
-def _without_oil(scenario: Scenario) -> Iterator[InputError]:
-    """Refuse what says something of a film that is not computed."""
-    remedy = 'add lubricant = "iso-vg-220-mineral", or leave it out'
-    film_keys = {"operating.oil_temperature": scenario.operating.oil_temperature, "film": scenario.film}
-    for key, value in film_keys.items():
-        if value is not None:
-            yield InputError(key, rule="without a lubricant there is no film", remedy=remedy)

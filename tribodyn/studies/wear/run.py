@@ -13,7 +13,7 @@ import numpy as np
 
 from tribodyn.cases.results import left_over, record_path, target, writer
 from tribodyn.compliance.sharing.flank_gap import check_modifications
-from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import check_contact
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.gears.check import check_on_elements, oil_data
@@ -22,6 +22,7 @@ from tribodyn.gears.prepare import assembled
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.kernels.native.arguments import function_layout
 from tribodyn.mesh.record_arrays import untabulated
+from tribodyn.mesh.tabulate_loaded import flanks_of
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
 from tribodyn.mesh.teeth.table import flank_places
 from tribodyn.numerics.files.output_files import WRITTEN, check_output, write_output
@@ -43,23 +44,10 @@ def profile_path(record: Path, body: str) -> Path:
     return record.with_name(f"{record.stem}-{body}.csv")
 
 
-def check_profiles(record: Path, force: bool = False) -> None:
-    """Raise InputError where a file is in the way that no run wrote, see `check_output`."""
-    for body in BODIES:
-        check_output(profile_path(record, body), force)
-
-
-def profile_text(roll: Any, depth: Any, about: str) -> str:
-    """Depth (m) over roll angle (rad) as a table, with a comment before it."""
-    columns = np.degrees(roll).tolist(), (1e6 * np.asarray(depth)).tolist()
-    lines = [f"{angle!r},{worn!r}" for angle, worn in zip(*columns, strict=True)]
-    return "\n".join([f"{WRITTEN['.csv'].decode()}: {about}", "roll_angle [deg],error [um]", *lines, ""])
-
-
 def write_profiles(study: Wearing, row: dict[str, Any], record: Path, force: bool = False) -> list[Path]:
     """Write what is worn off both gears, the mean over teeth and face, with the profile error that they had.
 
-    Raises as `write_output`.
+    Tables of depth (m) over roll angle (rad) with a comment before them. Raises as `write_output`.
     """
     roll, files = study.places.node, []
     for body, depth in zip(BODIES, row["worn_depth"], strict=True):
@@ -68,8 +56,10 @@ def write_profiles(study: Wearing, row: dict[str, Any], record: Path, force: boo
         if profile_error is not None:
             total = total + np.interp(roll, *profile_error)
         about = f"profile error of the {body} after {float(row['revolutions']):g} revolutions of the pinion"
-        text = profile_text(roll, total, about)
-        files.append(write_output(profile_path(record, body), text, force=force))
+        columns = np.degrees(roll).tolist(), (1e6 * total).tolist()
+        lines = [f"{angle!r},{worn!r}" for angle, worn in zip(*columns, strict=True)]
+        head = f"{WRITTEN['.csv'].decode()}: {about}", "roll_angle [deg],error [um]"
+        files.append(write_output(profile_path(record, body), "\n".join([*head, *lines, ""]), force=force))
     return files
 
 
@@ -79,7 +69,9 @@ _MAY_DIFFER = (("wear", "revolutions"), ("output", "every"))
 
 def prepare(case: WearCase) -> Wearing:
     """Check geometry, modifications and load, and lay out positions and nodes; raises InputError."""
-    flanks = flanks_of(case)
+    assembly = assembled(case)
+    check_modifications(assembly, case.mesh.modifications)
+    flanks = flanks_of(assembly, case.materials, case.mesh)
     check_contact(flanks, case.operating.gear_torque)
     law = wear_law_of(case.wear)
     places = places_of(flanks, case.operating.gear_torque, case.positions_per_cycle, case.mesh.early)
@@ -99,15 +91,6 @@ def own_gaps(flanks: LoadedFlanks, node: Float[Array, " node"], case: WearCase) 
                     gaps[tooth] += more.gap.T
         of_gears.append(gaps)
     return of_gears[0], of_gears[1]
-
-
-def flanks_of(case: WearCase) -> LoadedFlanks:
-    """The flanks as they are made, and their elasticity by finite elements."""
-    assembly, mesh = assembled(case), case.mesh
-    check_modifications(assembly, mesh.modifications)
-    lead = mesh.slice_coupling and mesh.slices > 1
-    flexible = flexibility(assembly, case.materials, lead=lead, held=mesh.held)
-    return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
 
 
 @checks_gears
@@ -135,7 +118,8 @@ def run(
     """
     path = record_path(case, output)
     before = _recorded(case, path) if resume and not force else {}
-    check_profiles(path, force)
+    for body in BODIES:
+        check_output(profile_path(path, body), force)
     target(case, path, force, resumed=bool(before))
     begun, at = perf_counter(), None
     study = prepare(case)

@@ -19,6 +19,7 @@ from tribodyn.gears.scenario import (
     SampleNumber,
     ShaftKeys,
     SliceCoupling,
+    broken_film_keys,
     broken_gear_rules,
     broken_support_keys,
     gear_fields,
@@ -159,7 +160,11 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_driving_rules(scenario.operating, (drive.pinion.teeth, drive.gear.teeth))
     yield from _broken_law(scenario)
     if scenario.lubricant is None:
-        yield from _without_oil(scenario)
+        yield from broken_film_keys(scenario)
+        if scenario.friction is not None and scenario.friction.law not in DRY:
+            rule = "is a law of lubricated flanks, and there is no lubricant"
+            value = quoted(scenario.friction.law)
+            yield InputError("friction.law", value, rule, 'use "coulomb", or add one')
     for table in (scenario.film, scenario.friction):
         if scenario.running_in is not None and table is not None and table.law == _TABULATED:
             rule = f'contradicts {table.place}.law = "{_TABULATED}", a table of contacts of one roughness'
@@ -188,19 +193,3 @@ def _broken_law(scenario: Scenario) -> Iterator[InputError]:
     if law.needs_friction and (scenario.friction is None or scenario.friction.law == "none"):
         remedy = 'add [friction] with a law, such as law = "coulomb" with coefficient = 0.1'
         yield InputError("wear.law", quoted(wear.law), "goes by friction, and there is none", remedy)
-
-
-def _without_oil(scenario: Scenario) -> Iterator[InputError]:
-    """Refuse what says something of a film that is not there."""
-    remedy = 'add lubricant = "iso-vg-220-mineral", or leave it out'
-    film_keys = {
-        "operating.oil_temperature": scenario.operating.oil_temperature,
-        "film": scenario.film,
-        "running_in": scenario.running_in,
-    }
-    for key, value in film_keys.items():
-        if value is not None:
-            yield InputError(key, rule="without a lubricant there is no film", remedy=remedy)
-    if scenario.friction is not None and scenario.friction.law not in DRY:
-        rule = "is a law of lubricated flanks, and there is no lubricant"
-        yield InputError("friction.law", quoted(scenario.friction.law), rule, 'use "coulomb", or add one')
