@@ -119,8 +119,8 @@ def run(
             "wall_time": perf_counter() - begun,
         }
         path = record.finish(summary)
-    status = "failed" if failed == record.status.size else "complete"
-    return SweepResult(path, status, record.status.size, failed, summary)
+    status = "failed" if failed == summary["cases"] else "complete"
+    return SweepResult(path, status, summary["cases"], failed, summary)
 
 
 def _blocks(
@@ -193,17 +193,12 @@ def _head(
         directions=tuple(directions),
         layout=grid.batch.layout(settings),
     )
-    return _of_data_set(head, grid, data_set) if data_set else head
-
-
-def _of_data_set(head: SweepHead, grid: Grid, asked: DataSet) -> SweepHead:
-    """The head of a data set: its cases in a list, with what is told of each."""
-    told = {"title": str(tomllib.loads(head.scenario).get("title", "")), "license": asked.licence}
-    attributes = {**told, **head.layout.attributes}
-    return head._replace(
-        listed=listed_of(grid, asked, head.layout),
-        layout=head.layout._replace(attributes=attributes),
-    )
+    if data_set is None:
+        return head
+    layout = head.layout  # of a data set, whose cases are in a list
+    told = {"title": str(tomllib.loads(head.scenario).get("title", "")), "license": data_set.licence}
+    listed = listed_of(grid, data_set, layout)
+    return head._replace(listed=listed, layout=layout._replace(attributes={**told, **layout.attributes}))
 
 
 def _weights(grid: Grid, axis: Axis) -> list[float]:

@@ -17,7 +17,6 @@ from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, Side, body_of, internal_side
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.spline import FEWEST, MOST, fit_spline, flank_deviation
-from tribodyn.geometry.gauges import Gauge
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.input.messages import Origins, explain
@@ -51,18 +50,8 @@ class DriveModel(NamedTuple):
         """The geometry sheet: name to (value, unit), of pinion and gear in tables of their own."""
         specified = [(body.mass, body.inertia) for body in self.masses]
         masses = body_masses(assembly, specified, [material.density for material in self.materials])
-        return sheet_of(self.table, assembly, masses) | self.rounded
-
-    @property
-    def gauges(self) -> tuple[Gauge, Gauge]:
-        """What the tooth thickness of pinion and gear is measured with."""
-        return _gauges_of(DriveTable.model_validate(self.table))
-
-    @property
-    def rounded(self) -> dict[str, Any]:
-        """Lines of the sheet on a centre distance within the rounding of its digits; else empty."""
         rounded = rounded_distance_of(self.table)
-        return rounded.lines() if rounded else {}
+        return sheet_of(self.table, assembly, masses) | (rounded.lines() if rounded else {})
 
 
 def sheet_of(
@@ -73,14 +62,11 @@ def sheet_of(
     distance = abs(float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius))
     grade = drive.centre_distance_grade
     apart = 0.0 if grade is None else centre_distance_allowance(grade, distance)
-    sheet = geometry_sheet(assembly, masses, _gauges_of(drive), distance_allowance=apart)
+    gauges = gauge_of(drive, drive.pinion), gauge_of(drive, drive.gear)
+    sheet = geometry_sheet(assembly, masses, gauges, distance_allowance=apart)
     for side, lines in zip(SIDES, tolerance_lines(drive), strict=True):
         sheet[side] |= lines
     return sheet
-
-
-def _gauges_of(drive: DriveTable) -> tuple[Gauge, Gauge]:
-    return gauge_of(drive, drive.pinion), gauge_of(drive, drive.gear)
 
 
 class _DriveAlone(Table):
