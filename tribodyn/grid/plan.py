@@ -23,7 +23,7 @@ USUAL_CASES, A_CASE = 1000, 24.0
 def estimate_of(grid: Grid, settings: Any, directions: int, width: int = 1, further: int = 0) -> Estimate:
     """What a sweep takes, from its cases at both ends of the grid.
 
-    `settings` are from `sweep.run.settings_of`, `directions` is the number of senses in which the first
+    `settings` are from `grid.run.settings_of`, `directions` is the number of senses in which the first
     parameter is followed, 0 where cases begin by themselves; `width`: see `engines.Engine`; `further` is the
     most values that the first parameter may get besides.
     """

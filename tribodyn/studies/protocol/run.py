@@ -55,7 +55,7 @@ def run(
     force : replace an existing record
     progress : callable, optional
         Called with the share done, 0 … 1.
-    allow_large : allow runs above `protocol.cost.LIMITS`
+    allow_large : allow runs above `cases.cost.LIMITS`
     resume : go on from what an unfinished run left, where the study can
     client : distributed.Client, optional
         Whose workers evaluate the candidates of a search; default: the cores of this machine.
