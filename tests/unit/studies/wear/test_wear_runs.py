@@ -1,6 +1,7 @@
 """Runs of wear studies: going on, what lies beside the record, worn flanks in other studies."""
 
 import csv
+import math
 from pathlib import Path
 from typing import Any
 
@@ -9,10 +10,14 @@ import pytest
 
 import tribodyn as td
 from tests.support.worn_pairs import DRY, OILED
+from tribodyn.cases.results import writer
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
+from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.studies.protocol.run import run
+from tribodyn.studies.wear.case import layout_of
+from tribodyn.studies.wear.run import _beside, _code_of, prepare
 
 ROWS = {"output.every": 5e5, "output.positions_per_cycle": 20}
 EACH = {
@@ -107,6 +112,27 @@ def test_it_goes_on_from_its_own_scenario_alone(tmp_path: Path):
 
 def test_a_study_without_a_record_to_go_on_from_begins(tmp_path: Path):
     assert run(case_of(DRY, 1e6), tmp_path / "worn.h5", resume=True).status == "complete"
+
+
+def test_a_run_that_was_stopped_before_its_first_row_begins(tmp_path: Path):
+    case, path = case_of(DRY, 1e6), tmp_path / "worn.h5"
+    how = {"code": _code_of(case), **_beside(prepare(case))}
+    with pytest.raises(KeyboardInterrupt), writer(case, path, layout_of(case), 3, **how):
+        raise KeyboardInterrupt
+    assert (tmp_path / "worn.partial.h5").exists()
+    assert run(case, path, resume=True).status == "complete"
+
+
+def test_helical_teeth_are_checked_at_their_normal_load():
+    """T/(r_b cos β_b) over the face."""
+    drive = {"like": DRY["drive"], "helix_angle": "20 deg"}
+    case = case_of({**DRY, "drive": drive}, 1e6)
+    gears, width = case.drive, float(min(case.drive.pinion.face_width, case.drive.gear.face_width))
+    base_radius = gears.module * gears.gear.teeth / 2.0 * math.cos(gears.pressure_angle)  # all transverse
+    base_helix = math.atan(math.tan(gears.helix_angle) * math.cos(gears.pressure_angle))
+    load = case.operating.gear_torque / (base_radius * math.cos(base_helix))
+    stiffness = STUDIES["wear"].check(case).data["stiffness"]
+    assert stiffness["line_load"] == pytest.approx(load / width, rel=1e-9)
 
 
 @pytest.mark.parametrize("shown", ["load-contact", "gear-pair", "efficiency"])
