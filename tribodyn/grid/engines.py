@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Protocol
@@ -35,12 +36,12 @@ class Engine(Protocol):
         ...
 
 
+@dataclass
 class LocalEngine:
     """One chunk after the other in this process, its cases over so many threads, by default one per core."""
 
-    def __init__(self, workers: int | None = None, width: int = 1) -> None:
-        self.workers = workers
-        self.width = width
+    workers: int | None = None
+    width: int = 1
 
     def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
         """See `Engine`."""
@@ -51,13 +52,12 @@ class LocalEngine:
                 yield chunk, block
 
 
+@dataclass
 class DaskEngine:
     """Chunks over the workers of a Dask client; one whose worker dies is done again by another."""
 
-    width = 1
-
-    def __init__(self, client: Any) -> None:
-        self.client = client
+    client: Any
+    width: int = 1
 
     def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
         """See `Engine`."""

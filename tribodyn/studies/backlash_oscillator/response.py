@@ -122,11 +122,10 @@ def _empty_response(frequency: np.ndarray) -> Response:
     return Response(frequency=frequency, messages=[], ends=[], beyond=[], **columns)
 
 
-class _Oscillators:
+class _Oscillators(NamedTuple):
     """The oscillator over its frequency, as `arclength.SystemFamily`."""
 
-    def __init__(self, case: BacklashOscillatorCase):
-        self.case = case
+    case: BacklashOscillatorCase
 
     def at(self, lines: Sequence[int], values: Sequence[float]) -> tuple[OscillatorMap, list[str]]:
         return oscillator_at(self.case, np.array(values)), [""] * len(values)

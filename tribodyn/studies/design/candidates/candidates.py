@@ -1,6 +1,7 @@
 """From shares of the free keys' ranges to values, and to the cases, with tolerances, of a candidate."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -132,12 +133,12 @@ def shapes_gears(case: DesignCase) -> bool:
     return any(key.startswith("drive.") and ".modification." not in key for key in keys)
 
 
+@dataclass
 class Nominal:
     """A candidate under one duty, before anything deviates: its keys and their values."""
 
-    def __init__(self, case: DesignCase, keys: Overrides) -> None:
-        self.case = case
-        self.keys = keys
+    case: DesignCase
+    keys: Overrides
 
     def at(self, key: str) -> Any:
         """The value of a key; None where there is none."""
