@@ -19,11 +19,11 @@ import matplotlib
 import pytest
 from matplotlib import pyplot
 from typer.main import get_command
-from typer.testing import CliRunner
 
 from tests.support.passed_before import unless_passed
+from tests.support.short_studies import shorter
 from tests.support.soak_parameters import all_in_soak
-from tests.support.verbs import sets
+from tests.support.verbs import invoke, sets
 from tribodyn.cli.app import app
 from tribodyn.input.sources import find_scenario, names, shipped
 from tribodyn.studies.protocol.load import load_every, load_scenario
@@ -35,18 +35,6 @@ PAGES = [
     *sorted((ROOT / "docs").glob("how-to/*.md")),
 ]
 RECORD = "crc-23-47"
-#: What shortens a scenario of a kind or a name, of those that pages run.
-SHORTER = {
-    "gear-pair": ("solver.cycles=2",),
-    "gear-train": ("solver.cycles=2",),
-    "sensors-18-36": ("solver.revolutions=3", "output.window=[2.0, 3.0]"),  # a signal has to be as long
-    "efficiency": ("output.samples_per_cycle=40",),
-    "load-contact": ("output.positions_per_cycle=8",),
-    "wear": ("output.positions_per_cycle=12",),
-    "ehl": ("output.positions=4", "contact.step=0.25"),
-    "irefc": ("output.samples_per_cycle=8",),
-    "backlash-oscillator": ("frequency.step=0.1",),
-}
 #: Calls of which another page has an example that takes less; by page. These run in soak.
 ALIKE = {
     "helical.md": "td.gradient(",
@@ -97,8 +85,7 @@ def blocks(language: str, info: str | None = None) -> list[Block]:
 def record(tmp_path_factory) -> bytes:
     """A short record, for the examples that read one."""
     path = tmp_path_factory.mktemp("record") / f"{RECORD}.h5"
-    ran = CliRunner().invoke(app, ["run", RECORD, "-o", str(path), "--set", "solver.cycles=2", "--no-plot"])
-    assert ran.exit_code == 0, ran.output
+    invoke("run", RECORD, "-o", path, "--set", "solver.cycles=2", "--no-plot")
     return path.read_bytes()
 
 
@@ -166,11 +153,9 @@ def run_commands(page: Path, folder: Path) -> None:
                 continue
             if words[0] == "run":
                 kind = next(iter(load_every(words[1]).cases.values())).study.kind
-                shorter = sets(*SHORTER.get(words[1], SHORTER.get(kind, ())))
                 picture = () if "--plot" in words else ("--no-plot",)  # every scenario's is tested elsewhere
-                words = [*words, *shorter, *picture, "--force"]
-            ended = CliRunner().invoke(app, words)
-            assert ended.exit_code == 0, f"{block}: {shlex.join(words)}\n{ended.output}\n{ended.exception}"
+                words = [*words, *sets(*shorter(words[1], kind)), *picture, "--force"]
+            invoke(*words)
 
 
 def test_the_readme_works_pasted_in_order_into_one_folder(
@@ -187,10 +172,7 @@ def run_all_of(readme: Path) -> None:
     for block in blocks("console"):
         for words in commands(block) if block.page == readme else ():
             if words[0] not in ("validate", "sweep"):
-                ended = CliRunner().invoke(app, words)
-                assert ended.exit_code == 0, (
-                    f"{block}: {shlex.join(words)}\n{ended.output}\n{ended.exception}"
-                )
+                invoke(*words)
     matplotlib.use("agg")
     for block in blocks("python"):
         if block.page == readme:

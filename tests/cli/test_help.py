@@ -6,8 +6,8 @@ import sys
 
 import pytest
 from typer.main import get_command
-from typer.testing import CliRunner
 
+from tests.support.verbs import ended, invoke
 from tribodyn.cli.app import app
 from tribodyn.cli.printing import command_name
 
@@ -16,22 +16,18 @@ VERBS = "run sweep check gear show plot report listen signals compare list init 
 
 def test_a_short_option_gives_the_same_help():
     for words in ([], ["run"]):
-        short, long = (CliRunner().invoke(app, [*words, option]) for option in ("-h", "--help"))
-        assert (short.exit_code, short.stdout) == (0, long.stdout)
+        assert invoke(*words, "-h") == invoke(*words, "--help")
 
 
 def test_help_names_every_verb():
-    shown = CliRunner().invoke(app, ["--help"])
-    assert shown.exit_code == 0
+    shown = invoke("--help")
     for verb in VERBS:
-        assert re.search(rf"^  {verb} ", shown.stdout, re.MULTILINE)
+        assert re.search(rf"^  {verb} ", shown, re.MULTILINE)
 
 
 @pytest.mark.parametrize("verb", VERBS)
 def test_every_verb_shows_an_example_that_parses(verb: str):
-    shown = CliRunner().invoke(app, [verb, "--help"])
-    assert shown.exit_code == 0
-    examples = re.findall(rf"^ +tribodyn ({verb}\b.*)$", shown.stdout, re.MULTILINE)
+    examples = re.findall(rf"^ +tribodyn ({verb}\b.*)$", invoke(verb, "--help"), re.MULTILINE)
     assert examples
     command = get_command(app)
     for example in examples:
@@ -40,8 +36,8 @@ def test_every_verb_shows_an_example_that_parses(verb: str):
 
 
 def test_no_verb_is_help_and_an_unknown_one_is_refused():
-    assert "Usage" in CliRunner().invoke(app, []).output
-    refused = CliRunner().invoke(app, ["rnu"])
+    assert "Usage" in ended().output
+    refused = ended("rnu")
     assert refused.exit_code == 2
     assert "rnu" in refused.stderr
 

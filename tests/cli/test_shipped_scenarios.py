@@ -8,6 +8,7 @@ import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.passed_before import unless_passed
+from tests.support.short_studies import shorter
 from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import in_a_process, sets
 from tribodyn.input.sources import names, shipped
@@ -56,23 +57,6 @@ ALIKE = {
     "wind-turbine-gearbox",
     "wind-turbine-gearbox-assessment",
 }
-#: What makes a run of a kind, or of a name, short.
-SHORTER = {
-    "gear-pair": ("solver.cycles=2",),
-    "gear-train": ("solver.cycles=2",),
-    "efficiency": ("output.samples_per_cycle=40",),
-    "irefc": ("output.samples_per_cycle=8",),
-    "backlash-oscillator": ("frequency.step=0.1",),
-    "sensors-18-36": ("solver.revolutions=3", "output.window=[2.0, 3.0]"),  # a signal has to be as long
-    "load-contact": ("output.positions_per_cycle=8",),
-    "wear": ("output.positions_per_cycle=12",),
-    "ehl": ("output.positions=4", "contact.step=0.25"),
-    "assessment": (
-        *("assessment.speeds=8", "assessment.samples=0", "assessment.torque_shares=[0.5, 1.0]"),
-        'assessment.friction_laws=["iso-14179-1"]',
-    ),
-    "train-assessment": ("scenario.solver.cycles=4", "assessment.speeds=0"),
-}
 
 
 @pytest.mark.parametrize("name", all_in_soak(SEARCHES, QUICK_SEARCHES))
@@ -106,8 +90,7 @@ def test_it_runs(name: str, drawn: bool, tmp_path: Path, forked: ForkedVerbs, re
 
 
 def run_shortened(name: str, drawn: bool, tmp_path: Path, forked: ForkedVerbs) -> None:
-    shorter = sets(*SHORTER.get(name, SHORTER.get(load_scenario(name).kind, ())))
-    words = (name, *shorter, *(() if drawn else ("--no-plot",)))
+    words = (name, *sets(*shorter(name, load_scenario(name).kind)), *(() if drawn else ("--no-plot",)))
     ended = forked("run", *words, "--json", folder=tmp_path)
     assert ended.returncode == 0, ended.stderr
     # no progress bar where nobody watches, and no warning but that of a drive outside its model

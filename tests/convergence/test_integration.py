@@ -236,18 +236,6 @@ def test_table_converges_with_its_nodes(prepared):
     assert errors[2] < 1e-6
 
 
-def test_start_is_at_rest_in_equilibrium(prepared):
-    """Just after a static start nothing moves but with the mesh: accelerations vanish at the first sample."""
-    case = prepared("crc-23-47")
-    cycles, states = solve(case.model, cycles=1)
-    found = outputs(cycles[:1], states[:1], case.model)
-    arm = case.cycle.gear_pitch_radius * np.cos(found["pressure_angle"][0])
-    friction_arm = case.cycle.gear_pitch_radius * np.sin(found["pressure_angle"][0])
-    friction_arm = friction_arm - case.cycle.signed_distance[0, 0]
-    moment = np.sum(found["normal_load"][0] * arm + found["friction_force"][0] * friction_arm)
-    assert moment == pytest.approx(500.0, rel=1e-9)
-
-
 @pytest.mark.parametrize("speed", ["100 rad/s", "300 rad/s"])
 def test_friction_does_its_work_on_the_recorded_sliding(speed, prepared):
     """∫ Σ F_f v_s dt of the samples is the integrated work of friction.

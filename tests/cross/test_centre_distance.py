@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.mesh.table import MeshData
 from tribodyn.studies import STUDIES
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load
@@ -52,8 +51,3 @@ def test_it_runs(name, tmp_path):
     loaded = load(name, OFF)
     result = loaded.study.run(loaded.case, tmp_path / "off.h5")
     assert result.status == "complete"
-
-
-def test_a_mesh_without_a_centre_distance_has_no_back_flanks():
-    mesh: MeshData = load("involute-18-36").case.pair.mesh
-    assert mesh.backlash is None

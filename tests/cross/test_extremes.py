@@ -12,7 +12,6 @@ from tribodyn.gears.motion.extremes import RECORDED, RunningExtremes
 from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
 from tribodyn.studies.motion.batch import BATCH
@@ -145,13 +144,6 @@ def test_figures_of_steady_states_do_not_depend_on_the_samples():
     )
     for name in (*OF_SPUR, "transmission_error_peak_to_peak", "dynamic_factor"):
         assert few[name][0] == pytest.approx(many[name][0], rel=EXACT / 10), name
-
-
-def test_a_steady_state_says_its_extremes(prepared):
-    model = prepared("crc-23-47-300").model
-    steady = steady_states([model], samples=8)[0]
-    assert steady.extremes is not None
-    assert np.all(steady.extremes.cycles <= steady.period)
 
 
 @settings(max_examples=5)

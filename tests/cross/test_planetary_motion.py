@@ -43,9 +43,9 @@ RADII = [MODULE * teeth / 2 for teeth in TEETH]
 LOAD = 900.0  # N m on the carrier
 
 
-def a_set(planets, pin_offsets=(), sun_bearing=1e8):
+def a_set(planets, pin_offsets=()):
     return PlanetarySet(
-        Member(0.4, 0.39 * RADII[0] ** 2, sun_bearing),
+        Member(0.4, 0.39 * RADII[0] ** 2, 1e8),
         Member(2.35, 3.0 * RADII[2] ** 2, 1e8),
         Member(5.43, 6.29 * (RADII[0] + RADII[1]) ** 2, 1e8),
         Member(0.66, 0.61 * RADII[1] ** 2, 1e8),
@@ -114,22 +114,6 @@ def test_equal_planets_share_the_load(planets):
     assert abs(held) == pytest.approx(LOAD - sun, rel=1e-6)
     still = [state[shift_of(body) : shift_of(body) + 2] for body in (SUN, RING, CARRIER)]
     np.testing.assert_allclose(still, 0.0, atol=1e-12)
-
-
-@pytest.mark.parametrize("planets", [3, 4])
-def test_a_floating_sun_shares_the_load_of_three_planets(planets):
-    """Under a tangential error of one pin three planets remain equal, four do not."""
-    error = 20e-6
-    offsets = ((0.0, error), *(((0.0, 0.0),) * (planets - 1)))
-    floating = a_set(planets, offsets, sun_bearing=1e2)
-    model, _ = planetary_springs(floating, DRIVE_SPEED, torque=LOAD)
-    loads = mesh_loads(model, static_equilibrium(model))[:planets]
-    share = loads / np.mean(loads)
-    if planets == 3:
-        np.testing.assert_allclose(share, 1.0, atol=1e-3)
-    else:
-        assert np.ptp(share) > 0.2
-        np.testing.assert_allclose(share[0] - share[1], share[2] - share[3], rtol=0.05)
 
 
 @pytest.mark.parametrize("drive", [DRIVE_SPEED, DRIVE_TORQUE])

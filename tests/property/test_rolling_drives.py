@@ -54,6 +54,7 @@ def test_torques_balance_and_energy_is_kept(drive: RollingDrive, friction: Rolli
     lost = run.power_in - run.power_out
     np.testing.assert_allclose(lost, run.power_friction, rtol=1e-9, atol=1e-9 * POWER)
     assert (run.power_cam >= 0).all()
+    assert (run.power_crown >= 0).all()
     assert (run.normal_load >= 0).all()
     # half of the elements carry, up to the one that stands at a dead point
     loaded = np.sum(run.normal_load > 0, axis=-1)

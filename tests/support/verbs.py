@@ -30,17 +30,17 @@ def invoke(*words: object, folder: Path | None = None) -> str:
     return result.stdout
 
 
-def complaints(*words: object, folder: Path | None = None, status: int = 2) -> list[str]:
+def complaints(*words: object, folder: Path | None = None, status: int = 2, **options: Any) -> list[str]:
     """Run a verb that must fail with a status; its lines of complaint. Bad input prints nothing else."""
-    result = ended(*words, folder=folder)
+    result = ended(*words, folder=folder, **options)
     assert result.exit_code == status, f"{words}\n{result.output}\n{result.exception}"
     assert status != 2 or result.stdout == ""
     return result.stderr.splitlines()
 
 
-def complaint(*words: object, folder: Path | None = None, status: int = 2) -> str:
+def complaint(*words: object, folder: Path | None = None, status: int = 2, **options: Any) -> str:
     """Run a verb in this process that must fail with a status; its one line of complaint."""
-    (line,) = complaints(*words, folder=folder, status=status)
+    (line,) = complaints(*words, folder=folder, status=status, **options)
     return line
 
 

@@ -125,16 +125,6 @@ def test_short_waves_see_a_half_space(gear):
     np.testing.assert_allclose(joint.own[0], joint.own[1], atol=1e-6)
 
 
-def test_shorter_waves_give_way_less_and_reach_the_neighbours_less(gear):
-    found = at_wave_numbers(gear, np.linspace(0, 3, 31) / MODULE, POISSON)
-    assert np.all(np.diff(found.own, axis=0) < 0)
-    middle = len(gear.radius) // 2
-    next_tooth = found.between[:, NEIGHBOURS + 1, middle, middle] / found.own[:, middle]
-    assert np.all(np.diff(next_tooth) < 1e-4)
-    assert next_tooth[0] > 0.1
-    assert next_tooth[-1] < 1e-3
-
-
 @pytest.mark.soak
 def test_compliance_does_not_depend_on_the_depth_of_the_local_region():
     k, width, total = np.array([0.0, 0.5, 1.5]) / MODULE, 0.03, []

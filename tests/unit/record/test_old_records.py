@@ -8,10 +8,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import tribodyn as td
-from tribodyn.cli.app import app
+from tests.support.verbs import invoke
 from tribodyn.record.open_record import summary_of_today
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import open_any
@@ -109,9 +108,7 @@ def test_the_record_s_kind_is_its_scenario_s(name):
 @pytest.mark.parametrize(("name", "figure"), PRINTED.items())
 def test_its_figures_are_printed(name, figure):
     key, value = figure
-    shown = CliRunner().invoke(app, ["show", str(RECORDS / f"{name}.h5"), "--json"])
-    assert shown.exit_code == 0, shown.output
-    assert json.loads(shown.output)["summary"][key] == value
+    assert json.loads(invoke("show", RECORDS / f"{name}.h5", "--json"))["summary"][key] == value
 
 
 KEYS = {"solver.cycles": 40, "output.samples_per_cycle": 60}

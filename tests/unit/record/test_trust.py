@@ -7,11 +7,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import tribodyn
 from tests.support.record_samples import block, gear_pair_writer, geometry, printed
-from tribodyn.cli.app import app
+from tests.support.verbs import ended, invoke
 from tribodyn.cli.printing import plain
 from tribodyn.errors import SimulationError
 from tribodyn.quantities.catalogue import QUANTITIES
@@ -173,7 +172,7 @@ def test_an_absurd_load_is_loud(tmp_path):
     """500 kN m on a drive for 500 N m: complete, exit status 0, every reason on the terminal and in JSON."""
     words = ["involute-23-47", "--set", "operating.gear_torque=500 kN*m", "--set", "solver.cycles=2"]
     output = tmp_path / "much.h5"
-    done = CliRunner().invoke(app, ["run", *words, "--no-plot", "--json", "--output", str(output)])
+    done = ended("run", *words, "--no-plot", "--json", "--output", output)
     assert done.exit_code == 0
     found = json.loads(done.stdout)
     assert (found["status"], found["trust"]) == ("complete", OUTSIDE)
@@ -183,8 +182,7 @@ def test_an_absurd_load_is_loud(tmp_path):
     for reason in found["trust_reasons"]:
         extrapolated = reason.startswith("share of the contact")
         assert (f"warning: {OUTSIDE}: {reason}" in done.stderr) is not extrapolated
-    shown = CliRunner().invoke(app, ["show", str(output)])
-    assert shown.stdout.splitlines()[1].startswith(OUTSIDE.capitalize())
+    assert invoke("show", output).splitlines()[1].startswith(OUTSIDE.capitalize())
     usual = run(load_scenario("involute-23-47", {"solver.cycles": 2}), tmp_path / "usual.h5")
     assert (usual.trust, usual.reasons) == (INSIDE, [])
 

@@ -5,12 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.standards.loss_factors import equal_loads, hoehn
-
-
-@pytest.mark.parametrize("tips", [(0.8, 0.8), (0.5, 0.6), (1.0, 1.0), (0.55, 0.97), (1.0, 0.2)])
-def test_formula_and_integral_agree_where_the_formula_holds(tips):
-    assert equal_loads(*tips, 23, 2.0) == pytest.approx(hoehn(*tips, 23, 2.0), rel=1e-13)
+from tribodyn.standards.loss_factors import equal_loads
 
 
 @pytest.mark.parametrize("tips", [(0.8, 0.8), (1.3, 0.4), (1.2, 1.1), (0.2, 1.6), (1.5, 1.7)])

@@ -17,27 +17,11 @@ def motion(bodies: list[tuple[int, ...]], meshes: list[tuple[int, int]], source:
     return kinematics(named, gears, [Joint("", ends) for ends in meshes], [], source, -1)
 
 
-def test_two_stages():
-    found = nominal_torques(
-        motion([(20,), (50, 17), (60,)], [(0, 1), (2, 3)]), [(20, 50), (17, 60)], [], [0.0, 0.0, 600.0]
-    )
-    assert found.driven == pytest.approx((170.0, 600.0))
-    assert found.source == pytest.approx(68.0)
-
-
 def test_an_idler_and_a_load_on_it():
     chain = motion([(20,), (40,), (30,)], [(0, 1), (1, 2)])
     found = nominal_torques(chain, [(20, 40), (40, 30)], [], [0.0, 100.0, 300.0])
     assert found.driven == pytest.approx((500.0, 300.0))
     assert found.source == pytest.approx(250.0)
-
-
-def test_two_ways_to_one_bull_gear_share_alike():
-    bodies, meshes = [(20,), (40, 25), (40, 25), (100,)], [(0, 1), (0, 3), (2, 5), (4, 5)]
-    teeth = [(20, 40), (20, 40), (25, 100), (25, 100)]
-    found = nominal_torques(motion(bodies, meshes), teeth, [], [0.0, 0.0, 0.0, 800.0])
-    assert found.driven == pytest.approx((100.0, 100.0, 400.0, 400.0))
-    assert found.source == pytest.approx(100.0)
 
 
 def test_a_motor_before_the_pinion():

@@ -21,12 +21,6 @@ def test_steps_within_steps_share_the_whole():
     assert {0.25, 0.3125, 0.5, 0.75, 0.875, 1.0} <= set(shares)
 
 
-def test_nobody_watching_nothing_is_called():
-    assert list(steps([1, 2])) == [1, 2]
-    with part(0.0, 1.0):
-        pass
-
-
 def test_finite_elements_report_while_they_are_solved():
     pair = assemble(FAMILY, DRIVE)
     shares = []

@@ -7,12 +7,11 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import tribodyn as td
 from tests.support.outlines import closed, distance, turned
 from tests.support.pages import data_of, needs_browser, shown, unpacked
-from tribodyn.cli.app import app
+from tests.support.verbs import invoke
 from tribodyn.interface.result import Run
 from tribodyn.post.page.data import MOST_SAMPLES, extrapolated, packed, thinned
 from tribodyn.post.page.rolling_teeth import rolling_teeth
@@ -133,18 +132,7 @@ def test_a_load_contact_page_has_maps_to_the_edges_of_the_face(tmp_path: Path):
 
 def test_a_sweep_has_a_page(tmp_path: Path):
     swept = tmp_path / "sweep.h5"
-    ended = CliRunner().invoke(
-        app,
-        [
-            "sweep",
-            "efficiency-crc-23-47",
-            "--vary",
-            "operating.pinion_speed=100,200,300rpm",
-            "-o",
-            str(swept),
-        ],
-    )
-    assert ended.exit_code == 0, ended.output
+    invoke("sweep", "efficiency-crc-23-47", "--vary", "operating.pinion_speed=100,200,300rpm", "-o", swept)
     with open_any(swept) as record:
         page = write_report([record], tmp_path / "sweep.html")
         (data,) = data_of(page)["records"]

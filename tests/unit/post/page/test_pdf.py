@@ -6,23 +6,15 @@ import shutil
 import signal
 import tempfile
 from pathlib import Path
-from typing import Any
 
 import pytest
-from typer.testing import CliRunner
 
 from tests.support.short_studies import shortened, written_template
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, ended, invoke
 from tribodyn.post.page import pdf
 from tribodyn.post.page.pdf import BROWSERS, browser, run_browser
 
 RECORDS = Path(__file__).parents[3] / "fixtures" / "records-0.2.0"
-
-
-def invoked(*words: object, path: Path | None = None) -> Any:
-    """Run a verb, with programs of one folder only."""
-    env = {} if path is None else {"PATH": str(path)}
-    return CliRunner().invoke(app, [str(word) for word in words], env=env)
 
 
 def test_without_a_browser_nothing_is_begun(tmp_path: Path):
@@ -33,10 +25,7 @@ def test_without_a_browser_nothing_is_begun(tmp_path: Path):
         ("assess", scenario, *shortened("assessment"), "-o", out, "--pdf"),
         ("report", RECORDS / "assessment.h5", "-o", tmp_path / "page.html", "--pdf"),
     ):
-        ended = invoked(*words, path=empty)
-        assert ended.exit_code == 2
-        assert len(ended.stderr.splitlines()) == 1
-        assert "install Chromium or Chrome" in ended.stderr
+        assert "install Chromium or Chrome" in complaint(*words, env={"PATH": str(empty)})
     assert not out.exists()
     assert not (tmp_path / "page.html").exists()
 
@@ -50,9 +39,9 @@ def test_a_browser_that_fails_leaves_what_was_there(script: str, tmp_path: Path)
     broken.chmod(0o755)
     before = b"%PDF-1.4\n% as it was\n\n% made by tribodyn\n"
     page.with_suffix(".pdf").write_bytes(before)
-    ended = invoked("report", RECORDS / "assessment.h5", "-o", page, "--pdf", path=programs)
-    assert ended.exit_code != 0
-    assert "the browser ended with status" in ended.stderr
+    failed = ended("report", RECORDS / "assessment.h5", "-o", page, "--pdf", env={"PATH": str(programs)})
+    assert failed.exit_code != 0
+    assert "the browser ended with status" in failed.stderr
     assert page.with_suffix(".pdf").read_bytes() == before
     assert {file.name for file in tmp_path.iterdir()} == {"programs", "page.html", "page.pdf"}
 
@@ -85,8 +74,7 @@ def test_an_interrupted_browser_leaves_nothing(tmp_path: Path, monkeypatch: pyte
 @pytest.mark.skipif(browser() is None, reason="no browser is installed")
 def test_pages_are_printed_on_a4(tmp_path: Path):
     record = shutil.copy(RECORDS / "assessment.h5", tmp_path)
-    ended = invoked("report", record, "-o", tmp_path / "page.html", "--pdf", "--json")
-    assert ended.exit_code == 0, ended.output
+    invoke("report", record, "-o", tmp_path / "page.html", "--pdf", "--json")
     printed = (tmp_path / "page.pdf").read_bytes()
     boxes = re.findall(rb"/MediaBox ?\[([^]]*)\]", printed)
     assert boxes

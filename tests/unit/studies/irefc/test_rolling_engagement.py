@@ -35,10 +35,6 @@ def revolution(drive: RollingDrive, samples: int = 40, friction: RollingFriction
     return engage(drive, element_angles(drive, turn), POWER, SPEED, friction)
 
 
-def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-
-
 @pytest.mark.parametrize("drive", [DRIVE, ODD])
 def test_the_circles_roll_on_each_other(drive):
     """About the shaft the crown stands still; seen from the eccentric all have one speed at P."""
@@ -49,23 +45,10 @@ def test_the_circles_roll_on_each_other(drive):
     at_pitch_point = -speed * crown
     assert element_speed(drive, speed) == pytest.approx(at_pitch_point / cage)
     assert (at_pitch_point / cam + speed) * drive.ratio == pytest.approx(-speed)
-
-
-@pytest.mark.parametrize("drive", [DRIVE, ODD])
-def test_torques_of_shaft_cam_and_crown_balance_at_every_instant(drive):
-    """Forces at the contacts, moments about the bodies' centres; the formula of the loads is not used."""
-    run = revolution(drive)
-    push = -run.normal_load[..., None] * normal_direction(drive, run.element_angle)
-    on_cam, on_crown = contact_points(drive, run.element_angle)
-    cam_centre = np.array([drive.eccentricity, 0.0])
-    cam = cross(on_cam - cam_centre, push).sum(axis=-1)
-    crown = cross(on_crown, -push).sum(axis=-1)
-    shaft = cross(cam_centre, push.sum(axis=-2))
-    torque = POWER / SPEED
-    assert -shaft == pytest.approx(torque)
-    assert -cam == pytest.approx(torque * (drive.elements - 1) / 2)
-    # the whole gear: input, load on the cam and reaction of the housing cancel
-    assert torque - cam - crown == pytest.approx(0.0, abs=1e-12 * torque * drive.elements)
+    angles = element_angles(drive, np.zeros(1))[0]
+    np.testing.assert_allclose(np.diff(angles), 2 * np.pi / drive.elements)
+    # one pitch of the crown after another
+    assert pattern_period(drive, SPEED) * (drive.elements + 1) == pytest.approx(2 * np.pi / SPEED)
 
 
 @pytest.mark.parametrize("drive", [DRIVE, ODD])
@@ -98,31 +81,6 @@ def test_speeds_are_those_of_the_bodies_at_the_contacts(drive):
     )
     in_cage = spin + SPEED / count
     assert spin_speed(drive, angle, SPEED, "corrected") == pytest.approx(np.abs(in_cage))
-
-
-@pytest.mark.parametrize("drive", [DRIVE, ODD])
-def test_energy_in_is_energy_out_and_losses(drive):
-    run = revolution(drive)
-    assert run.power_in == pytest.approx(POWER)
-    assert run.power_in - run.power_out == pytest.approx(run.power_friction, rel=1e-9)
-    assert (run.power_cam >= 0).all()
-    assert (run.power_crown >= 0).all()
-    assert (run.efficiency < 1).all()
-
-
-@pytest.mark.parametrize("drive", [DRIVE, ODD])
-def test_the_pattern_repeats_with_the_element_pitch(drive):
-    samples = 40
-    run = revolution(drive, samples)
-    np.testing.assert_allclose(np.diff(run.element_angle[0]), 2 * np.pi / drive.elements)
-    for name in ("normal_load", "power_cam", "slip_speed"):
-        values = getattr(run, name)
-        # against the count, because the elements move towards the depression
-        moved = np.roll(values[samples:], -1, axis=1)
-        assert moved == pytest.approx(values[:-samples], abs=1e-9 * np.abs(values).max())
-    total = run.power_friction
-    assert total[samples:] == pytest.approx(total[:-samples])
-    assert pattern_period(drive, SPEED) * (drive.elements + 1) == pytest.approx(2 * np.pi / SPEED)
 
 
 def test_load_passes_from_element_to_element():

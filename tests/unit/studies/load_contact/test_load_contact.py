@@ -14,7 +14,6 @@ from tribodyn.compliance.sharing.load_sharing import (
 from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
-from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 
 PITCH_RADIUS, ANGLE = 27e-3, np.radians(20.0)
@@ -79,27 +78,6 @@ def test_stiffness_does_not_depend_on_the_mesh(pair):
     assert (level[1] - level[2]) / (level[2] - level[3]) > (1 - 2**-1.5) / (2**-1.5 - 3**-1.5)
 
 
-@pytest.mark.slow
-def test_two_refinements_change_the_stiffness_by_less_than_a_fifth_of_a_per_cent(pair):
-    found = [
-        stiffness_at_pitch_point(flexibility(pair.assembly, pair.materials, held=True, level=level))
-        for level in (2, 4)
-    ]
-    assert abs(found[0] / found[1] - 1) < 2e-3
-
-
-@pytest.mark.parametrize("friction", [0.0, 0.0473, 0.15])
-def test_torque_balances(pair, friction):
-    torque = 318.3
-    roll, shared = history(pair, torque, friction)
-    motion = pair_geometry(pair.assembly, roll).motion
-    side = np.sign(motion.signed_distance)
-    carried = np.sum(
-        shared.normal_load * (motion.gear_normal_arm + side * friction * motion.gear_friction_arm), axis=1
-    )
-    np.testing.assert_allclose(carried, torque, rtol=1e-9)
-
-
 def test_loads_and_deflections_agree(pair):
     roll, shared = history(pair, 318.3)
     geometry = pair_geometry(pair.assembly, roll)
@@ -122,29 +100,10 @@ def test_friction_steps_at_the_pitch_point(pair):
     np.testing.assert_allclose(shared.normal_load[:, 0] / full, [1.0213, 0.9797], atol=2e-4)
 
 
-def test_more_load_longer_contact_and_stiffer(pair):
-    ratios = [effective_contact_ratio(*history(pair, torque), PITCH) for torque in (20.0, 200.0, 2000.0)]
-    assert 1.611 < ratios[0] < ratios[1] < ratios[2]
-    light, heavy = (history(pair, torque)[1].deflection.mean() / torque for torque in (20.0, 2000.0))
-    assert heavy < light
-
-
 def test_vanishing_load_leaves_the_theoretical_contact_ratio(pair):
     assert effective_contact_ratio(*history(pair, 0.01, positions=2000), PITCH) == pytest.approx(
         1.6111, abs=4e-3
     )
-
-
-def test_equal_gears_share_symmetrically():
-    body = GearBody(24, 0.0, 1.0, 1.25, 0.25, WIDTH, 15e-3)
-    twins = flexibility(assemble(FAMILY, Drive(3e-3, ANGLE, body, body)), (STEEL, STEEL), level=1)
-    pitch = 2 * np.pi / 24
-    roll = extended_rolls(twins.assembly, (-pitch, pitch), 240)
-    shared = LoadedFlanks(twins).share(roll, 300.0)
-    order = np.argsort(roll, axis=None)
-    angle, load = roll.ravel()[order], shared.normal_load.ravel()[order]
-    np.testing.assert_allclose(angle, -angle[::-1], atol=1e-9)
-    np.testing.assert_allclose(load, load[::-1], atol=1e-6 * load.max())
 
 
 def test_neighbours_are_coupled_symmetrically_and_less_than_a_pair_with_itself(pair):

@@ -57,12 +57,3 @@ def test_gap_beside_a_hertz_contact(x):
     assert hertz_gap(np.array([x]))[0] == pytest.approx(exact, rel=1e-9)
     assert hertz_gap(np.array([0.0, 0.7, -0.99])) == pytest.approx(0.0)
     assert quad(lambda s: math.sqrt(1.0 - s * s), -1.0, 1.0)[0] == pytest.approx(HERTZ_LOAD)
-
-
-def test_far_and_near_forms_meet():
-    """At 30 cells' distance the kernel changes from exact to expanded: no step there."""
-    node = np.array([-0.1, 0.0, 0.13])
-    around = 30.0 * 0.13 * np.array([1.0 - 1e-9, 1.0 + 1e-9])
-    value = influence(around, node)[:, 1]
-    slope = 0.115 / around[0]
-    assert value[1] - value[0] == pytest.approx(slope * (around[1] - around[0]), abs=1e-10)

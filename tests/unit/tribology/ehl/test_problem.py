@@ -44,7 +44,7 @@ def test_a_contact_is_no_wider_than_its_cylinders():
 
 
 @pytest.mark.parametrize("name", ["line_load", "radius", "entrainment_speed", "effective_modulus"])
-@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, None])
+@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf, None])
 def test_numbers_that_must_be_positive(name, value):
     assert refused(PROBLEM._replace(**{name: value})) == name
 
@@ -56,6 +56,7 @@ def test_numbers_that_must_be_positive(name, value):
         (FLUID._replace(pressure_viscosity=0.0), None),
         (FLUID._replace(viscosity_pressure_index=1.0), None),
         (FLUID._replace(viscosity=0.0), "viscosity"),
+        (FLUID._replace(viscosity=-0.1), "viscosity"),
         (FLUID._replace(pressure_viscosity=-1e-9), "pressure_viscosity"),
         (FLUID._replace(viscosity_pressure_index=0.0), "viscosity_pressure_index"),
         (FLUID._replace(viscosity_pressure_index=1.001), "viscosity_pressure_index"),
@@ -67,14 +68,16 @@ def test_oils(fluid, key):
 
 def test_sliding_and_roughness():
     assert refused(PROBLEM._replace(sliding_speed=-3.0, roughness=Roughness(1e-7, friction=0.0))) is None
-    assert refused(PROBLEM._replace(sliding_speed=math.inf)) == "sliding_speed"
+    for speed in (math.inf, math.nan):
+        assert refused(PROBLEM._replace(sliding_speed=speed)) == "sliding_speed"
     for name, key in (
         ("height", "roughness"),
         ("density", "asperity_density"),
         ("slope", "asperity_slope"),
     ):
         assert refused(PROBLEM._replace(roughness=Roughness(1e-7)._replace(**{name: 0.0}))) == key
-    assert refused(PROBLEM._replace(roughness=Roughness(1e-7, friction=-0.1))) == "asperity_friction"
+    for friction in (-0.1, math.nan):
+        assert refused(PROBLEM._replace(roughness=Roughness(1e-7, friction=friction))) == "asperity_friction"
 
 
 def test_index_of_roelands():

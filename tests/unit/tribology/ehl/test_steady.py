@@ -10,7 +10,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.tribology.ehl import steady
 from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import film_width, made, placed
-from tribodyn.tribology.ehl.reynolds import FilmState, newtonian, residual
+from tribodyn.tribology.ehl.reynolds import newtonian, residual
 from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.ehl.steady import (
     converged,
@@ -66,33 +66,6 @@ def test_load_and_flow_are_balanced():
     spike = (x > 0.8) & (x < 0.9)
     shown = (x > -2.0) & (x < 1.1) & ~spike
     np.testing.assert_allclose(flow[shown], solution.flow_film_thickness, rtol=1e-3)
-
-
-@pytest.mark.parametrize(("load", "material"), [(3.0, 0.0), (30.0, 8.0), (2000.0, 10.0)])
-def test_jacobian_is_the_derivative(load, material):
-    problem = by_moes(load, material, index=0.6, compressible=True)
-    reduced = reduced_problem(problem)
-    solution = solve_steady(problem, step=0.3)
-    grid, state = solution.grid, solution.state
-    size = len(grid.node)
-    matrix = residual(state, reduced, grid, newtonian(grid))[1]
-
-    def moved(column, by):
-        pressure = state.pressure.copy()
-        rest = [state.rigid_film, state.flow, state.end]
-        if column < size - 2:
-            pressure[1 + column] += by
-        else:
-            rest[column - size + 2] += by
-        return residual(FilmState(pressure, *rest), reduced, grid, newtonian(grid))[0]
-
-    for column in (0, 1, 5, size // 2, size - 8, size - 4, size - 3, size - 2, size - 1, size):
-        by = 1e-6 * (state.pressure[1 + column] if column < size - 2 else state.flow)
-        by = max(by, 1e-10)
-        difference = (moved(column, by) - moved(column, -by)) / (2.0 * by)
-        np.testing.assert_allclose(
-            matrix[:, column], difference, rtol=1e-4, atol=1e-4 * np.abs(difference).max()
-        )
 
 
 def test_martin():
@@ -183,13 +156,6 @@ def test_rolling_drag_of_biboulet_and_houpert():
             assert dimensionless(load, material) * load**1.5 == pytest.approx(1.45, rel=0.2)
 
 
-def test_thicker_where_faster_and_thinner_where_heavier():
-    base = REFERENCES[1][0]
-    film = solve_steady(base).central_film_thickness
-    assert solve_steady(base._replace(entrainment_speed=1.1)).central_film_thickness > film
-    assert solve_steady(base._replace(line_load=220e3)).central_film_thickness < film
-
-
 def test_a_contact_by_way_of_thinner_oils():
     """Where Newton's method does not reach it at once the pressure-viscosity coefficient is raised."""
     problem = by_moes(26585.0, 48.7, 0.7e9, 0.3, True)
@@ -259,31 +225,10 @@ def test_what_a_solution_says_of_itself():
     assert found.minimum_film_thickness == pytest.approx(found.film_thickness[near], rel=0.02)
 
 
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("entrainment_speed", 0.0),
-        ("entrainment_speed", -1.0),
-        ("line_load", 0.0),
-        ("radius", -0.01),
-        ("effective_modulus", math.nan),
-        ("line_load", math.inf),
-        ("sliding_speed", math.nan),
-    ],
-)
-def test_values_without_a_meaning(name, value):
-    problem = REFERENCES[0][0]._replace(**{name: value})
+def test_a_contact_without_a_meaning_is_refused():
     with pytest.raises(InputError) as caught:
-        solve_steady(problem)
-    assert caught.value.key == name
-
-
-@pytest.mark.parametrize(("name", "value"), [("viscosity", -0.1), ("pressure_viscosity", -1e-9)])
-def test_oils_without_a_meaning(name, value):
-    problem = REFERENCES[0][0]
-    with pytest.raises(InputError) as caught:
-        solve_steady(problem._replace(fluid=problem.fluid._replace(**{name: value})))
-    assert caught.value.key == name
+        solve_steady(REFERENCES[0][0]._replace(line_load=math.inf))
+    assert caught.value.key == "line_load"
 
 
 def test_cold_oil():

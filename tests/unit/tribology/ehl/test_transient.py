@@ -11,8 +11,8 @@ from tests.support.line_contacts import REFERENCES, by_moes
 from tribodyn.errors import SimulationError
 from tribodyn.tribology.ehl import transient
 from tribodyn.tribology.ehl.fluid import log_viscosity, relative_density
-from tribodyn.tribology.ehl.reynolds import Snapshot, Squeeze, newtonian, residual
-from tribodyn.tribology.ehl.rough import Roughness, rough_residual
+from tribodyn.tribology.ehl.reynolds import Snapshot
+from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.ehl.steady import grid_of, solve_steady
 from tribodyn.tribology.ehl.transient import Instant, march
 
@@ -184,39 +184,6 @@ def test_a_load_step_decays_as_smaller_steps_say(factor):
         assert abs(departure[-1]) < 0.05
 
 
-def flow(solution):
-    """ρ/ρ0 (u h − h³/(12 η) dp/dx) in the middle between nodes, m²/s."""
-    problem, place, pressure = solution.problem, solution.place, solution.pressure
-    middle, p, h = (0.5 * (a[1:] + a[:-1]) for a in (place, pressure, solution.film_thickness))
-    viscosity = problem.fluid.viscosity * np.exp(log_viscosity(p, problem.fluid)[0])
-    slope = np.diff(pressure) / np.diff(place)
-    density = relative_density(p, problem.fluid)[0]
-    return middle, density * (problem.entrainment_speed * h - h**3 / (12.0 * viscosity) * slope)
-
-
-def test_mass_is_conserved():
-    """Between a place in the inlet that stands still and the end of the film: inflow − outflow = change."""
-    at = swaying(SMOOTH, 8.0 * TRANSIT)
-    steps = 80
-    solutions = marched(at, 5.0 * TRANSIT, steps, 0.1)
-    inlet = -1.3 * SMOOTH.half_width
-    mass, inflow, end, behind = [], [], [], []
-    for solution in solutions:
-        density = relative_density(solution.pressure, solution.problem.fluid)[0] * solution.film_thickness
-        inside = solution.place > inlet
-        place = np.concatenate([[inlet], solution.place[inside]])
-        mass.append(np.trapezoid(np.interp(place, solution.place, density), place))
-        inflow.append(np.interp(inlet, *flow(solution)))
-        end.append(solution.place[-1])
-        behind.append(solution.film_thickness[-1])
-    time = np.linspace(0.0, 5.0 * TRANSIT, steps + 1)
-    speed = np.array([solution.problem.entrainment_speed for solution in solutions])
-    outflow = np.array(behind) * (speed - np.gradient(np.array(end), time))
-    change = np.trapezoid(np.array(inflow) - outflow, time)
-    assert abs(change) > 0.1 * np.trapezoid(inflow, time)
-    assert change == pytest.approx(mass[-1] - mass[0], rel=4e-3)
-
-
 def rigid_approach(gap, problem):
     """−dh_0/dt of rigid isoviscous cylinders at h_0: p' = 12 η [u (x² − e²)/2R − V (x − e)]/h³, e the end.
 
@@ -265,34 +232,6 @@ def test_rigid_cylinders_squeeze_the_oil_as_their_closed_form():
     assert solutions[-1].central_film_thickness == pytest.approx(gap, rel=5e-3)
     steady = solve_steady(at(end).problem).central_film_thickness
     assert solutions[-1].central_film_thickness > 1.05 * steady
-
-
-@pytest.mark.parametrize("problem", [SMOOTH, ROUGH], ids=["smooth", "rough"])
-def test_jacobian_is_the_derivative(problem):
-    solution = solve_steady(problem, step=0.4)
-    grid, state, reduced = solution.grid, solution.state, solution.reduced
-    of = residual if problem.roughness is None else rough_residual
-    rng = np.random.default_rng(1)
-    squeeze = Squeeze(3.0, 0.1 * rng.random(grid.end + 1), 3.0 * rng.random(grid.end + 1))
-
-    def values(by):
-        pressure = state.pressure.copy()
-        inner = grid.end - 1
-        pressure[1 : grid.end] += by[:inner]
-        films = None if state.film is None else state.film + by[inner:-3]
-        moved = state._replace(pressure=pressure, film=films)
-        rigid, flowing, end = by[-3:]
-        moved = moved._replace(
-            rigid_film=state.rigid_film + rigid, flow=state.flow + flowing, end=state.end + end
-        )
-        return of(moved, reduced, grid, newtonian(grid), squeeze)  # pyright: ignore[reportArgumentType]
-
-    matrix = values(np.zeros(grid.end + 2 + (0 if state.film is None else len(grid.node))))[1]
-    for _ in range(4):
-        way = rng.standard_normal(len(matrix)) * 1e-7
-        way[: grid.end - 1] *= state.pressure[1 : grid.end]
-        difference = 0.5 * (values(way)[0] - values(-way)[0])
-        np.testing.assert_allclose(matrix @ way, difference, atol=1e-3 * np.abs(difference).max())
 
 
 def test_a_contact_that_cannot_be_reached_stops():
