@@ -16,7 +16,7 @@ import numpy as np
 from tools.marked_block import DOCS, ROOT, put, table
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.input.tables.oil.lubricant import Lubricant, lubricant_of
+from tribodyn.input.tables.lubricant import Lubricant, lubricant_of
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import NominalConditions, Surfaces, local_contact
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled

@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 
 import tribodyn as td
 from tools.marked_block import PICTURES
-from tribodyn.post.page.pdf import run_browser
+from tribodyn.post.page.document import run_browser
 
 
 def main() -> None:

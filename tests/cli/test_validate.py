@@ -50,7 +50,7 @@ def test_a_paper_without_figures_says_so_before_it_runs(tmp_path: Path):
 @pytest.mark.parametrize("paper", [name for name, paper in PAPERS.items() if paper.figures])
 def test_pictures_are_named_after_the_papers_figures(paper: str):
     """Several of one figure have a part of their own at the end."""
-    names = tribodyn.validation.figure_names(paper)
+    names = tribodyn.validation.figures_of(paper)
     assert len(names) >= 5
     assert len(set(names)) == len(names)
     assert [name for name in names if not re.fullmatch(r"figure-[1-9]\d?(-[a-z-]+)?", name)] == []

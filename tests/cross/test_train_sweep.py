@@ -10,8 +10,8 @@ import tribodyn as td
 from tests.support.planet_sets import planet_set
 from tribodyn.errors import InputError
 from tribodyn.grid.grid import Grid
-from tribodyn.post.figures.sweep.branch import branches
-from tribodyn.post.figures.sweep.spectra import order_amplitudes
+from tribodyn.post.figures.sweep_branch import branches
+from tribodyn.post.figures.sweep_spectra import order_amplitudes
 from tribodyn.record.sweep_reader import SweepRecord, sweeps_of_meshes
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies.motion.batch import BATCH

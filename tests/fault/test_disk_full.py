@@ -15,7 +15,7 @@ from tests.support.record_samples import SWEEP_HEAD, block, gear_pair_writer, ge
 from tests.support.soak_parameters import all_in_soak
 from tribodyn.errors import OutputError
 from tribodyn.numerics.files import cache
-from tribodyn.record.files import disk
+from tribodyn.record import disk
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE

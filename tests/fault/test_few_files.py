@@ -14,7 +14,7 @@ RECORD = next(iter(sorted((Path(__file__).parents[1] / "fixtures").rglob("*.h5")
 SCRIPT = """
 import os, resource, sys
 from tribodyn.errors import InputError
-from tribodyn.record.files import soundness
+from tribodyn.record import soundness
 from tribodyn.record.sweep_reader import open_any
 
 def read():

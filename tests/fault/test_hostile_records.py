@@ -15,8 +15,7 @@ from tests.support.record_samples import block, gear_pair_writer, geometry
 from tests.support.verbs import complaint
 from tribodyn.errors import InputError
 from tribodyn.post.page.sensors import sensed_section
-from tribodyn.record import schema
-from tribodyn.record.files import guarded_read, soundness
+from tribodyn.record import schema, soundness
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import Sensed, SensorSignal, write_sensed
 from tribodyn.record.sweep_reader import open_any
@@ -156,10 +155,8 @@ def test_a_sound_that_would_not_end_or_not_begin_is_refused(shift: str, path: Pa
 
 def test_a_look_ends_by_the_processor_too(path: Path, monkeypatch):
     """Where HDF5 goes around in circles; other work beside it counts for nothing."""
-    monkeypatch.setattr(guarded_read, "PROCESSOR_LIMIT", 0.1)
-    assert guarded_read.forked(counts_without_end, path).startswith(
-        "reading it did not end within 0.1 s of the"
-    )
+    monkeypatch.setattr(soundness, "PROCESSOR_LIMIT", 0.1)
+    assert soundness.forked(counts_without_end, path).startswith("reading it did not end within 0.1 s of the")
 
 
 def counts_without_end(path: Path) -> str:
@@ -226,9 +223,9 @@ def dies(path: Path) -> str:
 
 
 def test_a_structure_without_end_is_given_up(path: Path, monkeypatch):
-    monkeypatch.setattr(guarded_read, "TIME_LIMIT", 0.3)
+    monkeypatch.setattr(soundness, "TIME_LIMIT", 0.3)
     monkeypatch.setattr(soundness, "unsound", never_ends)
-    monkeypatch.setattr(guarded_read, "through_a_child", guarded_read.forked)
+    monkeypatch.setattr(soundness, "through_a_child", soundness.forked)
     with pytest.raises(InputError, match="did not end within"):
         open_any(path)
 
@@ -236,16 +233,16 @@ def test_a_structure_without_end_is_given_up(path: Path, monkeypatch):
 @needs_fork
 def test_a_crash_of_the_library_is_not_ours(path: Path, monkeypatch):
     monkeypatch.setattr(soundness, "unsound", dies)
-    monkeypatch.setattr(guarded_read, "through_a_child", guarded_read.forked)
+    monkeypatch.setattr(soundness, "through_a_child", soundness.forked)
     with pytest.raises(InputError, match="HDF5 crashes on it"):
         open_any(path)
 
 
 def test_a_good_record_is_looked_through_once(path: Path, monkeypatch):
     looked = []
-    original = guarded_read.through_a_child
+    original = soundness.through_a_child
     monkeypatch.setattr(
-        guarded_read, "through_a_child", lambda look, path: looked.append(path) or original(look, path)
+        soundness, "through_a_child", lambda look, path: looked.append(path) or original(look, path)
     )
     for _ in range(3):
         with Record(path) as record:
@@ -259,14 +256,14 @@ def test_a_good_record_is_looked_through_once(path: Path, monkeypatch):
 @pytest.fixture
 def kept():
     """Processes that are kept for looks end with the test."""
-    yield guarded_read._kept
-    while guarded_read._processes:
-        guarded_read._processes.popitem()[1].end()
+    yield soundness._kept
+    while soundness._processes:
+        soundness._processes.popitem()[1].end()
 
 
 @needs_fork
 def test_all_ways_of_looking_agree(path: Path, kept):
-    ways = (guarded_read.forked, lambda look, path: look(path), lambda look, path: kept(look).answer(path))
+    ways = (soundness.forked, lambda look, path: look(path), lambda look, path: kept(look).answer(path))
     for way in ways:
         assert way(soundness.unsound, path) == ""
     damage(path, "external link")
@@ -277,13 +274,13 @@ def test_all_ways_of_looking_agree(path: Path, kept):
 @needs_fork
 def test_a_process_that_is_kept_survives_what_it_looks_at(path: Path, kept, monkeypatch):
     process = kept(dies)
-    assert process.answer(path) == process.answer(path) == guarded_read.CRASHED
+    assert process.answer(path) == process.answer(path) == soundness.CRASHED
     assert kept(dies) is process
     process._process.kill()
-    assert process.answer(path) == guarded_read.CRASHED
+    assert process.answer(path) == soundness.CRASHED
     assert kept(dies) is not process
-    monkeypatch.setattr(guarded_read, "START_LIMIT", 0.2)
-    monkeypatch.setattr(guarded_read, "TIME_LIMIT", 0.2)
+    monkeypatch.setattr(soundness, "START_LIMIT", 0.2)
+    monkeypatch.setattr(soundness, "TIME_LIMIT", 0.2)
     assert "did not end within" in kept(never_ends).answer(path)
 
 

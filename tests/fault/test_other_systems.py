@@ -64,7 +64,7 @@ for words in json.loads(sys.argv[1]):
     except SystemExit as end:
         assert not end.code, words
 import tribodyn as td
-from tribodyn.record.files import guarded_read, soundness
+from tribodyn.record import soundness
 
 soundness._own.clear()
 found = []
@@ -72,9 +72,9 @@ thread = threading.Thread(target=lambda: found.append(td.open("run.h5").summary[
 thread.start()
 thread.join()
 assert found
-guarded_read.TIME_LIMIT = guarded_read.START_LIMIT = 1.0
+soundness.TIME_LIMIT = soundness.START_LIMIT = 1.0
 os.mkfifo("pipe")
-assert "did not end" in guarded_read.through_a_child(open, Path("pipe"))  # which waits for a writer
+assert "did not end" in soundness.through_a_child(open, Path("pipe"))  # which waits for a writer
 """
 
 
@@ -102,7 +102,7 @@ def test_a_scenario_a_sweep_and_a_search(tmp_path: Path, forked: ForkedVerbs):
     )
     assert ended.returncode == 0, ended.stderr
     processes = started.read_text(encoding="utf-8")
-    assert "tribodyn.record.files.guarded_read:serve" in processes
+    assert "tribodyn.record.soundness:serve" in processes
     if usable_cores() > 1:
         assert "tribodyn.cli.pictures:serve" in processes
         assert "tribodyn.studies.design.candidates.evaluation:serve" in processes

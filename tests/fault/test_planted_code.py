@@ -11,7 +11,7 @@ from tests.support.cheap_searches import SEARCH
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.short_studies import shortened, written_template
 from tests.support.soak_parameters import all_in_soak
-from tribodyn.post.page import pdf
+from tribodyn.post.page import document
 
 #: Modules of Python, of the packages that are used, and of those that Python imports by itself.
 NAMES = sorted(
@@ -31,7 +31,7 @@ VERBS: tuple[tuple[str, ...], ...] = (
     ("design", "search.toml", "-o", "design.h5", "--force", "--no-plot"),
     ("show", "one.h5"),
     ("plot", "one.h5", "two.h5"),
-    ("report", "one.h5", "-o", "one.html", *(["--pdf"] if pdf.browser() else [])),
+    ("report", "one.h5", "-o", "one.html", *(["--pdf"] if document.browser() else [])),
     ("compare", "one.h5", "two.h5"),
     ("sweep", "efficiency-involute-18-36", "--vary", "operating.gear_torque=100:200:50N*m", "-o", "sweep.h5"),
     ("check", "crc-23-47"),

@@ -14,8 +14,8 @@ import pytest
 from tests.support.cheap_searches import SEARCH
 from tests.support.soak_parameters import all_in_soak
 from tests.support.verbs import ROOT, complaint, invoke
-from tribodyn.record.files.writing_lock import WritingLock
 from tribodyn.record.reader import Record
+from tribodyn.record.target import WritingLock
 from tribodyn.studies.protocol.load import load
 from tribodyn.studies.protocol.run import run
 

@@ -11,11 +11,11 @@ import pytest
 
 from tests.support.verbs import complaint, invoke
 from tribodyn.errors import InputError
-from tribodyn.record.files.writing_lock import WritingLock, lock_path, refuse_if_written
+from tribodyn.record.target import WritingLock, lock_path, refuse_if_written
 from tribodyn.record.writer import check_target
 
 HOLD = (
-    "import sys\nfrom pathlib import Path\nfrom tribodyn.record.files.writing_lock import WritingLock\n"
+    "import sys\nfrom pathlib import Path\nfrom tribodyn.record.target import WritingLock\n"
     "held = WritingLock(Path(sys.argv[1]))\nprint('held', flush=True)\nsys.stdin.read()\n"
 )
 SHORT = ("--set", "output.samples_per_cycle=40")

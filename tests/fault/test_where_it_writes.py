@@ -7,8 +7,8 @@ import pytest
 
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.errors import InputError
-from tribodyn.record.files.writing_lock import lock_path, scratch_path
 from tribodyn.record.reader import Record
+from tribodyn.record.target import lock_path, scratch_path
 
 PRECIOUS = b"precious"
 #: Greater than any number of a process.

@@ -21,7 +21,7 @@ from tests.support.wrong_records import changed, changes, drawn
 from tribodyn.errors import InputError
 from tribodyn.post.style import house_style
 from tribodyn.post.sweep_report import sweep_as_json
-from tribodyn.record.files import soundness
+from tribodyn.record import soundness
 from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
 from tribodyn.studies import pages as of
@@ -99,7 +99,7 @@ def check(path: Path, good: Path, number: int | None = None) -> None:
 
 def no_child(monkeypatch: pytest.MonkeyPatch) -> None:
     """Look through files in this process: none of these is harmful to HDF5, and a child costs a fork each."""
-    monkeypatch.setattr(soundness.guarded_read, "through_a_child", lambda look, path: look(path))
+    monkeypatch.setattr(soundness, "through_a_child", lambda look, path: look(path))
 
 
 @pytest.mark.parametrize("name", SAMPLES)

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tribodyn.post.page import pdf
+from tribodyn.post.page import document
 
 needs_browser = pytest.mark.skipif(
-    pdf.browser() is None, reason="no browser: install Chromium (apt-get install chromium)"
+    document.browser() is None, reason="no browser: install Chromium (apt-get install chromium)"
 )
 
 
@@ -29,7 +29,7 @@ def unpacked(text: str, kind: str = "<f4") -> np.ndarray:
 
 def shown(address: str, *options: str) -> str:
     """The document as the browser has it in the end; no error on its console."""
-    ended = pdf.run_browser(
+    ended = document.run_browser(
         "--dump-dom", "--enable-logging=stderr", "--window-size=1200,1000", *options, address
     )
     assert ended.returncode == 0

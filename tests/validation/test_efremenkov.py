@@ -5,7 +5,7 @@ import pytest
 import tribodyn as td
 from tribodyn.post.style import house_style
 from tribodyn.validation import PAPERS, validate
-from tribodyn.validation.papers.efremenkov_figures import FIGURES
+from tribodyn.validation.papers.efremenkov import FIGURES
 from tribodyn.validation.rows import PASS
 
 

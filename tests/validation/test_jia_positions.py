@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.validation.papers.jia_positions import Passage, positions
+from tribodyn.validation.papers.jia import Passage, positions
 
 ROLL = np.linspace(-0.4, 0.5, 91)
 

@@ -29,7 +29,7 @@ class CaseHead:
     #: overrides applied); loading it gives this case again
     toml: str
     sha256: str  # digest of `toml`
-    #: of a record that is named after its scenario: the scenario's file, see `record.files.previous.Origin`
+    #: of a record that is named after its scenario: the scenario's file, see `record.target.Origin`
     scenario_file: str = field(default="", kw_only=True, compare=False)
 
     @property
@@ -110,7 +110,7 @@ def target(case: CaseHead, output: str | Path | None, force: bool, resumed: bool
 
     A complete record beside what is `resumed` is kept as the previous one.
     """
-    from tribodyn.record.files.previous import Origin, keep_previous
+    from tribodyn.record.target import Origin, keep_previous
     from tribodyn.record.writer import check_target
 
     path, origin = record_path(case, output), Origin(case.kind, case.scenario_file)

@@ -25,7 +25,7 @@ def _main() -> None:
     import sys
 
     from tribodyn.numerics.processes.child import safe_path
-    from tribodyn.numerics.processes.library_settings import ignore_settings
+    from tribodyn.numerics.processes.libraries import ignore_settings
 
     # `python -m` and an empty entry of PYTHONPATH would import from the current folder
     sys.path[:] = safe_path()

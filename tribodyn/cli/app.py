@@ -7,7 +7,7 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from tribodyn.cli import assess, compare, gear, plot, report, run, scenario, show, signals, sweep, validate
+from tribodyn.cli import assess, compare, gear, records, run, scenario, signals, sweep, validate
 from tribodyn.cli import list as list_
 from tribodyn.cli.outcome import verb
 
@@ -61,9 +61,9 @@ for function, examples in (
     (sweep.sweep, sweep.EXAMPLES),
     (scenario.check, scenario.CHECK_EXAMPLES),
     (gear.gear, gear.EXAMPLES),
-    (show.show, show.EXAMPLES),
-    (plot.plot, plot.EXAMPLES),
-    (report.report, report.EXAMPLES),
+    (records.show, records.SHOW_EXAMPLES),
+    (records.plot, records.PLOT_EXAMPLES),
+    (records.report, records.REPORT_EXAMPLES),
     (signals.listen, signals.LISTEN_EXAMPLES),
     (signals.signals, signals.SIGNALS_EXAMPLES),
     (compare.compare, compare.EXAMPLES),

@@ -43,10 +43,10 @@ def assess(
     from tribodyn.cli.printing import print_files, print_json, print_rich, write_json
     from tribodyn.errors import InputError
     from tribodyn.numerics.files.output_files import check_output, make_folder
-    from tribodyn.post.page.pdf import print_page, require_browser
+    from tribodyn.post.page.document import print_page, require_browser
     from tribodyn.post.progress import progress_bar
-    from tribodyn.record.files.previous import watched
     from tribodyn.record.reader import Record
+    from tribodyn.record.target import watched
     from tribodyn.studies import STUDIES
     from tribodyn.studies.pages import summary_json, summary_table, write_report
     from tribodyn.studies.protocol.load import load

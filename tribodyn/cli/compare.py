@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tribodyn.cli.options import JsonOption, LargeOption, SetOption, overrides, scenarios_and_records
-from tribodyn.cli.plot import Format
+from tribodyn.cli.records import Format
 from tribodyn.numerics.files.output_files import make_folder
 
 if TYPE_CHECKING:

@@ -156,7 +156,7 @@ def serve() -> None:
     import tribodyn.post.progress
     import tribodyn.studies.pages  # noqa: F401
     from tribodyn.post.figures.over_mesh import prepare_overview
-    from tribodyn.record.files.soundness import remember_own
+    from tribodyn.record.soundness import remember_own
 
     prepare_overview()
     line = sys.stdin.readline()

@@ -105,7 +105,7 @@ def run_loaded(
     from tribodyn.cli.printing import print_json, print_rich
     from tribodyn.errors import InputError, SimulationError
     from tribodyn.numerics.files.output_files import check_output
-    from tribodyn.record.files.previous import watched
+    from tribodyn.record.target import watched
     from tribodyn.record.withheld_efficiency import warnings
 
     require_one_way(resume=resume, force=force)

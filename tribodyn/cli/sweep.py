@@ -157,9 +157,9 @@ def sweep(
     from tribodyn.input.sources import file_name
     from tribodyn.post.progress import progress_bar
     from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
-    from tribodyn.record.files.previous import watched
     from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.record.sweep_schema import DIRECTIONS
+    from tribodyn.record.target import watched
     from tribodyn.studies.pages import sweep_table
 
     if steady and transient is not None:

@@ -39,7 +39,7 @@ def validate(
     from tribodyn.validation.rows import SHOWN, counted, counts
 
     if plots is not None:
-        for name in validation.figure_names(paper):
+        for name in validation.figures_of(paper):
             check_output(validation.picture_path(paper, name, plots), force)
     for folder in (output, plots):
         if folder is not None:

@@ -15,8 +15,7 @@ from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.geometry.helix import as_written, from_written
 from tribodyn.input.specific_keys import si_unit
 from tribodyn.input.tables.gears.drive_data import rounded_distance_of
-from tribodyn.input.tables.gears.internal_gear import rim_radius
-from tribodyn.input.tables.gears.tooth_data import USUAL_BORE
+from tribodyn.input.tables.gears.tooth_data import USUAL_BORE, rim_radius
 from tribodyn.input.units import Kind
 from tribodyn.input.vary import kind_at
 from tribodyn.numerics.elementary import namespace

@@ -14,8 +14,8 @@ from tribodyn.geometry.drive import Side
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.path import radius
-from tribodyn.input.tables.gears.damage import EDGE, DamageTable, GearPlace, MissingTable, angles_of
 from tribodyn.input.tables.gears.drive_data import drive_of
+from tribodyn.input.tables.gears.single_teeth import EDGE, DamageTable, GearPlace, MissingTable, angles_of
 
 #: Angle of a crack to the tooth's axis that the formula is for, and how far it leans to either side.
 _LEAST_ANGLE, _LARGEST_ANGLE = pi / 6, pi / 2

@@ -16,6 +16,7 @@ from tribodyn.gears.supports import displaced, has_supports, supports_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.fields import Slices, head_of
 from tribodyn.input.quantity import Switch, defaults_written_out, model_file
+from tribodyn.input.tables.bearings import Bearings, broken_bearing_rules
 from tribodyn.input.tables.duty import SpectrumScenario, duty_of, unnamed_duty
 from tribodyn.input.tables.gears.drive_data import masses_of, teeth_of
 from tribodyn.input.tables.gears.drive_rules import (
@@ -27,7 +28,6 @@ from tribodyn.input.tables.gears.drive_rules import (
     modifications_of,
     slices_of,
 )
-from tribodyn.input.tables.gears.internal_gear import broken_internal_runs, internal_refused
 from tribodyn.input.tables.gears.model_files import DriveTable, GearboxTable, MisalignmentTable
 from tribodyn.input.tables.gears.quality import (
     DeviationSample,
@@ -38,6 +38,7 @@ from tribodyn.input.tables.gears.quality import (
     with_sample,
 )
 from tribodyn.input.tables.gears.single_teeth import broken_own_teeth, teeth_alike
+from tribodyn.input.tables.gears.tooth_data import broken_internal_runs, internal_refused
 from tribodyn.input.tables.laws import FilmTable, film_of, law_values
 from tribodyn.input.tables.losses import (
     LossesTable,
@@ -47,9 +48,8 @@ from tribodyn.input.tables.losses import (
     losses_of,
     temperature_of,
 )
-from tribodyn.input.tables.oil.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
-from tribodyn.input.tables.supports.bearings import Bearings, broken_bearing_rules
-from tribodyn.input.tables.supports.shafts import Shafts, broken_shafts, drawn_shafts, listed
+from tribodyn.input.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
+from tribodyn.input.tables.shafts import Shafts, broken_shafts, drawn_shafts, listed
 from tribodyn.mesh.table import MeshData
 from tribodyn.tribology.law import AUTO, FilmData, FrictionData
 

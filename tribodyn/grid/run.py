@@ -69,7 +69,7 @@ def run(
     The `settings` are from `settings_of`, the `refinement` from `refinement_of`. `directions` are senses to
     follow the first parameter in, none: every case begins by itself; `unstable` continues branches beyond the
     ends of their stable parts. `force` replaces a record, `resume` goes on with what an unfinished sweep
-    left; `allow_large`: see `grid.plan`; `scenario_file`: see `record.files.previous.Origin`; of a
+    left; `allow_large`: see `grid.plan`; `scenario_file`: see `record.target.Origin`; of a
     `data_set` the grid is `grid.hearing`.
     """
     if data_set and (directions or unstable or refinement):

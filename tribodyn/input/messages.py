@@ -1,4 +1,4 @@
-"""One clear line for every mistake: pydantic's findings, and where the value at fault stands."""
+"""One clear line for every mistake: pydantic's findings, gears that are not modelled, where it stands."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
@@ -10,12 +10,84 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from tribodyn.errors import InputError, InputErrors, near_name, printable, quoted
-from tribodyn.input import scope
 from tribodyn.input.names import OF_PAIR, speaks_of_pair, worded
 from tribodyn.input.quantity import Reference, meaning
 from tribodyn.input.schema import fields_of, holds_by_name, inner_tables, table_at
 from tribodyn.input.unit_grammar import range_for_one
 from tribodyn.input.units import base_units
+
+INTERNAL, STAGES, HELIX, PLANETS = "internal gears", "several stages", "a helix", "planetary gears"
+#: What is asked for -> the keys and names that ask for it, and what to do about it.
+_OUTSIDE = {
+    "double helical gears": (r"herringbone|double_?heli", "describe one half of it, with helix_angle"),
+    HELIX: (
+        r"helix|helical|^beta(_|$)",
+        'write helix_angle = "20 deg" in [drive] of a gear pair, and hand = "left" of a left-hand pinion',
+    ),
+    INTERNAL: (
+        r"^internal(_(gears?|teeth|mesh))?$|annulus|^ring(_|$)",
+        "write internal = true in [drive.gear], and all numbers of teeth and lengths without sign",
+    ),
+    PLANETS: (
+        r"planet|epicyclic|^(sun|carrier)s?(_|$)",
+        'write a [[stage]] of type = "planetary" in a scenario of the kind for trains (tribodyn list kinds)',
+    ),
+    STAGES: (
+        r"multi_?stage|^((n|number_of)_)?(stage|shaft|gearbox|gear_?train|train|idler|gears|mesh(es)?|"
+        r"((pinion|gear|wheel)_?\d+))(e?s)?(_?\d+)?$",
+        "write [gear.NAME] and [[stage]] in a scenario of the kind for trains (tribodyn list kinds), "
+        "or describe one stage as [drive.pinion] and [drive.gear]",
+    ),
+    "bevel, worm and hypoid gears": (r"bevel|worm|hypoid|(cone|shaft|spiral)_angle", "omit it"),
+}
+#: What to do about a helix in a scenario that has several stages.
+_STAGED_HELIX = (
+    'write helix_angle = "20 deg" in its [[stage]], and hand = "left" in [gear.NAME] of a left-hand gear'
+)
+
+
+def outside(error: InputError, *names: str, remedy: str = "", but: tuple[str, ...] = ()) -> InputError | None:
+    """What to say in place of an unknown key or name that asks for other gears; None where it does not.
+
+    `names` are the key's last part, or the name, and others that may ask for them; `but` is what the scenario
+    may ask for.
+    """
+    plain = [re.sub(r"[\s-]+", "_", name.strip().lower()) for name in names]
+    for what, (pattern, _) in _OUTSIDE.items():
+        if what not in but and any(re.search(pattern, name) for name in plain):
+            helix = _STAGED_HELIX if STAGES in but else _OUTSIDE[HELIX][1]
+            return refusal(error, what, helix if what == HELIX else remedy)
+    return None
+
+
+#: What to say of gears that are modelled, but not there or not by that name; of others that they are not.
+_RULES = {
+    STAGES: f"{STAGES} are of another kind of study",
+    HELIX: "the key of a helix is helix_angle, of both gears together",
+    INTERNAL: "the key of an internal gear is internal, of the gear that it is",
+    PLANETS: f"{PLANETS} are a stage of a train",
+}
+
+
+def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
+    """What to say, in place of an error, of a value that asks for gears which its kind of study has not."""
+    rule = _RULES.get(what, f"{what} are not modelled: this version computes spur and helical gears")
+    if what in (STAGES, INTERNAL, PLANETS) or not (remedy or what == HELIX):
+        remedy = _OUTSIDE[what][1]
+    parts = error.key.split(".")
+    if what == INTERNAL and len(parts) > 2 and parts[-3] == "gear":  # of a train
+        remedy = remedy.replace("[drive.gear]", f"[{'.'.join(parts[:-1])}]")
+    return InputError(error.key, error.value, rule, remedy, error.file)
+
+
+def names_gears(name: str, value: Any) -> bool:
+    """Whether an unknown key is a table of a train: [gear.NAME], [[body]] or [[link]]."""
+    if name == "gear":
+        return (
+            isinstance(value, dict) and bool(value) and all(isinstance(one, dict) for one in value.values())
+        )
+    return name in ("body", "link") and isinstance(value, list)
+
 
 Key = tuple[str | int, ...]
 #: What is wrong with a key that a table does not know; its remedy has the name that was nearly written.
@@ -155,15 +227,14 @@ def _outside(detail: dict[str, Any], error: InputError, several: bool) -> InputE
     name, value = str(detail["loc"][-1]), detail["input"]
     if detail["type"] == "extra_forbidden":
         named = value if isinstance(value, str) and len(value.split()) < 3 else ""  # type = "planetary"
-        if not several and scope.names_gears(name, value):
-            return scope.refusal(error, scope.STAGES)
-        stage = (scope.PLANETS,) if detail["loc"][0] == "stage" else ()
-        return scope.outside(error, name, named, but=(scope.STAGES, *stage) if several else ())
-    fewest = detail.get("ctx", {}).get(
-        "ge"
-    )  # a number of teeth that only the sign of internal gears excludes
+        if not several and names_gears(name, value):
+            return refusal(error, STAGES)
+        stage = (PLANETS,) if detail["loc"][0] == "stage" else ()
+        return outside(error, name, named, but=(STAGES, *stage) if several else ())
+    fewest = detail.get("ctx", {}).get("ge")
+    # a number of teeth that only the sign of internal gears excludes
     if name == "teeth" and fewest is not None and value <= -fewest:
-        return scope.refusal(error, scope.INTERNAL)
+        return refusal(error, INTERNAL)
     return None
 
 

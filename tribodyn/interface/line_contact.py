@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.input.tables.oil.lubricant import read_lubricant
+from tribodyn.input.tables.lubricant import read_lubricant
 from tribodyn.interface.scenario import public
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid import Fluid, Rheology

@@ -231,7 +231,7 @@ class Animation:
 
 def check_teeth(records: Sequence[Record]) -> None:
     """Raise InputError for a record of which there are no teeth to roll."""
-    from tribodyn.post.page.rolling_teeth import rolling_teeth
+    from tribodyn.post.page.motion import rolling_teeth
 
     for record in records:
         if rolling_teeth(record) is None:

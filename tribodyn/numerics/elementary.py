@@ -219,3 +219,15 @@ def last_axis_of_four(table: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
         columns = np.ascontiguousarray(table[:, :, c, d].reshape(-1, 4).T)
         return tuple(columns.take(a * table.shape[1] + b, axis=1))
     return table[a, b, c, d, 0], table[a, b, c, d, 1], table[a, b, c, d, 2], table[a, b, c, d, 3]
+
+
+class StaticInt(int):
+    """A number that kernels are compiled for, e.g. the number of states, so that their loops are unrolled."""
+
+
+class Indices(tuple[int, ...]):
+    """Whole numbers by place, e.g. the bodies at the ends of links."""
+
+
+class RuntimeIndices(tuple[int, ...]):
+    """The same as kernels read them at run time; hashable, static for JAX."""

@@ -185,6 +185,11 @@ def transient(record: Record) -> bool:
     )
 
 
+def stretches(chosen: np.ndarray) -> np.ndarray:
+    """First sample and the one behind the last (stretch, 2) of each stretch in which a mask is true."""
+    return np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]]))).reshape(-1, 2)
+
+
 def in_the_middle(values: np.ndarray) -> np.ndarray:
     """An array of a mesh cycle over phase and pair; of helical gears, in the middle of the face."""
     return values if values.ndim < 3 else values[:, :, values.shape[2] // 2]

@@ -33,17 +33,14 @@ def write_signals(
     """
     signals = signals_named(record, names)
     endings = (".csv", ".wav") if as_wav else (".csv",)
-    places = [folder / f"{record.label}-{signal.name}{end}" for signal in signals for end in endings]
+    files = {folder / f"{record.label}-{signal.name}{end}": signal for signal in signals for end in endings}
     make_folder(folder)
-    for path in places:
+    for path in files:
         check_output(path, force)
-    written = []
-    for signal in signals:
-        for end in endings:
-            path = folder / f"{record.label}-{signal.name}{end}"
-            content = as_csv(signal) if end == ".csv" else as_wave(signal)
-            written.append(write_output(path, content, force=force))
-    return written
+    return [
+        write_output(path, as_csv(signal) if path.suffix == ".csv" else as_wave(signal), force=force)
+        for path, signal in files.items()
+    ]
 
 
 def as_csv(signal: SensorSignal) -> str:

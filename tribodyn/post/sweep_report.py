@@ -9,7 +9,6 @@ from rich.table import Table
 from rich.text import Text
 
 from tribodyn.post import verdict
-from tribodyn.post.sweep_peaks import peaks
 from tribodyn.quantities.catalogue import QUANTITIES, SPREAD, scatter
 from tribodyn.quantities.quantity import Quantity, shown, shown_unit
 from tribodyn.record.sweep_reader import SweepRecord
@@ -215,7 +214,7 @@ def _tail(record: SweepRecord) -> list[str]:
 
 
 def _peak_lines(record: SweepRecord) -> list[str]:
-    tops = peaks(record)
+    tops = record.peaks()
     lines = []
     for top in tops[:PEAKS_SHOWN]:
         quantity = QUANTITIES.get(top["quantity"]) or described(record, top["quantity"])
@@ -234,17 +233,15 @@ def branch_ends(record: SweepRecord) -> list[dict[str, Any]]:
     ends = []
     for place in map(tuple, np.argwhere(number > 0)):
         first = record.parameters[0].name
-        ends.append(
-            {
-                "kind": kinds[int(number[place])].replace("_", " "),
-                "at": record.at(place[:-1]) | {first: float(record["end_value"][place])},
-                "within": float(record["end_within"][place]),
-                "period": int(record["end_period"][place]),
-                "multiplier_modulus": float(record["end_multiplier_modulus"][place]),
-                "multiplier_angle": float(record["end_multiplier_angle"][place]),
-            }
-            | _beyond(record, place)
-        )
+        end = {
+            "kind": kinds[int(number[place])].replace("_", " "),
+            "at": record.at(place[:-1]) | {first: float(record["end_value"][place])},
+            "within": float(record["end_within"][place]),
+            "period": int(record["end_period"][place]),
+            "multiplier_modulus": float(record["end_multiplier_modulus"][place]),
+            "multiplier_angle": float(record["end_multiplier_angle"][place]),
+        }
+        ends.append(end | _beyond(record, place))
     return ends
 
 
@@ -321,7 +318,7 @@ def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
         "weighted_mean": {
             name: statistic for name in names if (statistic := weighted_mean(record, name)) is not None
         },
-        "peaks": peaks(record),
+        "peaks": record.peaks(),
         "ends": branch_ends(record),
         "failures": [{"at": at, "message": why} for at, why in record.failures()],
         "warnings": sweep_warnings(record),

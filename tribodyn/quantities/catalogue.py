@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.quantities import bearings, load, losses, motion, signals, single_studies, wear
+from tribodyn.quantities import load, losses, motion, single_studies
 from tribodyn.quantities.quantity import Quantity
 
-QUANTITIES: Mapping[str, Quantity] = {
-    quantity.name: quantity
-    for module in (motion, losses, load, single_studies, bearings, signals, wear)
-    for quantity in module.QUANTITIES
-}
+EVERY = (
+    *(*motion.QUANTITIES, *losses.QUANTITIES, *load.QUANTITIES, *single_studies.QUANTITIES),
+    *(*load.OF_SHAFTS, *motion.SIGNALS, *single_studies.WEAR),
+)
+QUANTITIES: Mapping[str, Quantity] = {quantity.name: quantity for quantity in EVERY}
 
 
 def quantities(*names: str) -> tuple[Quantity, ...]:

@@ -14,11 +14,10 @@ import numpy as np
 
 from tribodyn import __version__
 from tribodyn.numerics.parameter import Variable
-from tribodyn.record import schema
-from tribodyn.record.files import disk
-from tribodyn.record.files.disk import LIBVER, Blank, Layered
-from tribodyn.record.files.previous import SCENARIO_FILE, Origin
+from tribodyn.record import disk, schema
+from tribodyn.record.disk import LIBVER, Blank, Layered
 from tribodyn.record.schema import Layout
+from tribodyn.record.target import SCENARIO_FILE, Origin
 from tribodyn.record.withheld_efficiency import withheld
 
 #: Libraries whose versions are recorded, because results depend on them.

@@ -13,7 +13,7 @@ import numpy as np
 
 from tribodyn.errors import TOO_MANY_FILES, InputError, harmless, no_descriptors
 from tribodyn.record import schema
-from tribodyn.record.files.soundness import UNREADABLE, blamed, check_sound, reason_of
+from tribodyn.record.soundness import UNREADABLE, blamed, check_sound, reason_of
 from tribodyn.record.withheld_efficiency import samples_withheld
 
 #: Dataset (time, pair) of the deflection along a pair's normal, its older name, and one beside both.
@@ -182,12 +182,14 @@ class OpenRecord:
             return np.vectorize(harmless, otypes=["U"])(np.char.decode(values, "utf-8", "replace"))
         return samples_withheld(name, values)
 
+    def refused(self, rule: str, remedy: str) -> InputError:
+        """What to say of a record that cannot be taken."""
+        return InputError("record", str(self.path), rule, remedy)
+
     def _damaged(self, error: Exception) -> InputError:
         if no_descriptors(error):
-            return InputError("record", str(self.path), *TOO_MANY_FILES)
-        return InputError(
-            "record", str(self.path), f"the record is damaged: {reason_of(error)}", self._made_by
-        )
+            return self.refused(*TOO_MANY_FILES)
+        return self.refused(f"the record is damaged: {reason_of(error)}", self._made_by)
 
 
 def open_file(path: Path) -> h5py.File:
@@ -197,14 +199,15 @@ def open_file(path: Path) -> h5py.File:
     try:
         check_sound(path)
         return h5py.File(path, "r")
-    except PermissionError as error:
-        raise InputError("record", str(path), "may not be read", "change its permissions") from error
     except OSError as error:
-        if no_descriptors(error):
-            raise InputError("record", str(path), *TOO_MANY_FILES) from error
-        if h5py.is_hdf5(path):
-            raise InputError("record", str(path), f"damaged: {error}", "run the scenario again") from error
-        raise InputError("record", str(path), "not an HDF5 file", "name the record of a run") from error
+        why = "not an HDF5 file", "name the record of a run"
+        if isinstance(error, PermissionError):
+            why = "may not be read", "change its permissions"
+        elif no_descriptors(error):
+            why = TOO_MANY_FILES
+        elif h5py.is_hdf5(path):
+            why = f"damaged: {error}", "run the scenario again"
+        raise InputError("record", str(path), *why) from error
 
 
 def attributes(item: Any) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """Reads a record: arrays by name, units, scenario, summary, mesh cycle and geometry; or one mesh of it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
@@ -8,12 +8,10 @@ from typing import Any
 import h5py
 import numpy as np
 
-from tribodyn.errors import InputError
 from tribodyn.record import schema, trust
-from tribodyn.record.files.soundness import UNREADABLE
 from tribodyn.record.layout import counted
-from tribodyn.record.meshes import MeshesOfRecord
 from tribodyn.record.open_record import OpenRecord, attributes, stored_name, summary_of_today, todays_name
+from tribodyn.record.soundness import UNREADABLE
 from tribodyn.record.sweep_schema import SWEEP
 from tribodyn.record.withheld_efficiency import withheld
 
@@ -21,8 +19,17 @@ from tribodyn.record.withheld_efficiency import withheld
 LARGEST = 1e100
 
 
-class Record(OpenRecord, MeshesOfRecord):
-    """The record of a run; samples that an unfinished run never wrote are left out everywhere."""
+#: Group of a record of a train that has a group for every mesh; the same in its summary.
+MESHES = "meshes"
+
+
+class Record(OpenRecord):
+    """The record of a run; samples that an unfinished run never wrote are left out everywhere.
+
+    A file that names its meshes makes them a dimension of its record, and bodies another. Of a pair of gears,
+    whose only mesh has no name, the dimension of meshes is left out, and motions stand under degrees of
+    freedom of pinion and gear.
+    """
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return one dataset in SI units, first axis time; `pair` and `dof` give the other axes' labels."""
@@ -125,6 +132,48 @@ class Record(OpenRecord, MeshesOfRecord):
         except UNREADABLE as error:
             raise self._damaged(error) from error
 
+    @cached_property
+    def names_meshes(self) -> bool:
+        """Whether the meshes have names, and are a dimension; else there is one, of the bodies' gears."""
+        return "mesh" in self
+
+    @cached_property
+    def meshes(self) -> tuple[str, ...]:
+        """Names of the meshes; "mesh" where they have none."""
+        return tuple(map(str, self["mesh"])) if self.names_meshes else ("mesh",)
+
+    @property
+    def mesh_summaries(self) -> dict[str, Mapping[str, Any]]:
+        """What the summary has of every mesh, by its name."""
+        if not self.names_meshes:
+            return {self.meshes[0]: self.summary}
+        found = self.summary.get(MESHES)
+        return {name: found[name] for name in self.meshes if isinstance(found, Mapping) and name in found}
+
+    def of_mesh(self, mesh: str, part: str) -> dict[str, Any]:
+        """`mesh_cycle` or `geometry` of a mesh, by its name."""
+        return self._group(f"{MESHES}/{mesh}/{part}" if self.names_meshes else part)
+
+    def over_meshes(self, name: str) -> np.ndarray:
+        """A dataset (sample, mesh, …); where it has no dimension of meshes that is one."""
+        values = self[name]
+        return values if "mesh" in self.dims_of(name) else values[:, None]
+
+    def over_bodies(self, name: str) -> np.ndarray:
+        """Motion (sample, body) in a coordinate: x, y, z, angle, tilt_x or tilt_y, or a rate.
+
+        Rates are x_rate, y_rate, z_rate and speed. Where the meshes have no names the bodies are pinion and
+        gear, and a motor's values are NaN. KeyError where the record does not hold it.
+        """
+        if "dof" not in self:
+            return self[name]
+        coordinate = {"angle": "theta", "speed": "theta"}.get(name, name.removesuffix("_rate"))
+        moved = self["displacement" if name in (coordinate, "angle") else "velocity"]
+        dof = list(self["dof"])
+        values = [moved[:, dof.index(f"{coordinate}_{side}")] for side in "pg"]
+        further = len(self["body"]) - len(values) if "body" in self else 0
+        return np.stack([*values, *[np.full(len(moved), np.nan)] * further], axis=1)
+
     def _numbers(self, scale: str) -> tuple[int, ...]:
         return tuple(int(number) for number in self._file[scale][...]) if scale in self else ()
 
@@ -141,22 +190,14 @@ class Record(OpenRecord, MeshesOfRecord):
 
     def _check(self) -> None:
         if self._file.attrs.get("format") != schema.FORMAT:
-            raise InputError(
-                "record", str(self.path), "an HDF5 file, but not a record", "name the record of a run"
-            )
+            raise self.refused("an HDF5 file, but not a record", "name the record of a run")
         version = int(self.attrs["format_version"])
         if version > schema.FORMAT_VERSION:
-            raise InputError(
-                "record",
-                str(self.path),
-                f"its format is version {version}, this program reads up to {schema.FORMAT_VERSION}",
-                f"use tribodyn {self.attrs['tribodyn_version']} or newer",
-            )
+            rule = f"its format is version {version}, this program reads up to {schema.FORMAT_VERSION}"
+            raise self.refused(rule, f"use tribodyn {self.attrs['tribodyn_version']} or newer")
         schema.require_head(self.attrs)
         if self.attrs.get("kind") == SWEEP:
-            raise InputError(
-                "record", str(self.path), "the record of a sweep, not of a run", "show, plot or open it"
-            )
+            raise self.refused("the record of a sweep, not of a run", "show, plot or open it")
         _ = self.axis, self.pairs, self.elements
         for name in str(self.attrs.get("datasets", self.axis)).split():
             if not isinstance(self._file[name], h5py.Dataset):

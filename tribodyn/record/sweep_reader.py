@@ -9,12 +9,15 @@ from typing import Any
 import h5py
 import numpy as np
 
-from tribodyn.errors import InputError, harmless
+from tribodyn.errors import harmless
 from tribodyn.record import schema
 from tribodyn.record.open_record import OpenRecord, attributes, harmless_data, open_file
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_schema import DONE, FAILED, OF_MESH, SWEEP, WAITING, VariedKey
 from tribodyn.record.withheld_efficiency import warnings_in
+
+#: A peak stands out by this share of its curve's range.
+PROMINENCE = 0.05
 
 
 class SweepRecord(OpenRecord):
@@ -25,9 +28,7 @@ class SweepRecord(OpenRecord):
 
     def _check(self) -> None:
         if self._file.attrs.get("kind") != SWEEP:
-            raise InputError(
-                "record", str(self.path), "not the record of a sweep", "name the record of a sweep"
-            )
+            raise self.refused("not the record of a sweep", "name the record of a sweep")
         shape = tuple(self._file[name].shape[0] for name in self.dims)
         for name in (*self._of_cases, "status", "message"):
             dataset = self._file[name]
@@ -140,6 +141,32 @@ class SweepRecord(OpenRecord):
     def warnings(self) -> dict[str, int]:
         """What the cases' remarks warn of, and in how many cases."""
         return warnings_in(self["message"][self["status"] == DONE].tolist())
+
+    def peaks(self) -> list[dict[str, Any]]:
+        """Peaks of the quantities that a refined sweep watched, curve after curve, the highest first.
+
+        Each has its `quantity`, where it is (`at`), its `value`, and `within`: how far from it, in the first
+        parameter, the next values are. Values at the ends of the range are no peaks. None of other sweeps.
+        """
+        from scipy.signal import find_peaks
+
+        maxima = []
+        x = self.parameters[0].values
+        for name in self.settings.get("refine", {}).get("by", []):
+            curves = np.where(self["status"] == DONE, self[name], np.nan)
+            for lane in np.ndindex(curves.shape[1:]):
+                curve = curves[(slice(None), *lane)]
+                finite = np.flatnonzero(np.isfinite(curve))
+                if finite.size < 3:
+                    continue
+                least = PROMINENCE * max(np.ptp(curve[finite]), 1e-300)
+                tops, _ = find_peaks(curve[finite], prominence=least)
+                for top in sorted(tops, key=lambda top: -curve[finite[top]]):
+                    before, place, after = finite[top - 1 : top + 2]
+                    within = float(max(abs(x[place] - x[before]), abs(x[after] - x[place])))
+                    at, value = self.at((int(place), *lane)), float(curve[place])
+                    maxima.append({"quantity": name, "at": at, "value": value, "within": within})
+        return maxima
 
     def at(self, place: tuple[int, ...]) -> dict[str, Any]:
         """Return the parameters, and the direction, of the case at a place."""

@@ -19,11 +19,7 @@ from tribodyn.errors import InputError
 from tribodyn.numerics.files.output_files import replacing, unwritable
 from tribodyn.numerics.files.sources import computing_digest
 from tribodyn.numerics.parameter import Variable
-from tribodyn.record import layout, sweep_schema
-from tribodyn.record.files import disk
-from tribodyn.record.files.previous import Origin, keep_previous, refuse_existing
-from tribodyn.record.files.soundness import UNREADABLE, check_sound, remember_own
-from tribodyn.record.files.writing_lock import locked, scratch_path
+from tribodyn.record import disk, layout, sweep_schema
 from tribodyn.record.schema import (
     COMPLETE,
     FAILED,
@@ -33,7 +29,9 @@ from tribodyn.record.schema import (
     partial_path,
     require_same_code,
 )
+from tribodyn.record.soundness import UNREADABLE, check_sound, remember_own
 from tribodyn.record.sweep_schema import CASE, SWEEP, Listed, SweepLayout, VariedKey
+from tribodyn.record.target import Origin, keep_previous, locked, refuse_existing, scratch_path
 from tribodyn.record.withheld_efficiency import cases_withheld
 from tribodyn.record.writer import check_target, conclude
 

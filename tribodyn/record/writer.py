@@ -19,13 +19,18 @@ import numpy as np
 
 from tribodyn.errors import InputError, OutputError
 from tribodyn.numerics.files.output_files import replacing, unwritable
-from tribodyn.record import trust
-from tribodyn.record.files import disk
-from tribodyn.record.files.previous import Origin, keep_previous, refuse_existing
-from tribodyn.record.files.soundness import remember_own
-from tribodyn.record.files.writing_lock import locked, refuse_if_written, scratch_path
+from tribodyn.record import disk, trust
 from tribodyn.record.layout import Head, create, encode, write_summary, write_trimmed
 from tribodyn.record.schema import COMPLETE, FAILED, STATUS_NOTES, partial_path
+from tribodyn.record.soundness import remember_own
+from tribodyn.record.target import (
+    Origin,
+    keep_previous,
+    locked,
+    refuse_existing,
+    refuse_if_written,
+    scratch_path,
+)
 from tribodyn.record.withheld_efficiency import samples_withheld
 
 Beside = Callable[[h5py.File], None]

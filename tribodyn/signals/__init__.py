@@ -3,29 +3,26 @@
 `docs/signals.md` has every definition with its source.
 """
 
-from tribodyn.signals.envelopes import (
-    Kurtogram,
-    analytic,
-    band_passed,
-    envelope,
-    envelope_spectrum,
-    kurtogram,
-)
 from tribodyn.signals.indicators import (
+    SynchronousAverage,
     crest_factor,
+    difference,
     energy_ratio,
     fm0,
     fm4,
     kurtosis,
     m6a,
+    mesh_harmonics,
     na4,
     of_average,
     of_signal,
     peak,
     peak_to_peak,
+    residual,
     rms,
     sideband_energy_ratio,
     sideband_level_factor,
+    synchronous_average,
 )
 from tribodyn.signals.lines import (
     NamedOrder,
@@ -40,17 +37,16 @@ from tribodyn.signals.resampling import at_places, by_angle, resampled
 from tribodyn.signals.sound import Hearable, hearable, read_wav, wav
 from tribodyn.signals.spectra import (
     AmplitudeSpectrum,
+    Kurtogram,
     Spectrogram,
+    analytic,
+    band_passed,
+    envelope,
+    envelope_spectrum,
+    kurtogram,
     order_spectrum,
     spectrogram,
     spectrum,
-)
-from tribodyn.signals.synchronous import (
-    SynchronousAverage,
-    difference,
-    mesh_harmonics,
-    residual,
-    synchronous_average,
 )
 
 __all__ = [

@@ -177,6 +177,13 @@ def thermal_flash_factor(reduced_modulus: float, thermal_contact: float) -> floa
     return 1e3 * (1e-6 * reduced_modulus) ** 0.25 / (thermal_contact / math.sqrt(1e3))
 
 
+def geometry_factor(path: ContactPath) -> float:
+    """X_BE = 0.51 √(u + 1) (√ρ_E1 − √(ρ_E2/u))/(ρ_E1 ρ_E2)^¼, from the radii of curvature at E: (10)."""
+    first, second = (1e3 * abs(float(radius)) for radius in curvature_radii(path, path.length))
+    geometry = 0.51 * math.sqrt(path.ratio + 1.0) * (math.sqrt(first) - math.sqrt(second / path.ratio))
+    return geometry / (first * second) ** 0.25
+
+
 def integral_temperature(path: ContactPath, mesh: ScuffingMesh) -> IntegralTemperature:
     """Integral temperature of a driving pinion and its gear: (1) to (31).
 
@@ -199,9 +206,7 @@ def integral_temperature(path: ContactPath, mesh: ScuffingMesh) -> IntegralTempe
         roughness_factor(mesh.roughness, pitch_radius),
         mesh.lubricant,
     )
-    tip = [1e3 * float(radius) for radius in curvature_radii(path, path.length)]
-    geometry = 0.51 * math.sqrt(ratio + 1.0) * (math.sqrt(tip[0]) - math.sqrt(abs(tip[1]) / ratio))
-    geometry /= (tip[0] * abs(tip[1])) ** 0.25
+    geometry = geometry_factor(path)
     angles = pressure_angle_factor(working, mesh.pressure_angle, mesh.helix_angle)
     flash = thermal_flash_factor(mesh.reduced_modulus, mesh.thermal_contact)
     load = (1e-3 * mesh.line_load * helical) ** 0.75

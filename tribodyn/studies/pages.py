@@ -159,7 +159,7 @@ def drawable_of_sweep(records: Sequence[SweepRecord]) -> "Mapping[str, SweepDraw
             rule = f"of kind {record.kind_of_study}, the first of {study.kind}"
             raise InputError("record", str(record.path), rule, "draw them apart")
     if any(record.listed for record in records):
-        from tribodyn.post.figures.sweep.signals import DATA_SET_DRAWINGS
+        from tribodyn.post.figures.sweep_response import DATA_SET_DRAWINGS
 
         return DATA_SET_DRAWINGS
     return study.sweep_drawings()
@@ -247,7 +247,7 @@ def _pictures_of_sensors(record: Record) -> "list[tuple[str, str, Figure]]":
     """Pictures of what a record's sensors gave: name, what it shows, figure."""
     if SENSORS not in record.groups:
         return []
-    from tribodyn.post.figures.sensors import DRAWINGS
+    from tribodyn.post.figures.sensor_averages import DRAWINGS
 
     by_name = drawable([record])
     return [(name, by_name[name].about, figure(name, [record])) for name in DRAWINGS if name in by_name]
@@ -275,7 +275,7 @@ def loaded_again(record: Record | SweepRecord) -> Loaded:
 
 def sweep_report(record: SweepRecord) -> str:
     """Write the page of a sweep: its quantities over the first varied key, its teeth, its pictures."""
-    from tribodyn.post.figures.sweep.response import more_than_curves
+    from tribodyn.post.figures.sweep_response import more_than_curves
     from tribodyn.post.page.sweep_page import sweep_page
 
     if record.listed:
@@ -295,7 +295,7 @@ def _teeth(record: SweepRecord) -> "dict[str, Any] | None":
     from tribodyn.geometry.body import geometry_arrays
     from tribodyn.geometry.families import family
     from tribodyn.geometry.limits.checks import check
-    from tribodyn.post.page.rolling_teeth import turning_teeth
+    from tribodyn.post.page.motion import turning_teeth
 
     if not study_of_record(record).has_gears:
         return None

@@ -19,9 +19,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.elementary import law
+from tribodyn.numerics.elementary import Indices, RuntimeIndices, StaticInt, law
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.static import Indices, RuntimeIndices, StaticInt
 from tribodyn.train.links.chain import NO_PLAY
 from tribodyn.tribology.contact import Surfaces
 

@@ -1,6 +1,7 @@
 """Comparison with the numbers and claims of the papers, from records where it takes a run."""
 
 from collections.abc import Callable
+from contextlib import ExitStack
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -48,7 +49,7 @@ PAPERS = {
         "Efremenkov et al., Mathematics 12:873 (2024): gear with rolling elements",
         "as published: the paper's own equations with their errors; beside it corrected speeds, with which "
         "the gear loses nearly all its power",
-        "tribodyn.validation.papers.efremenkov_figures",
+        "tribodyn.validation.papers.efremenkov",
     ),
     "veciana-2024": Paper(
         "tribodyn.validation.papers.veciana",
@@ -132,26 +133,20 @@ def validate(
     The records of the runs are kept in `folder`, in a temporary one if none is given. Raises InputError for
     an unknown paper, SimulationError if one of the runs fails.
     """
-    _check(paper)
-    module = import_module(PAPERS[paper].module)
-    if folder is not None:
-        return module.rows(Path(folder), progress)
     from tempfile import TemporaryDirectory
 
-    with TemporaryDirectory(prefix="tribodyn-") as temporary:
-        return module.rows(Path(temporary), progress)
+    _check(paper)
+    module = import_module(PAPERS[paper].module)
+    with ExitStack() as stack:
+        place = folder or stack.enter_context(TemporaryDirectory(prefix="tribodyn-"))
+        return module.rows(Path(place), progress or (lambda share: None))
 
 
-def figure_names(paper: str) -> list[str]:
-    """Names of the figures of a paper that are drawn from our own numbers.
+def figures_of(paper: str) -> dict[str, Callable[[Path], Any]]:
+    """Figures of a paper that are drawn from our own numbers, by name: drawn from the folder of its records.
 
     Raises InputError for an unknown paper, and one without figures.
     """
-    return list(_figures(paper))
-
-
-def _figures(paper: str) -> dict[str, Callable[[Path], Any]]:
-    """Name of every figure -> what draws it, given the folder with the records of the paper's runs."""
     _check(paper)
     module = PAPERS[paper].figures
     if module is None:
@@ -176,11 +171,11 @@ def draw(
     """Draw figures like a paper's from our own numbers into the folder `plots`, which is there.
 
     From the records that `validate` left; `force` replaces also pictures that are not ours. Raises InputError
-    as `figure_names` and `write_output`.
+    as `figures_of` and `write_output`.
     """
     from tribodyn.post.style import house_style, save
 
-    figures = _figures(paper)
+    figures = figures_of(paper)
     pictures = []
     for done, (name, draw_figure) in enumerate(figures.items(), start=1):
         with house_style():

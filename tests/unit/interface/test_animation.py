@@ -9,7 +9,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.interface.result import Run
-from tribodyn.post.page import pdf
+from tribodyn.post.page import document
 
 
 @pytest.fixture(scope="module")
@@ -44,12 +44,14 @@ def test_what_has_no_teeth_is_refused():
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(pdf.browser() is None, reason="no browser: install Chromium (apt-get install chromium)")
+@pytest.mark.skipif(
+    document.browser() is None, reason="no browser: install Chromium (apt-get install chromium)"
+)
 def test_a_browser_shows_it(crc, tmp_path: Path):
     """Ready, at the place that was asked for, with the loads there; its frame too."""
     page = tmp_path / "animation.html"
     page.write_text(crc.animate().html, encoding="utf-8")
-    shown = pdf.run_browser("--dump-dom", f"{page.as_uri()}#at=3").stdout
+    shown = document.run_browser("--dump-dom", f"{page.as_uri()}#at=3").stdout
     assert 'data-ready="yes"' in shown
     assert 'data-at="3"' in shown
     assert re.search(r"<td>normal load, pair 1</td><td>[\d.]+ N</td>", shown)

@@ -11,8 +11,8 @@ import pytest
 
 from tribodyn.kernels.native import compiler, kernel, packed, store
 from tribodyn.numerics import elementary
+from tribodyn.numerics.elementary import RuntimeIndices
 from tribodyn.numerics.files.cache import read_kept
-from tribodyn.numerics.static import RuntimeIndices
 
 
 class Inner(NamedTuple):

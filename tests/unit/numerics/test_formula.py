@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.numerics.formula import FormulaError, evaluated
+from tribodyn.numerics.curve import FormulaError, evaluated
 
 H = np.array([0.0, 0.25, 1.0])
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.post.figures.sweep.signals import signals_figure
+from tribodyn.post.figures.sweep_response import signals_figure
 from tribodyn.record.sweep_schema import DONE
 
 LABELS = ("healthy", "pinion: pit of tooth 3, 1.0 mm", "gear: crack of tooth 12, 45 %", "pinion: corner 7")

@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.post.cycles import key_points, outside_of
 from tribodyn.post.figures.path_of_contact import key_positions
-from tribodyn.post.page.rolling_teeth import rolling_teeth
+from tribodyn.post.page.motion import rolling_teeth
 from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from tribodyn.post.figures.scale import scale
+from tribodyn.post.figures.panel import scale
 
 
 def scaled(*curves, from_zero=False):

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.sweep.branch import MARKS, branches, chosen_branch, colors_of
-from tribodyn.post.figures.sweep.response import maps_of
+from tribodyn.post.figures.sweep_branch import MARKS, branches, chosen_branch, colors_of
+from tribodyn.post.figures.sweep_response import maps_of
 
 
 def sweep(*sizes: int, directions: tuple[str, ...] = ()) -> Any:

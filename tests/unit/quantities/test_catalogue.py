@@ -7,8 +7,8 @@ import pytest
 from pint import UnitRegistry
 
 from tools.summary_table import tables
-from tribodyn.quantities import bearings, load, losses, motion, signals, single_studies, wear
-from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities import load
+from tribodyn.quantities.catalogue import EVERY, QUANTITIES
 from tribodyn.quantities.quantity import SHOWN, Quantity
 from tribodyn.studies import STUDIES
 
@@ -17,8 +17,7 @@ STANDARDS = {quantity.name for quantity in load.STANDARDS}
 
 
 def test_no_name_means_two_things():
-    modules = (bearings, load, losses, motion, signals, single_studies, wear)
-    names = [quantity.name for module in modules for quantity in module.QUANTITIES]
+    names = [quantity.name for quantity in EVERY]
     assert len(names) == len(set(names)) == len(QUANTITIES)
 
 

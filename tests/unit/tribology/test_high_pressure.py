@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.input.sources import read_toml, shipped
-from tribodyn.input.tables.oil.lubricant import Lubricant, lubricant_of
+from tribodyn.input.tables.lubricant import Lubricant, lubricant_of
 from tribodyn.tribology.high_pressure import MEASURED, contact_viscosity
 from tribodyn.tribology.oil import OIL_TYPES, OilSheet, lubricant_from
 from tribodyn.tribology.pressure_law import asymptotic_coefficient

@@ -20,7 +20,7 @@ from tribodyn.compliance.fem.gear_compliance import (
 from tribodyn.geometry.body import tooth_outline
 from tribodyn.numerics.elementary import sense
 from tribodyn.numerics.files.cache import arrays_kept_or_made, digest_of_numbers
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.processes.work import part
 
 Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)

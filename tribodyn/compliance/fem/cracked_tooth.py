@@ -21,7 +21,7 @@ from tribodyn.compliance.fem.strips import plane_stiffness
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.numerics.files.cache import arrays_kept_or_made, digest_of_numbers
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float
 
 # Triangles over a ring with one tooth, along a crack and finer and finer towards its tip.

@@ -10,7 +10,7 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, half_width
 from tribodyn.compliance.sharing.section import ObliqueFaces, elastic_section, length_per_width, raised
 from tribodyn.compliance.sharing.slices import PairFlexibility, end_modes, modes, wave_numbers
 from tribodyn.geometry.drive import SIDES
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float
 
 # Positions (of the mesh) taken at a time, to bound the memory.

@@ -17,7 +17,7 @@ from tribodyn.compliance.sharing.load_sharing import (
 from tribodyn.compliance.sharing.section import ObliqueFaces
 from tribodyn.geometry.corner_contact import PairGeometry
 from tribodyn.numerics.elementary import sense
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float
 
 

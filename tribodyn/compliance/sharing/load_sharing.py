@@ -38,7 +38,7 @@ from tribodyn.geometry.helix import face_positions, pitch_slope, roll_shift
 from tribodyn.geometry.modification import UNMODIFIED, Modifications
 from tribodyn.geometry.path import pitch_point
 from tribodyn.numerics.elementary import sense
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.processes.work import steps
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import averaged_radius

@@ -24,7 +24,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.helix import roll_shift
 from tribodyn.geometry.modification import MINIMUM_SLICES, too_few_slices, vary_along_lead
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
 
 

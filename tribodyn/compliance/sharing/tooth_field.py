@@ -23,7 +23,7 @@ from tribodyn.compliance.sharing.slices import modes, wave_numbers
 from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES, Side
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.processes.work import steps
 from tribodyn.numerics.shapes import Array, Float
 

@@ -30,12 +30,12 @@ from tribodyn.input.quantity import (
     csv_file,
     written,
 )
+from tribodyn.input.tables.bearings import Stiffness
 from tribodyn.input.tables.duty import DutyTable, OiledOperatingTable
 from tribodyn.input.tables.gears.drive_data import backlash_of
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.single_teeth import ToothSampleNumber
 from tribodyn.input.tables.laws import FrictionTable
-from tribodyn.input.tables.supports.bearings import Stiffness
 from tribodyn.mesh.table import MeshData
 from tribodyn.solve.methods import AUTO, SOLVERS, SolverData
 

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 from tribodyn.gears.case import GearCase
 from tribodyn.gears.supports import BearingUnderLoad, GearSupport
 from tribodyn.geometry.drive import SIDES
-from tribodyn.input.tables.supports.shafts import BearingOfShaft
-from tribodyn.quantities.bearings import BEARINGS
+from tribodyn.input.tables.shafts import BearingOfShaft
+from tribodyn.quantities.load import BEARINGS
 from tribodyn.standards.rolling_bearings import (
     STATIC_FACTOR,
     basic_life,

@@ -12,8 +12,17 @@ from tribodyn.numerics.processes.work import in_threads, usable_cores
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.sensors import Sensed, SensorSignal
 from tribodyn.sensing.data import DIRECTIONS, KINDS, HousingData
-from tribodyn.sensing.sampler import Sampler, as_measured, heard, housing_acceleration
-from tribodyn.sensing.sensed_motion import force_on_bearing, output_torque, time_of, torque_of_link, velocity
+from tribodyn.sensing.sampler import (
+    Sampler,
+    as_measured,
+    force_on_bearing,
+    heard,
+    housing_acceleration,
+    output_torque,
+    time_of,
+    torque_of_link,
+    velocity,
+)
 from tribodyn.signals.lines import SignalLine
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state

@@ -5,12 +5,11 @@ from math import isfinite
 from typing import Any
 
 from tribodyn.cases.results import TextTable
-from tribodyn.quantities.signals import OF_SHAFT, OF_SIGNAL
+from tribodyn.quantities.motion import OF_SHAFT, OF_SIGNAL
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import Sensed, SensorSignal
-from tribodyn.signals.indicators import of_average, of_signal
+from tribodyn.signals.indicators import of_average, of_signal, synchronous_average
 from tribodyn.signals.lines import MESH, SHAFT, SignalLine
-from tribodyn.signals.synchronous import synchronous_average
 
 #: In a summary: signals by name; in one of them shafts by name.
 SENSORS, SHAFTS = "sensors", "shafts"

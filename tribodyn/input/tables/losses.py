@@ -11,7 +11,7 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.input import units
 from tribodyn.input.fields import PartName
 from tribodyn.input.quantity import Count, InUnit, Positive, Table, written
-from tribodyn.input.tables.oil.lubricant import Lubricant
+from tribodyn.input.tables.lubricant import Lubricant
 from tribodyn.tribology.bulk_temperature import Lubrication, TemperatureData
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, LossData
 

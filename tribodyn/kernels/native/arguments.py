@@ -25,8 +25,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics import elementary
+from tribodyn.numerics.elementary import Indices, RuntimeIndices, StaticInt
 from tribodyn.numerics.files.sources import code_of
-from tribodyn.numerics.static import Indices, RuntimeIndices, StaticInt
 
 _serial = count()
 

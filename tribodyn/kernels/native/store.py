@@ -24,7 +24,7 @@ from tribodyn.errors import InputError, cut
 from tribodyn.kernels.native.arguments import OPTIONS, Code, Compiled, Target, is_kept
 from tribodyn.numerics.files.cache import kept_or_made
 from tribodyn.numerics.files.sources import code_of, digest_of
-from tribodyn.numerics.processes.library_settings import without_file
+from tribodyn.numerics.processes.libraries import without_file
 
 #: What turns any kernel into machine code.
 _COMPILER = "tribodyn.kernels.native.compiler"

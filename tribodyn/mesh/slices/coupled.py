@@ -33,7 +33,7 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import RollCurve, body_coupling
 from tribodyn.numerics.elementary import absolute, cos, is_jax, maximum, namespace, sqrt, within
 from tribodyn.numerics.iteration import by_rows, newton
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float
 
 #: ℓ_t and ℓ_b over the normal module.

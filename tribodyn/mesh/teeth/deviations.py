@@ -13,7 +13,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.modification import MOST_WAVES, SPREAD, Limits, sampled
 from tribodyn.mesh.teeth.fields import LEADING, FlankPlaces, ToothFields, height_share, sound
-from tribodyn.numerics.formula import FormulaError, evaluated
+from tribodyn.numerics.curve import FormulaError, evaluated
 from tribodyn.numerics.shapes import Array, Float
 
 

@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from tribodyn.errors import no_descriptors
-from tribodyn.numerics.processes.library_settings import ignore_files
+from tribodyn.numerics.processes.libraries import ignore_files
 
 if TYPE_CHECKING:
     import subprocess

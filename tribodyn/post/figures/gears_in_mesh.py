@@ -64,8 +64,7 @@ def draw_gears(axes: Axes, mesh: GearsInMesh) -> None:
     axes.plot(*path.T, color="black", linewidth=1.8)
     _name_points(axes, mesh)
     across, along = reach(mesh)
-    axes.set_xlim(-across, across)
-    axes.set_ylim(-along, along)
+    axes.set(xlim=(-across, across), ylim=(-along, along))
     axes.annotate("gear", (0.03, 0.95), xycoords="axes fraction", va="top", color=PALETTE[1])
     axes.annotate("pinion", (0.03, 0.05), xycoords="axes fraction", color=PALETTE[0])
 
@@ -112,8 +111,7 @@ def _draw_outlines(axes: Axes, mesh: GearsInMesh) -> None:
         axes.plot(*(centre + pitch / MILLIMETRE * circle).T, color=QUIET, linewidth=0.6, linestyle="-.")
     axes.set_aspect("equal")
     axes.grid(False)
-    axes.set_xlabel("Along the pitch tangent (mm)")
-    axes.set_ylabel("Along the line of centres (mm)")
+    axes.set(xlabel="Along the pitch tangent (mm)", ylabel="Along the line of centres (mm)")
 
 
 def _draw_ring(axes: Axes, mesh: GearsInMesh, number: int, fill: str, color: str) -> None:

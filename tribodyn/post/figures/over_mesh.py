@@ -23,9 +23,9 @@ from tribodyn.post.figures.panel import (
     legend,
     record_label,
     record_title,
+    scale,
 )
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
-from tribodyn.post.figures.scale import scale
 from tribodyn.post.figures.spectrum import has_spectra, spectrum_figure
 from tribodyn.post.style import PALETTE, new_figure
 from tribodyn.record.reader import Record, mesh_views

@@ -10,12 +10,59 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tribodyn.post.cycles import Window, in_parts, key_points, last_cycles, pair_curve
-from tribodyn.post.figures.scale import scale
+from tribodyn.post.cycles import Window, in_parts, key_points, last_cycles, pair_curve, stretches
 from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal, name_above, write_beside
 from tribodyn.quantities.quantity import SHOWN
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
+
+#: A curve that varies by less than this share of its magnitude is constant.
+FLAT = 1e-6
+#: Part of the points that spikes may have, on either side.
+SPIKES = 0.02
+#: Spikes are cut where the rest of the points needs less than this share of the axis.
+HIDDEN = 0.35
+#: Margin, as a share of what is shown.
+MARGIN = 0.08
+
+
+def scale(axes: Axes, curves: Sequence[np.ndarray], from_zero: bool = False) -> None:
+    """Set the limits of the vertical axis for these curves (NaN: gaps); what is beyond is said on the axes.
+
+    A constant is shown about its value with a tenth on either side, zero throughout is said to be that.
+    Where few points are far from all others, the axis is that of the others and the extreme is written.
+    """
+    values = np.concatenate([np.ravel(curve) for curve in curves]) if len(curves) else np.empty(0)
+    values = values[np.isfinite(values)]
+    if not values.size:
+        axes.annotate("nothing to show", (0.5, 0.5), xycoords="axes fraction", ha="center", color=QUIET)
+        return
+    low, high = float(values.min()), float(values.max())
+    size = max(abs(low), abs(high))
+    if high - low <= FLAT * size:
+        middle = (low + high) / 2.0
+        if size == 0.0:
+            axes.annotate("0 throughout", (0.5, 0.56), xycoords="axes fraction", ha="center", color=QUIET)
+            axes.set(ylim=(-1.0, 1.0), yticks=[0.0])
+        elif from_zero:
+            axes.set_ylim(*sorted((0.0, 1.1 * middle)))
+        else:
+            axes.set_ylim(middle - 0.1 * size, middle + 0.1 * size)
+        return
+    inner = np.quantile(values, [SPIKES, 1.0 - SPIKES])
+    ends = [low, high]
+    for side, sign in ((0, -1.0), (1, 1.0)):
+        # what the points but for the spikes need, were this side cut
+        needed = abs(float(inner[1] - inner[0])) if not from_zero else float(inner[1])
+        beyond = sign * (ends[side] - float(inner[side]))
+        if needed > 0.0 and beyond > needed * (1.0 / HIDDEN - 1.0) and not (from_zero and side == 0):
+            extreme, ends[side] = ends[side], float(inner[side]) + sign * 0.6 * needed
+            mark, place, align = (("▼ down to", 0.03, "bottom"), ("▲ up to", 0.97, "top"))[side]
+            how = {"ha": "right", "va": align, "fontsize": 7, "color": QUIET}
+            axes.annotate(f"{mark} {extreme:.3g}, cut off", (0.98, place), xycoords="axes fraction", **how)
+    margin = MARGIN * (ends[1] - ends[0])
+    axes.set_ylim(0.0 if from_zero and ends[0] >= 0.0 else ends[0] - margin, ends[1] + margin)
+
 
 #: Over more cycles than these, key points would hide the curves.
 MOST_CYCLES_MARKED = 4
@@ -160,15 +207,9 @@ def cycle_ranges(
 
 
 def _shade_extrapolated(
-    axes: Axes,
-    record: Record,
-    trace: Trace,
-    window: Window,
-    x: np.ndarray,
-    hue: str = "",
-    mesh: int = 0,
+    axes: Axes, record: Record, trace: Trace, window: Window, x: np.ndarray, hue: str, mesh: int
 ) -> None:
-    """Shade where a law is outside its range for any pair under load; in a record's `hue` colour if given."""
+    """Shade where a law is outside its range for any pair under load; in a record's `hue` if given."""
     if trace.flag not in record:
         return
     flag, load = (record.over_meshes(name)[window.part, mesh] for name in (trace.flag, "normal_load"))
@@ -176,8 +217,7 @@ def _shade_extrapolated(
     color, label = EXTRAPOLATED[trace.flag]
     if hue:
         color, label = f"{hue}18", f"{label}: {record_label(record)}"
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], outside.astype(int), [0]])))
-    for start, stop in zip(edges[::2], edges[1::2], strict=True):
+    for start, stop in stretches(outside):
         left, right = float(x[start]), float(x[min(stop, len(x) - 1)])
         axes.axvspan(left, right, color=color, linewidth=0, zorder=0.5, label=label)
 

@@ -238,8 +238,7 @@ def orders_figure(records: Sequence[Record], view: View) -> Figure:
     for order in range(1, FOLLOWED + 1):
         line = tracked.amplitudes[:, order * WINDOW] * 1e6
         below.plot(x, line, color=PALETTE[order - 1], label=f"order {order}")
-    below.set_ylabel("Amplitude (µm)")
-    below.set_ylim(bottom=0)
+    below.set(ylabel="Amplitude (µm)", ylim=(0, None))
     of = "Speed of the first body" if record.names_meshes else "Pinion speed"
     below.set_xlabel("Time (ms)" if over_time else f"{of} (rpm)")
     below.legend(ncols=2)

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.post.cycles import stretches
 from tribodyn.record.reader import Record
 
 #: Samples of a series above which it is thinned: two of every bucket stay, its minimum and its maximum.
@@ -147,8 +148,7 @@ def extrapolated(record: Record) -> dict[str, list[list[int]]]:
         flags, loaded = record[flag] == 0, record["normal_load"] > 0.0
         over_face = loaded.shape + (1,) * (flags.ndim - loaded.ndim)
         outside = np.any(flags & loaded.reshape(over_face), axis=tuple(range(1, flags.ndim)))
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], outside.astype(int), [0]])))
-        starts, ends = edges[::2], edges[1::2] - 1
+        starts, ends = (stretches(outside) - (0, 1)).T
         if len(starts) > MOST_INTERVALS:
             gaps = starts[1:] - ends[:-1]
             kept = np.sort(np.argsort(-gaps, kind="stable")[: MOST_INTERVALS - 1])

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import first_shown, shown_cycles
-from tribodyn.post.page.assembled import assembled
 from tribodyn.post.page.data import (
     PageMap,
     Profiles,
@@ -24,8 +23,8 @@ from tribodyn.post.page.data import (
     series_of,
     with_unit,
 )
-from tribodyn.post.page.mechanism import Mechanism, mechanism_data
-from tribodyn.post.page.rolling_teeth import LOAD, rolling_teeth
+from tribodyn.post.page.document import assembled
+from tribodyn.post.page.motion import LOAD, Mechanism, mechanism_data, rolling_teeth
 from tribodyn.post.page.sensors import SensedSection
 from tribodyn.post.report import EXCEEDED
 from tribodyn.post.style import inline

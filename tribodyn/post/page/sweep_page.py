@@ -8,10 +8,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.sweep.branch import Branch, axis_label, branches
-from tribodyn.post.figures.sweep.response import panels_of
-from tribodyn.post.page.assembled import assembled
+from tribodyn.post.cycles import stretches
+from tribodyn.post.figures.sweep_branch import Branch, axis_label, branches
+from tribodyn.post.figures.sweep_response import panels_of
 from tribodyn.post.page.data import packed
+from tribodyn.post.page.document import assembled
 from tribodyn.post.page.page import origin, picture, table, title_of, verdict_list
 from tribodyn.post.sweep_report import described, sweep_remarks, sweep_rows, sweep_verdict, sweep_warnings
 from tribodyn.quantities.quantity import Quantity
@@ -106,6 +107,5 @@ def _lost(curves: Sequence[Branch], order: np.ndarray, names: Sequence[str]) -> 
     if "contact_loss_fraction" not in curves[0].record:
         return {}
     lost = np.any([branch.values("contact_loss_fraction")[order] > 0.0 for branch in curves], axis=0)
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], lost.astype(int), [0]])))
-    intervals = np.stack([edges[::2], edges[1::2] - 1], axis=1).tolist()
+    intervals = (stretches(lost) - (0, 1)).tolist()
     return {name: intervals for name in names} if intervals else {}

@@ -22,9 +22,9 @@ from tribodyn.kernels.duals import functions  # noqa: F401  (its import gives th
 from tribodyn.kernels.duals.functions import duals_of, length_of
 from tribodyn.kernels.duals.numbers import BLOCK
 from tribodyn.kernels.native import PackedValue, kernel, packed
+from tribodyn.numerics.elementary import StaticInt
 from tribodyn.numerics.processes.work import in_threads
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.numerics.static import StaticInt
 from tribodyn.solve.integrator import March, Status
 from tribodyn.solve.march import explicit_8
 from tribodyn.solve.march.extreme_search import ignore_segment, ignore_step

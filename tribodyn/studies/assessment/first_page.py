@@ -12,7 +12,7 @@ from tribodyn.cases.assessment_part import TaskResult
 from tribodyn.cases.results import TextTable
 from tribodyn.gears.rating.bearings import bearing_rows
 from tribodyn.gears.rating.limits import LIMITS, on_limits, written_limit
-from tribodyn.post.page.assembled import document
+from tribodyn.post.page.document import document
 from tribodyn.post.page.page import summary_tables, table, verdict_list, warnings_of
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import scatter

@@ -21,7 +21,7 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.input import units
 from tribodyn.input.quantity import InUnit, NotNegative, Switch, Table
-from tribodyn.input.tables.supports.bearings import Bearing, bearing_of
+from tribodyn.input.tables.bearings import Bearing, bearing_of
 from tribodyn.standards.allowances import centre_distance_allowance
 
 #: Stiffness of one class of `models/bearings` over that below: from 1e8 by way of 4e8 to 2e9 N/m.

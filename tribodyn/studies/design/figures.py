@@ -10,8 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.post.figures.drawing import Drawing, drawing
-from tribodyn.post.figures.panel import View, record_label, record_title
-from tribodyn.post.figures.scale import scale
+from tribodyn.post.figures.panel import View, record_label, record_title, scale
 from tribodyn.post.page.page import PageContent
 from tribodyn.post.page.page import page as write
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure

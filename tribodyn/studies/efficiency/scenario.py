@@ -32,11 +32,11 @@ from tribodyn.gears.scenario import (
     oil_fields,
 )
 from tribodyn.input.quantity import Table, written
+from tribodyn.input.tables.bearings import Stiffness
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
-from tribodyn.input.tables.gears.internal_gear import driving_internal
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
+from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.input.tables.laws import FrictionTable
-from tribodyn.input.tables.supports.bearings import Stiffness
 
 if TYPE_CHECKING:
     from tribodyn.studies.efficiency.mesh_positions import Sharing

@@ -11,8 +11,7 @@ from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
 
 from tribodyn.post.figures.drawing import Drawing, drawing, finished
-from tribodyn.post.figures.panel import View, abscissa_label, record_title
-from tribodyn.post.figures.scale import scale
+from tribodyn.post.figures.panel import View, abscissa_label, record_title, scale
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribodyn.post.page.mechanism import Body, Mechanism
+from tribodyn.post.page.motion import Body, Mechanism
 from tribodyn.post.report import on_energy
 from tribodyn.post.verdict import lost, numbers, share, with_unit
 from tribodyn.quantities.catalogue import quantities

@@ -18,7 +18,7 @@ from tribodyn.cases.cost import (
 from tribodyn.input import units
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import InUnit, NotNegative, Positive, Table, model_file, written
-from tribodyn.input.tables.gears.material import Described
+from tribodyn.input.tables.gears.model_files import Described
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.irefc.engagement import Mode, RollingFriction

@@ -42,8 +42,8 @@ from tribodyn.geometry.body import GEOMETRY
 from tribodyn.input import units
 from tribodyn.input.quantity import Count, InUnit, NotNegative, Table, written
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
-from tribodyn.input.tables.gears.internal_gear import driving_internal
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
+from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.mesh.record_arrays import MESH_CYCLE
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout

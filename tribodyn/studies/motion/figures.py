@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.post import style
 from tribodyn.post.cycles import last_cycles
-from tribodyn.post.figures import over_face, over_mesh, sensors, spectrum
+from tribodyn.post.figures import over_face, over_mesh, sensor_averages, spectrum
 from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import (
     ORDER,
@@ -262,5 +262,5 @@ DRAWINGS: dict[str, Drawing] = {
         lambda record: "body" in record and "mode_shares" in record.summary,
         ("modes", "{path} does not say which bodies move in its modes", "run it again"),
     ),
-    **sensors.DRAWINGS,
+    **sensor_averages.DRAWINGS,
 }

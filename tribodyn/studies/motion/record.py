@@ -18,7 +18,7 @@ from tribodyn.geometry.body import GEOMETRY, geometry_arrays
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.record_arrays import as_arrays, described
 from tribodyn.numerics.parameter import Variable
-from tribodyn.record.meshes import MESHES
+from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.prepare import PreparedGearbox, geometry_of

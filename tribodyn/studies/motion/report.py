@@ -8,12 +8,11 @@ from tribodyn.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOG
 from tribodyn.gears.motion.extremes import on_extremes
 from tribodyn.gears.sensing.signal_quantities import sensor_tables
 from tribodyn.post import verdict as of_any
-from tribodyn.post.page.mechanism import Mechanism
+from tribodyn.post.page.motion import Mechanism
 from tribodyn.post.report import on_closures, on_energy, on_methods
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Quantity, Reported
-from tribodyn.record.meshes import MESHES
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.withheld_efficiency import reasons
 from tribodyn.studies.motion.drivetrain.mesh_groups import between, groups_of, together
 from tribodyn.studies.motion.pictures.rolling_train import rolling_train

@@ -16,7 +16,7 @@ from tribodyn.gears.motion.march import record_motion, run_until_warm
 from tribodyn.gears.motion.running import RunStatistics
 from tribodyn.gears.motion.steady import limits_in, warning_of
 from tribodyn.gears.sensing.signal_quantities import signal_quantities
-from tribodyn.record.meshes import MESHES
+from tribodyn.record.reader import MESHES
 from tribodyn.record.sensors import write_sensed
 from tribodyn.record.trust import judge_tribology
 from tribodyn.record.withheld_efficiency import remarked

@@ -15,11 +15,10 @@ from pydantic import Field, TypeAdapter, ValidationError
 
 from tribodyn.errors import InputError, InputErrors, quoted, unknown_name
 from tribodyn.geometry.families import FAMILIES, Family
-from tribodyn.input.messages import Origins, explain
+from tribodyn.input.messages import Origins, explain, outside
 from tribodyn.input.names import same_key
 from tribodyn.input.quantity import LIKE
 from tribodyn.input.resolve import OVERRIDES, Resolved, resolve, resolve_table, unresolved_keys
-from tribodyn.input.scope import outside
 from tribodyn.input.sources import file_name, find_scenario
 from tribodyn.input.specific_keys import example_of
 from tribodyn.input.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
@@ -76,7 +75,7 @@ class Loaded(NamedTuple):
     origins: Origins
 
     def recorded_in(self, folder: Path) -> "Loaded":
-        """The same, for a record in a folder that is named after it; see `record.files.previous`."""
+        """The same, for a record in a folder that is named after it; see `record.target`."""
         return self._replace(case=replace(self.case, scenario_file=file_name(self.path, folder)))
 
     @contextmanager

@@ -240,7 +240,7 @@ class Study:
 
     def sweep_drawings(self) -> "Mapping[str, SweepDrawing]":
         """Pictures of its sweeps by name; the first is drawn where none is named."""
-        from tribodyn.post.figures.sweep.response import response_drawings
+        from tribodyn.post.figures.sweep_response import response_drawings
 
         drawings = self._part("sweep_figures", "SWEEP_DRAWINGS", optional=True)
         return drawings or response_drawings(self.sweep_table())

@@ -30,9 +30,9 @@ from tribodyn.geometry.modification import uneven_teeth
 from tribodyn.input.quantity import Positive, Table, Text, written
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.input.tables.gears.drive_rules import modifications_of
-from tribodyn.input.tables.gears.internal_gear import driving_internal
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.single_teeth import ToothSampleNumber, own_teeth_of
+from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.input.tables.laws import FrictionTable, LawTable, law_values
 from tribodyn.mesh.teeth.deviations import PitchErrors
 from tribodyn.mesh.teeth.fields import OwnTeeth

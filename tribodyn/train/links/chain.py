@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.numerics.elementary import law, namespace, skippable, where
+from tribodyn.numerics.elementary import StaticInt, law, namespace, skippable, where
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.static import StaticInt
 from tribodyn.train.links.law import LinkLaw, linear, try_link_law
 from tribodyn.train.links.play import Play, with_play
 

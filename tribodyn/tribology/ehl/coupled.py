@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.fluid import (
     Rheology,

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity
 from tribodyn.tribology.ehl.grid import HERTZ_LOAD, STEP, FilmGrid, film_width, hertz_gap, made, placed

@@ -4,11 +4,14 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from tribodyn.geometry.drive import SIDES
 from tribodyn.validation.published import published
 from tribodyn.validation.rows import Row, compare
 
 #: Our value of a line, in its unit: one, or (pinion, gear); of a name that is not there none is computed.
-Values = Mapping[str, float | tuple[float, float]]
+Values = Mapping[str, float | tuple[float, float] | np.ndarray]
 
 
 def rows_of(book: str, values: Callable[[], Values]) -> Callable[..., list[Row]]:
@@ -17,20 +20,23 @@ def rows_of(book: str, values: Callable[[], Values]) -> Callable[..., list[Row]]
     It is called as the `rows` of a paper; nothing needs a run, and nothing is written into its folder.
     """
 
-    def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
+    def rows(folder: Path, progress: Callable[[float], None]) -> list[Row]:
         ours = values()
-        comparisons = [compare(row, _value(ours, key)) for key, row in published(book).items()]
-        if progress:
-            progress(1.0)
-        return comparisons
+        progress(1.0)
+        return [compare(row, _value(ours, key)) for key, row in published(book).items()]
 
     return rows
 
 
 def _value(values: Values, key: str) -> Any:
     name = key.partition("/")[2]
-    if name in values:
-        return values[name]
-    name, _, side = name.rpartition("-")
-    value = values.get(name)
-    return value[side == "gear"] if isinstance(value, tuple) else value
+    if name not in values:
+        name, _, side = name.rpartition("-")
+        value: Any = values.get(name)
+        return value if value is None or np.ndim(value) == 0 else float(value[int(side == "gear")])
+    return values[name]
+
+
+def sides(named: Mapping[str, Any], name: str, unit: float = 1.0) -> np.ndarray:
+    """A number of a rating by name, of pinion and gear."""
+    return np.array([named[name][side] for side in SIDES]) / unit

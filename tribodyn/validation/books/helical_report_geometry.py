@@ -1,38 +1,35 @@
 """Geometry, measures and tolerances of the helical stage of the design report of 2017; mm, degrees, µm.
 
-With suffix e or i: the upper and lower end of what the tolerances leave, as the report names them.
+Arrays are of (pinion, gear). With suffix e or i: the upper and lower end of what the tolerances leave, as the
+report names them.
 """
 
 import math
-from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.families.involute import inverse_involute, involute_function
+from tribodyn.geometry.gauges import Involute, over_pins, pin_contact_diameter, span, span_contact_diameter
 from tribodyn.geometry.helix import contact_lines
+from tribodyn.standards import flank_tolerances as tolerances
 from tribodyn.standards.allowances import centre_distance_allowance, thickness_allowances
 
 #: Inputs to the digits of the program's own file of the same minute: 20°, 10°, 1165.9/min, bores to 0.01 mm
 #: are printed.
 MODULE, ALPHA, HELIX, CENTRES, WIDTH = 14.0, 0.349066, 0.174533, 861.0, 360.0
 SPEED = 1165.885417
-TEETH, BORES = (24, 95), (179.101, 1193.318)
+TEETH, BORES = (24, 95), np.array([179.101, 1193.318])
 #: Lower end of the tip diameters' tolerance.
 TIP_TOLERANCE = 0.1
 TRANSVERSE = math.atan(math.tan(ALPHA) / math.cos(HELIX))
 BASE_HELIX = math.asin(math.sin(HELIX) * math.cos(ALPHA))
-REFERENCE = (MODULE / math.cos(HELIX) * TEETH[0], MODULE / math.cos(HELIX) * TEETH[1])
-BASES = (REFERENCE[0] * math.cos(TRANSVERSE), REFERENCE[1] * math.cos(TRANSVERSE))
+REFERENCE = MODULE / math.cos(HELIX) * np.array(TEETH)
+BASES = REFERENCE * math.cos(TRANSVERSE)
 PITCH = math.pi * BASES[0] / TEETH[0]
 RATIO = TEETH[1] / TEETH[0]
-
-
-def both(of: Callable[[int], float]) -> tuple[float, float]:
-    """What `of` gives of pinion (0) and gear (1)."""
-    return of(0), of(1)
-
-
-def _involute(value: float) -> float:
-    return math.tan(value) - value
 
 
 def working_angle(centres: float = CENTRES) -> float:
@@ -41,107 +38,97 @@ def working_angle(centres: float = CENTRES) -> float:
 
 
 #: x_1 and the tip alteration of −0.938 mm as printed, x_2 by the centre distance.
-_SUM = sum(TEETH) * (_involute(working_angle()) - _involute(TRANSVERSE)) / (2.0 * math.tan(ALPHA))
-SHIFTS = (0.48, _SUM - 0.48)
-ROOTS = both(lambda i: REFERENCE[i] - 2.0 * MODULE * (1.25 - SHIFTS[i]))
-TIPS = both(lambda i: REFERENCE[i] + 2.0 * MODULE * (1.0 + SHIFTS[i]) - 2.0 * 0.938)
+_OPENED = float(involute_function(working_angle()) - involute_function(TRANSVERSE))
+SHIFTS = np.array([0.48, sum(TEETH) * _OPENED / (2.0 * math.tan(ALPHA)) - 0.48])
+ROOTS = REFERENCE - 2.0 * MODULE * (1.25 - SHIFTS)
+TIPS = REFERENCE + 2.0 * MODULE * (1.0 + SHIFTS) - 2.0 * 0.938
 OVERLAP = WIDTH * math.sin(HELIX) / (math.pi * MODULE)
 ALLOWANCE = 1e3 * centre_distance_allowance(6, CENTRES * 1e-3)
+#: A_se and A_si.
+THICKNESS = dict(
+    zip("ei", 1e3 * np.transpose([thickness_allowances("cd25", d * 1e-3) for d in REFERENCE]), strict=True)
+)
 
 
-def tangent(diameter: float, gear: int) -> float:
-    """Length of the tangent to the base circle up to a circle."""
-    return math.sqrt(diameter**2 - BASES[gear] ** 2) / 2.0
-
-
-def path_points(tips: tuple[float, float], centres: float) -> dict[str, tuple[float, float]]:
+def path_points(tips: np.ndarray, centres: float) -> dict[str, np.ndarray]:
     """Distances of A to E from both tangent points."""
     whole = centres * math.sin(working_angle(centres))
-    start, end = whole - tangent(tips[1], 1), tangent(tips[0], 0)
+    end, from_gear = np.sqrt(tips**2 - BASES**2) / 2.0
+    start = whole - from_gear
     pitch_point = BASES[0] / 2.0 * math.tan(working_angle(centres))
     from_pinion = {"A": start, "B": end - PITCH, "C": pitch_point, "D": start + PITCH, "E": end}
-    return {name: (place, whole - place) for name, place in from_pinion.items()}
+    return {name: np.array([place, whole - place]) for name, place in from_pinion.items()}
 
 
-#: nominal, e (greatest tips, least centre distance) and i.
-CASES = {
+_POINTS = path_points(TIPS, CENTRES)
+CONTACT_RATIO = (_POINTS["E"][0] - _POINTS["A"][0]) / PITCH
+#: The greater height of both gears' teeth, roots as they are cut, in the middle of their tolerance.
+_DEEPER = -(THICKNESS["e"] + THICKNESS["i"]) / (4.0 * math.tan(ALPHA))
+CUT_HEIGHT = float(np.max((TIPS - ROOTS) / 2.0 + _DEEPER))
+
+
+def _active(points: dict[str, np.ndarray]) -> np.ndarray:
+    """d_Nf, where contact begins on the pinion and ends on the gear."""
+    return np.hypot(BASES, 2.0 * np.array([points["A"][0], points["E"][1]]))
+
+
+#: Tips and centre distance: nominal, and by the tolerances those of the longest and of the shortest path.
+_CASES = {
     "": (TIPS, CENTRES),
     "_e": (TIPS, CENTRES - ALLOWANCE),
-    "_i": ((TIPS[0] - TIP_TOLERANCE, TIPS[1] - TIP_TOLERANCE), CENTRES + ALLOWANCE),
+    "_i": (TIPS - TIP_TOLERANCE, CENTRES + ALLOWANCE),
 }
 
 
-def normal_thickness(gear: int, diameter: float, allowance: float = 0.0) -> float:
+def _helix(diameter: Any) -> np.ndarray:
+    """Helix angle on a circle, rad."""
+    return np.arctan(math.tan(HELIX) * diameter / REFERENCE)
+
+
+def _thickness(diameter: np.ndarray, allowance: Any = 0.0) -> np.ndarray:
     """Normal tooth thickness on a circle."""
-    half = (math.pi / 2.0 + 2.0 * SHIFTS[gear] * math.tan(ALPHA) + allowance / MODULE) / TEETH[gear]
-    angle = math.acos(min(BASES[gear] / diameter, 1.0))
-    across = diameter * (half + _involute(TRANSVERSE) - _involute(angle))
-    return across * math.cos(math.atan(math.tan(HELIX) * diameter / REFERENCE[gear]))
+    half = (math.pi / 2.0 + 2.0 * SHIFTS * math.tan(ALPHA) + allowance / MODULE) / TEETH
+    angle = np.arccos(np.minimum(BASES / diameter, 1.0))
+    across = diameter * (half + involute_function(TRANSVERSE) - involute_function(angle))
+    return across * np.cos(_helix(diameter))
 
 
-def gap(gear: int, diameter: float, allowance: float = 0.0) -> float:
+def _gap(diameter: np.ndarray, allowance: Any = 0.0) -> np.ndarray:
     """Normal gap on a circle; 0 within the base circle."""
-    if diameter < BASES[gear]:
-        return 0.0
-    helix = math.atan(math.tan(HELIX) * diameter / REFERENCE[gear])
-    return math.pi * diameter / TEETH[gear] * math.cos(helix) - normal_thickness(gear, diameter, allowance)
+    pitch = math.pi * diameter / TEETH * np.cos(_helix(diameter))
+    return np.where(diameter < BASES, 0.0, pitch - _thickness(diameter, allowance))
 
 
 def geometry(assemblies: dict[str, Assembly]) -> dict[str, Any]:
     """Everything of sections 1 and 6 that follows from geometry; assemblies nominal, with A_se and A_si."""
-    allowances = thickness_ends()
-    working = working_angle()
-    values = _plain(working) | _limits(allowances) | _paths()
-    of_form = {
-        name: both(
-            lambda i, name=name: 2e3 * float(assemblies[name].tooth(("pinion", "gear")[i]).form_radius)
-        )
-        for name in assemblies
-    }
-    values |= {"dFf": of_form[""], "dFf_e": of_form["e"], "dFf_i": of_form["i"]}
-    values["cF_e"] = both(lambda i: (values["dNf_e"][i] - of_form["i"][i]) / 2.0)
-    values["cF_i"] = both(lambda i: (values["dNf_i"][i] - of_form["e"][i]) / 2.0)
-    values["cF0_i"] = both(lambda i: (values["dNf0_i"][i] - of_form["e"][i]) / 2.0)
+    values = _plain() | _limits() | _paths()
+    for end, assembly in assemblies.items():
+        form = np.array([2e3 * float(assembly.tooth(side).form_radius) for side in SIDES])
+        values[f"dFf_{end}" if end else "dFf"] = form
+    values["cF_e"] = (values["dNf_e"] - values["dFf_i"]) / 2.0
+    values["cF_i"] = (values["dNf_i"] - values["dFf_e"]) / 2.0
+    values["cF0_i"] = (values["dNf0_i"] - values["dFf_e"]) / 2.0
     for name in ("dFa", "dNa", "dNf", "dFf"):
         for end in "ei":
-            values[f"xsi_{name}_{end}"] = both(
-                lambda i, name=name, end=end: math.degrees(
-                    math.sqrt((values[f"{name}_{end}"][i] / BASES[i]) ** 2 - 1.0)
-                )
-            )
-    values["Lmin"] = 1e3 * float(contact_lines(assemblies[""]).minimum)
-    return values
+            values[f"xsi_{name}_{end}"] = np.degrees(np.sqrt((values[f"{name}_{end}"] / BASES) ** 2 - 1.0))
+    return values | {"Lmin": 1e3 * float(contact_lines(assemblies[""]).minimum)}
 
 
-def contact_ratio() -> float:
-    """ε_α."""
-    points = path_points(TIPS, CENTRES)
-    return (points["E"][0] - points["A"][0]) / PITCH
-
-
-def cut_height() -> float:
-    """The greater height of both gears' teeth, roots as they are cut, in the middle of their tolerance."""
-    ends = thickness_ends()
-    deeper = both(lambda i: -(ends["e"][i] + ends["i"][i]) / (4.0 * math.tan(ALPHA)))
-    return max(both(lambda i: (TIPS[i] - ROOTS[i]) / 2.0 + deeper[i]))
-
-
-def _plain(working: float) -> dict[str, Any]:
+def _plain() -> dict[str, Any]:
     """Nominal geometry."""
-    pitch_diameters = both(lambda i: BASES[i] / math.cos(working))
-    points = path_points(TIPS, CENTRES)
-    addenda = both(lambda i: (TIPS[i] - REFERENCE[i]) / 2.0)
-    roots = ROOTS
-    active = both(lambda i: math.hypot(BASES[i], 2.0 * points["AE"[i]][i]))
-    omega = SPEED * math.pi / 30.0
-    slides = both(lambda i: 1e-3 * abs(points["EA"[i]][i] - points["C"][i]) * omega * (1.0 + 1.0 / RATIO))
+    working, omega = working_angle(), SPEED * math.pi / 30.0
+    pitch_diameters = BASES / math.cos(working)
+    working_helix = _helix(pitch_diameters[0])[0]
+    points, addenda = _POINTS, (TIPS - REFERENCE) / 2.0
+    tip_places = np.array([points["E"][0], points["A"][1]])
+    slides = 1e-3 * np.abs(tip_places - points["C"]) * omega * (1.0 + 1.0 / RATIO)
     speed = omega * pitch_diameters[0] / 2e3
 
     def sliding(name: str, of: int) -> float:
-        first, second = points[name][0], points[name][1] / RATIO
-        velocity, other = (first, second) if of == 0 else (second, first)
-        return (velocity - other) / velocity
+        velocities = points[name] / (1.0, RATIO)
+        return (velocities[of] - velocities[1 - of]) / velocities[of]
 
+    at_tips, at_roots = [sliding("E", 0), sliding("A", 1)], [sliding("A", 0), sliding("E", 1)]
     return {
         "u": RATIO,
         "mt": MODULE / math.cos(HELIX),
@@ -149,153 +136,205 @@ def _plain(working: float) -> dict[str, Any]:
         "alfwt": math.degrees(working),
         "alfwt_e": math.degrees(working_angle(CENTRES + ALLOWANCE)),
         "alfwt_i": math.degrees(working_angle(CENTRES - ALLOWANCE)),
-        "alfwn": math.degrees(math.atan(math.tan(working) * math.cos(_working_helix(pitch_diameters[0])))),
-        "betaw": math.degrees(_working_helix(pitch_diameters[0])),
+        "alfwn": math.degrees(math.atan(math.tan(working) * math.cos(working_helix))),
+        "betaw": math.degrees(working_helix),
         "betab": math.degrees(BASE_HELIX),
         "ad": sum(REFERENCE) / 2.0,
-        "sn_star": both(lambda i: math.pi / 2.0 + 2.0 * SHIFTS[i] * math.tan(ALPHA)),
-        "k_starmn": both(lambda i: addenda[i] - MODULE * (1.0 + SHIFTS[i])),
+        "sn_star": math.pi / 2.0 + 2.0 * SHIFTS * math.tan(ALPHA),
+        "k_starmn": addenda - MODULE * (1.0 + SHIFTS),
         "d": REFERENCE,
         "db": BASES,
-        "da": TIPS,
-        "dFa": TIPS,
-        "dNa": TIPS,
+        **dict.fromkeys(("da", "dFa", "dNa"), TIPS),
         "dw": pitch_diameters,
-        "df": roots,
-        "c_theoretical": both(lambda i: CENTRES - TIPS[i] / 2.0 - roots[1 - i] / 2.0),
-        "dNf": active,
+        "df": ROOTS,
+        "c_theoretical": CENTRES - TIPS / 2.0 - ROOTS[::-1] / 2.0,
+        "dNf": _active(points),
         "ha": addenda,
-        "hf": both(lambda i: MODULE * (1.25 - SHIFTS[i])),
-        "h": both(lambda i: (TIPS[i] - roots[i]) / 2.0),
-        "zn": both(lambda i: TEETH[i] / (math.cos(BASE_HELIX) ** 2 * math.cos(HELIX))),
-        "san": both(lambda i: normal_thickness(i, TIPS[i])),
-        "sFan": both(lambda i: normal_thickness(i, TIPS[i])),
-        "efn": both(lambda i: gap(i, roots[i])),
+        "hf": MODULE * (1.25 - SHIFTS),
+        "h": (TIPS - ROOTS) / 2.0,
+        "zn": np.array(TEETH) / (math.cos(BASE_HELIX) ** 2 * math.cos(HELIX)),
+        **dict.fromkeys(("san", "sFan"), _thickness(TIPS)),
+        "efn": _gap(ROOTS),
         "vga": slides,
-        "zetaa": both(lambda i: sliding("EA"[i], i)),
-        "zetaf": both(lambda i: sliding("AE"[i], i)),
-        "zetam": (sliding("E", 0) + sliding("A", 1)) / 2.0,
-        "Kga": both(lambda i: slides[i] / speed),
-        "Kgf": both(lambda i: -slides[1 - i] / speed),
+        "zetaa": at_tips,
+        "zetaf": at_roots,
+        "zetam": sum(at_tips) / 2.0,
+        "Kga": slides / speed,
+        "Kgf": -slides[::-1] / speed,
         "pt": math.pi * MODULE / math.cos(HELIX),
-        "pbt": PITCH,
-        "pet": PITCH,
-        "pz": both(lambda i: math.pi * REFERENCE[i] / math.tan(HELIX)),
+        **dict.fromkeys(("pbt", "pet"), PITCH),
+        "pz": math.pi * REFERENCE / math.tan(HELIX),
         "px": math.pi * MODULE / math.sin(HELIX),
         "eps_b": OVERLAP,
     }
 
 
-def _working_helix(diameter: float) -> float:
-    return math.atan(math.tan(HELIX) * diameter / REFERENCE[0])
-
-
-def _limits(allowances: dict[str, tuple[float, float]]) -> dict[str, Any]:
+def _limits() -> dict[str, Any]:
     """Diameters and heights between the ends of the tolerances."""
-    tips = {"e": TIPS, "i": (TIPS[0] - TIP_TOLERANCE, TIPS[1] - TIP_TOLERANCE)}
+    tips = {"e": TIPS, "i": TIPS - TIP_TOLERANCE}
     centres = {"e": CENTRES + ALLOWANCE, "i": CENTRES - ALLOWANCE}
-    shifts = {
-        end: both(lambda i, end=end: SHIFTS[i] + allowances[end][i] / (2.0 * MODULE * math.tan(ALPHA)))
-        for end in "ei"
-    }
-    roots = {
-        end: both(lambda i, end=end: REFERENCE[i] - 2.0 * MODULE * (1.25 - shifts[end][i])) for end in "ei"
-    }
+    shifts = {end: SHIFTS + of / (2.0 * MODULE * math.tan(ALPHA)) for end, of in THICKNESS.items()}
+    roots = {end: REFERENCE - 2.0 * MODULE * (1.25 - shift) for end, shift in shifts.items()}
     values: dict[str, Any] = {}
-    for end, other in ("ei", "ie"):
-        points = path_points(tips[other], centres[end])
+    for (end, other), tip, away in (("ei", 0.0, ALLOWANCE), ("ie", -TIP_TOLERANCE, -ALLOWANCE)):
         values |= {
-            f"da_{end}": tips[end],
-            f"dFa_{end}": tips[end],
-            f"dNa_{end}": tips[end],
-            f"Ada_{end}": (0.0, 0.0) if end == "e" else (-TIP_TOLERANCE, -TIP_TOLERANCE),
-            f"dw_{end}": both(lambda i, end=end: BASES[i] / math.cos(working_angle(centres[end]))),
+            **dict.fromkeys((f"da_{end}", f"dFa_{end}", f"dNa_{end}"), tips[end]),
+            f"Ada_{end}": (tip, tip),
+            f"dw_{end}": BASES / math.cos(working_angle(centres[end])),
             f"xE_{end}": shifts[end],
             f"df_{end}": roots[end],
-            f"c_{end}": both(
-                lambda i, end=end, other=other: (
-                    centres[end] - tips[other][i] / 2.0 - roots[other][1 - i] / 2.0
-                )
-            ),
-            f"dNf_{end}": both(lambda i, points=points: math.hypot(BASES[i], 2.0 * points["AE"[i]][i])),
-            f"ha_{end}": both(lambda i, end=end: (tips[end][i] - REFERENCE[i]) / 2.0),
-            f"hf_{end}": both(lambda i, end=end: MODULE * (1.25 - shifts[end][i])),
-            f"san_{end}": both(
-                lambda i, end=end, other=other: normal_thickness(i, tips[other][i], allowances[end][i])
-            ),
-            f"efn_{end}": both(lambda i, end=end: gap(i, roots[end][i], allowances[end][i])),
-            f"As_{end}": allowances[end],
-            f"Aa_{end}": ALLOWANCE if end == "e" else -ALLOWANCE,
+            f"c_{end}": centres[end] - tips[other] / 2.0 - roots[other][::-1] / 2.0,
+            f"dNf_{end}": _active(path_points(tips[other], centres[end])),
+            f"ha_{end}": (tips[end] - REFERENCE) / 2.0,
+            f"hf_{end}": MODULE * (1.25 - shifts[end]),
+            f"san_{end}": _thickness(tips[other], THICKNESS[end]),
+            f"efn_{end}": _gap(roots[end], THICKNESS[end]),
+            f"As_{end}": THICKNESS[end],
+            f"Aa_{end}": away,
         }
         values[f"sFan_{end}"] = values[f"san_{end}"]
-    return values | _tight(allowances, tips["e"], roots["e"])
+    return values | _tight(tips["e"], roots["e"])
 
 
-def _tight(
-    allowances: dict[str, tuple[float, float]], tips: tuple[float, float], roots: tuple[float, float]
-) -> dict[str, Any]:
+def _tight(tips: np.ndarray, roots: np.ndarray) -> dict[str, Any]:
     """Backlash, and the centre distance without it."""
     values: dict[str, Any] = {}
-    for end in "ei":
+    for end, wide in ("ei", "ie"):  # the greatest backlash is of the thinnest teeth
         # both gears thinner: inv α_w of contact on both flanks
-        thinner = sum(allowances[end])
-        both_flanks = _involute(TRANSVERSE) + (2.0 * sum(SHIFTS) * math.tan(ALPHA) + thinner / MODULE) / sum(
-            TEETH
-        )
-        centres = sum(BASES) / 2.0 / math.cos(_inverse(both_flanks))
+        thinner = sum(THICKNESS[end])
+        closed = (2.0 * sum(SHIFTS) * math.tan(ALPHA) + thinner / MODULE) / sum(TEETH)
+        both_flanks = float(involute_function(TRANSVERSE)) + closed
+        centres = sum(BASES) / 2.0 / math.cos(float(inverse_involute(both_flanks)))
         far = CENTRES + (ALLOWANCE if end == "i" else -ALLOWANCE)
         angle = working_angle(far)
-        pitch_diameter = BASES[0] / math.cos(angle)
-        open_by = 2.0 * far * (_involute(angle) - both_flanks)
-        wide = "e" if end == "i" else "i"  # the greatest backlash is of the thinnest teeth
+        open_by = 2.0 * far * (float(involute_function(angle)) - both_flanks)
         values |= {
             f"aControl_{end}": centres,
             f"jta_{end}": centres - CENTRES,
             f"jtw_{wide}": open_by,
             f"jnw_{wide}": open_by * math.cos(angle) * math.cos(BASE_HELIX),
             f"jrw_{wide}": far - centres,
-            f"j_tSys_{wide}": math.degrees(2.0 * open_by / pitch_diameter),
+            f"j_tSys_{wide}": math.degrees(2.0 * open_by / (BASES[0] / math.cos(angle))),
             f"jtw_Aa_{wide}": 2.0 * math.tan(working_angle()) * (far - CENTRES),
         }
-        if end == "i":
-            points = path_points(tips, centres)
-            values["dNf0_i"] = both(lambda i, points=points: math.hypot(BASES[i], 2.0 * points["AE"[i]][i]))
-            values["c0_i"] = both(lambda i, centres=centres: centres - tips[i] / 2.0 - roots[1 - i] / 2.0)
+    # the last end: the thinnest teeth
+    values["dNf0_i"] = _active(path_points(tips, values["aControl_i"]))
+    values["c0_i"] = values["aControl_i"] - tips / 2.0 - roots[::-1] / 2.0
     return values
-
-
-def _inverse(value: float) -> float:
-    angle = 0.4
-    for _ in range(50):
-        angle -= (_involute(angle) - value) / math.tan(angle) ** 2
-    return angle
 
 
 def _paths() -> dict[str, Any]:
     """The path of contact, nominal and at the ends of the tolerances."""
     values: dict[str, Any] = {}
-    for end, (tips, centres) in CASES.items():
+    for end, (tips, centres) in _CASES.items():
         points = path_points(tips, centres)
-        length = points["E"][0] - points["A"][0]
+        tip_places = np.array([points["E"][0], points["A"][0]])
+        length = tip_places[0] - tip_places[1]
+        transverse, total = ("eps_alpha", "eps_gamma") if end else ("eps_a", "eps_g")
         values |= {f"T_{name}{end}": place for name, place in points.items()}
         values |= {
             f"g_alpha{end}": length,
             f"T1T2{end}": sum(points["C"]),
-            f"d_B{end}": both(lambda i, points=points: math.hypot(BASES[i], 2.0 * points["B"][i])),
-            f"d_D{end}": both(lambda i, points=points: math.hypot(BASES[i], 2.0 * points["D"][i])),
-            f"eps_a_tip{end}": both(
-                lambda i, points=points: abs(points["EA"[i]][0] - points["C"][0]) / PITCH
-            ),
+            f"d_B{end}": np.hypot(BASES, 2.0 * points["B"]),
+            f"d_D{end}": np.hypot(BASES, 2.0 * points["D"]),
+            f"eps_a_tip{end}": np.abs(tip_places - points["C"][0]) / PITCH,
+            f"{transverse}{end}": length / PITCH,
+            f"{total}{end}": length / PITCH + OVERLAP,
         }
-        if end:
-            values |= {f"eps_alpha{end}": length / PITCH, f"eps_gamma{end}": length / PITCH + OVERLAP}
-        else:
-            values |= {"eps_a": length / PITCH, "eps_g": length / PITCH + OVERLAP}
     middle = (values["eps_alpha_e"] + values["eps_alpha_i"]) / 2.0
     return values | {"eps_alpha_m": middle, "eps_gamma_m": middle + OVERLAP}
 
 
-def thickness_ends() -> dict[str, tuple[float, float]]:
-    """A_se and A_si of both gears, mm."""
-    limits = [thickness_allowances("cd25", d * 1e-3) for d in REFERENCE]
-    return {"e": both(lambda i: 1e3 * limits[i][0]), "i": both(lambda i: 1e3 * limits[i][1])}
+def measures() -> dict[str, Any]:
+    """Section 6: spans, balls, pins, chords."""
+    gears = [Involute(MODULE, ALPHA, float(z), x, HELIX) for z, x in zip(TEETH, SHIFTS, strict=True)]
+    teeth, balls = (4, 13), np.array([28.0, 25.0])
+    none, mean = np.zeros(2), (THICKNESS["e"] + THICKNESS["i"]) / 2.0
+    opposite = np.array([math.cos(math.pi / (2 * z)) if z % 2 else 1.0 for z in TEETH])
+    virtual = REFERENCE / math.cos(HELIX) ** 2
+    arcs = _thickness(REFERENCE)
+
+    def spans(allowance: np.ndarray) -> np.ndarray:
+        return np.array(list(map(span, gears, teeth, allowance)))
+
+    def pins(allowance: np.ndarray) -> np.ndarray:
+        return np.array(list(map(over_pins, gears, balls, allowance)))
+
+    def radial(allowance: np.ndarray) -> np.ndarray:
+        """M_rK: half of what an even number of teeth would measure."""
+        return (pins(allowance) - balls) / opposite / 2.0 + balls / 2.0
+
+    def chord(allowance: np.ndarray) -> np.ndarray:
+        thickness = MODULE * (math.pi / 2.0 + 2.0 * SHIFTS * math.tan(ALPHA)) + allowance
+        return virtual * np.sin(thickness / virtual)
+
+    height = (TIPS - TIP_TOLERANCE / 2.0 - REFERENCE) / 2.0
+    values: dict[str, Any] = {
+        "DM": list(map(_theoretical_ball, gears, REFERENCE + 2.0 * SHIFTS * MODULE)),
+        "d_Wk": list(map(span_contact_diameter, gears, spans(mean))),
+        "d_MrK": list(map(pin_contact_diameter, gears, balls, mean)),
+        "ha_chord": height + arcs**2 * math.cos(HELIX) ** 2 / (4.0 * REFERENCE),
+    }
+    for end, allowance in {"": none, **{f"_{end}": of for end, of in THICKNESS.items()}}.items():
+        values |= {
+            f"Wk{end}": spans(allowance),
+            f"dWk{end}": allowance * math.cos(ALPHA),
+            f"MrK{end}": radial(allowance),
+            f"MdK{end}": pins(allowance),
+            f"MdR{end}": 2.0 * radial(allowance),
+            f"sc{end}": chord(allowance),
+            f"sn{end}": arcs + allowance,
+        }
+    return values
+
+
+def _theoretical_ball(gear: Involute, diameter: float) -> float:
+    """Ball that touches the flanks on a circle."""
+    from scipy.optimize import brentq
+
+    def beyond(ball: float) -> float:
+        return pin_contact_diameter(gear, ball) - diameter
+
+    ball: Any = brentq(beyond, 1.2 * MODULE, 2.6 * MODULE, xtol=1e-12)
+    return float(ball)
+
+
+def tolerances_1995(total_contact_ratio: float) -> dict[str, Any]:
+    """Section 7: class 6 of ISO 1328-1:1995 and -2:1997, µm; as printed, to whole ones."""
+    module, sizes = MODULE * 1e-3, REFERENCE * 1e-3
+    of = [tolerances.flank_tolerances_1995(6, module, size, WIDTH * 1e-3) for size in sizes]
+
+    def whole(values: Any) -> list[float]:
+        return [1e6 * tolerances.rounded(value) for value in values]
+
+    fields = {
+        "fptT": "single_pitch",
+        "ffaT": "profile_form",
+        "fHaT": "profile_slope",
+        "FaT": "total_profile",
+        "ffbT": "helix_form",
+        "fHbT": "helix_slope",
+        "FbT": "total_helix",
+        "FpT": "total_pitch",
+        "FrT": "runout",
+    }
+    values = {name: whole(getattr(gear, field) for gear in of) for name, field in fields.items()}
+    tooth, total = np.transpose(
+        [tolerances.single_flank_1995(6, module, size, total_contact_ratio) for size in sizes]
+    )
+    sectors = [
+        tolerances.sector_pitch_1995(6, module, size, z // 8) for size, z in zip(sizes, TEETH, strict=True)
+    ]
+    # ISO 1328-2:1997, annex A, of the mean of the range from 280 to 560 mm; beyond 1000 mm there is none
+    mean = np.array([math.sqrt(280.0 * 560.0), REFERENCE[1]])
+    return values | {
+        "fpbT": [round(pitch * math.cos(TRANSVERSE), 1) for pitch in values["fptT"]],
+        "Fpk8T": whole(sectors),
+        "fisT": whole(tooth),
+        "FisT": whole(total),
+        "FidT": np.round(math.sqrt(2.0) * (3.2 * MODULE + 1.01 * np.sqrt(mean) + 6.4)),
+        "fidT": np.round(math.sqrt(2.0) * (2.96 * MODULE + 0.01 * np.sqrt(REFERENCE) + 0.8)),
+        # ISO/TR 10064-3: bearings twice as far apart as the face is wide
+        "fSigbet": values["FbT"][1],
+        "fSigdel": 2.0 * values["FbT"][1],
+    }

@@ -5,10 +5,12 @@ Lengths in mm, angles in degrees.
 """
 
 import math
-from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from tribodyn.compliance import iso6336
+from tribodyn.geometry.families.involute import involute_function
 from tribodyn.geometry.gauges import Involute, span
 from tribodyn.standards import load_factors, pitting
 from tribodyn.standards.contact_path import ContactPath, transverse_angle
@@ -17,68 +19,47 @@ from tribodyn.standards.metals import Metal, contact_factors
 from tribodyn.validation.books import rows_of
 
 BOOK = "iso-tr-6336-30"
-_MODULE, _ALPHA, _HELIX, _TEETH, _WIDTH, _CENTRES = (
-    8.0,
-    math.radians(20.0),
-    math.radians(15.8),
-    (17, 103),
-    100.0,
-    500.0,
-)
-_TIPS, _DEPTH, _ROUNDING = (159.66, 872.35), 11.2, 3.12
+_MODULE, _ALPHA, _HELIX = 8.0, math.radians(20.0), math.radians(15.8)
+_TEETH, _WIDTH, _CENTRES = (17.0, 103.0), 100.0, 500.0
+_TIPS, _DEPTH, _ROUNDING = np.array([159.66, 872.35]), 11.2, 3.12
 _TORQUE, _SPEED, _HOURS, _FACE = 9000.0, 360.0 * math.pi / 30.0, 50000.0, 1.16
 _STEEL = Metal("case-hardened", 1500e6, 500e6, 6.9e9, 900e6)
 _TRANSVERSE = transverse_angle(_ALPHA, _HELIX)
-_REFERENCE = (_MODULE / math.cos(_HELIX) * 17, _MODULE / math.cos(_HELIX) * 103)
-_BASES = (_REFERENCE[0] * math.cos(_TRANSVERSE), _REFERENCE[1] * math.cos(_TRANSVERSE))
+_REFERENCE = _MODULE / math.cos(_HELIX) * np.array(_TEETH)
+_BASES = _REFERENCE * math.cos(_TRANSVERSE)
 _WORKING = math.acos(sum(_BASES) / 2.0 / _CENTRES)
 _BASE_HELIX = math.asin(math.sin(_HELIX) * math.cos(_ALPHA))
+_OVERLAP = _WIDTH * math.sin(_HELIX) / (math.pi * _MODULE)
 _SHIFTS = (0.14522, 0.0)
 _SPANS, _SPAN_TEETH = (38.196, 307.943), (2, 13)
 
 
-def _both(of: Callable[[int], float]) -> tuple[float, float]:
-    return of(0), of(1)
-
-
-def _tangent(gear: int) -> float:
-    return math.sqrt(_TIPS[gear] ** 2 - _BASES[gear] ** 2) / 2.0
-
-
 def _geometry() -> dict[str, Any]:
     """The tables of 2022."""
-    gears = [Involute(_MODULE, _ALPHA, float(z), x, _HELIX) for z, x in zip(_TEETH, _SHIFTS, strict=True)]
-    cut = _both(
-        lambda i: (
-            _SHIFTS[i] + (_SPANS[i] - span(gears[i], _SPAN_TEETH[i])) / (2.0 * _MODULE * math.sin(_ALPHA))
-        )
-    )
+    gears = [Involute(_MODULE, _ALPHA, z, x, _HELIX) for z, x in zip(_TEETH, _SHIFTS, strict=True)]
+    longer = np.array(_SPANS) - list(map(span, gears, _SPAN_TEETH))
+    cut = _SHIFTS + longer / (2.0 * _MODULE * math.sin(_ALPHA))
     whole, pitch = _CENTRES * math.sin(_WORKING), math.pi * _BASES[0] / 17.0
-    starts = _both(lambda i: whole - _tangent(1 - i))
-    length = sum(_tangent(i) for i in (0, 1)) - whole
-    overlap = _WIDTH * math.sin(_HELIX) / (math.pi * _MODULE)
-    working = _both(lambda i: _BASES[i] / math.cos(_WORKING))
-
-    def form(i: int) -> float:
-        """Where the rounded rack leaves the involute."""
-        straight = _DEPTH / _MODULE - _ROUNDING / _MODULE * (1.0 - math.sin(_ALPHA)) - cut[i]
-        along = _REFERENCE[i] * math.sin(_TRANSVERSE) - 2.0 * straight * _MODULE / math.sin(_TRANSVERSE)
-        return math.hypot(_BASES[i], along)
-
-    pitches = _both(
-        lambda i: 1e6 * rounded(flank_tolerances(5, 8e-3, _REFERENCE[i] * 1e-3, 0.1).single_pitch)
+    tangents = np.sqrt(_TIPS**2 - _BASES**2) / 2.0
+    length = sum(tangents) - whole
+    working = _BASES / math.cos(_WORKING)
+    # where the rounded rack leaves the involute
+    straight = _DEPTH / _MODULE - _ROUNDING / _MODULE * (1.0 - math.sin(_ALPHA)) - cut
+    along = _REFERENCE * math.sin(_TRANSVERSE) - 2.0 * straight * _MODULE / math.sin(_TRANSVERSE)
+    pitches = np.array(
+        [1e6 * rounded(flank_tolerances(5, 8e-3, d * 1e-3, 0.1).single_pitch) for d in _REFERENCE]
     )
     return {
         "g_u": 103.0 / 17.0,
         "g_m_t": _MODULE / math.cos(_HELIX),
         "g_d": _REFERENCE,
-        "g_inv_alpha_n": math.tan(_ALPHA) - _ALPHA,
+        "g_inv_alpha_n": float(involute_function(_ALPHA)),
         "g_alpha_t": math.degrees(_TRANSVERSE),
-        "g_inv_alpha_t": math.tan(_TRANSVERSE) - _TRANSVERSE,
+        "g_inv_alpha_t": float(involute_function(_TRANSVERSE)),
         "g_alpha_wt": math.degrees(_WORKING),
         "g_x_E": cut,
-        "g_d_f": _both(lambda i: _REFERENCE[i] - 2.0 * (_DEPTH - cut[i] * _MODULE)),
-        "g_d_Ff": _both(form),
+        "g_d_f": _REFERENCE - 2.0 * (_DEPTH - cut * _MODULE),
+        "g_d_Ff": np.hypot(_BASES, along),
         "g_d_b": _BASES,
         "g_beta_b": math.degrees(_BASE_HELIX),
         "g_d_w": working,
@@ -86,12 +67,12 @@ def _geometry() -> dict[str, Any]:
         "g_p_t": math.pi * _MODULE / math.cos(_HELIX),
         "g_p_bt": pitch,
         "g_g_alpha": length,
-        "g_d_Nf": _both(lambda i: math.hypot(_BASES[i], 2.0 * starts[i])),
+        "g_d_Nf": np.hypot(_BASES, 2.0 * (whole - tangents[::-1])),
         "g_eps_alpha": length / pitch,
-        "g_eps_beta": overlap,
-        "g_eps_gamma": length / pitch + overlap,
+        "g_eps_beta": _OVERLAP,
+        "g_eps_gamma": length / pitch + _OVERLAP,
         "g_f_pT": pitches,
-        "g_f_pb": _both(lambda i: pitches[i] * math.cos(_TRANSVERSE)),
+        "g_f_pb": pitches * math.cos(_TRANSVERSE),
         "g_v_w": _SPEED * working[0] / 2e3,
         "g_v": _SPEED * _REFERENCE[0] / 2e3,
     }
@@ -99,17 +80,15 @@ def _geometry() -> dict[str, Any]:
 
 def _capacity() -> dict[str, Any]:
     """The reference column of 2017: ISO 6336:2006, method B."""
-    bases = _both(lambda i: _BASES[i] / 2e3)
-    overlap = _WIDTH * math.sin(_HELIX) / (math.pi * _MODULE)
-    path = ContactPath((17.0, 103.0), bases, _both(lambda i: _TIPS[i] / 2e3), _WORKING, _BASE_HELIX, overlap)
-    radii = _both(lambda i: _REFERENCE[i] / 2e3)
+    bases, tips, radii = (tuple(diameters / 2e3) for diameters in (_BASES, _TIPS, _REFERENCE))
+    path = ContactPath(_TEETH, bases, tips, _WORKING, _BASE_HELIX, _OVERLAP)
     modulus = 2.0 / (2.0 * (1.0 - 0.09) / 206e9)
     mesh = pitting.PittingMesh(
         path, radii, _ALPHA, _HELIX, 0.1, _TORQUE, _SPEED, modulus, 320e-6, (6e-6, 6e-6), 2006
     )
     tangential = pitting.tangential_load(mesh)
     pair = iso6336.ReferencePair(
-        (17.0, 103.0),
+        _TEETH,
         (0.145, 0.0),
         (1.4, 1.4),
         _ALPHA,
@@ -122,25 +101,25 @@ def _capacity() -> dict[str, Any]:
     geometry, influence = pitting.geometry(mesh), pitting.influences(mesh, (_STEEL, _STEEL))
     after = 8.4179e-6 - load_factors.running_in("case-hardened", 1500e6, 2.664).of(8.4179e-6)
     load = tangential / 0.1 * dynamic * _FACE
-    across = load_factors.transverse_factor_b((path.contact_ratio, overlap), stiffness.mesh, after, load)
-    stress = pitting.contact_stress(geometry, dynamic * _FACE * across)
-    cycles = _both(lambda i: _HOURS * 3600.0 * _SPEED / (2.0 * math.pi) / (1.0, path.ratio)[i])
-    life = _both(lambda i: contact_factors(_STEEL.treatment).at(cycles[i]))
-    permitted = _both(lambda i: 1500.0 * influence.of(i) * life[i])
+    across = load_factors.transverse_factor_b((path.contact_ratio, _OVERLAP), stiffness.mesh, after, load)
+    stress = np.array(pitting.contact_stress(geometry, dynamic * _FACE * across))
+    cycles = _HOURS * 3600.0 * _SPEED / (2.0 * math.pi) / np.array([1.0, path.ratio])
+    life = np.array([contact_factors(_STEEL.treatment).at(number) for number in cycles])
+    permitted = 1500.0 * np.array([influence.of(0), influence.of(1)]) * life
     height = (_TIPS[0] - 120.825) / 2.0
     slender = _WIDTH / height
     return {
-        "S_H": _both(lambda i: 1e6 * permitted[i] / stress[i]),
+        "S_H": 1e6 * permitted / stress,
         "sigma_HP": permitted,
         "sigma_H0": 1e-6 * geometry.nominal,
-        "sigma_H": _both(lambda i: 1e-6 * stress[i]),
+        "sigma_H": 1e-6 * stress,
         "F_t": tangential,
         "v": _SPEED * radii[0],
         "K_v": dynamic,
         "K_Halpha": across,
         "K_Falpha": across,
         "K_Fbeta": _FACE ** (slender**2 / (1.0 + slender + slender**2)),
-        "z_n": _both(lambda i: _TEETH[i] / (math.cos(_BASE_HELIX) ** 2 * math.cos(_HELIX))),
+        "z_n": np.array(_TEETH) / (math.cos(_BASE_HELIX) ** 2 * math.cos(_HELIX)),
         "N_L": cycles,
         "Z_NT": life,
         "Z_X": influence.size,

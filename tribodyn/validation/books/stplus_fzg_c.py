@@ -7,26 +7,30 @@ Strength is that of endurance, as there: N_L is printed, and life factors are 1.
 import math
 from typing import Any
 
+import numpy as np
+
 from tribodyn.compliance import iso6336
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.capacity import capacity_of, life_bins
+from tribodyn.gears.rating.margins import flanks_of
 from tribodyn.gears.rating.standard import rated_duty, standard_of
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.root_section import critical_section
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.geometry.tooth import thickness_half_angle
-from tribodyn.standards import contact_path, fzg, load_factors, micropitting
+from tribodyn.standards import contact_path, fzg, load_factors, micropitting, scuffing
 from tribodyn.standards.flank_tolerances import flank_tolerances_1995
 from tribodyn.studies.protocol.load import load_data
-from tribodyn.validation.books import rows_of
+from tribodyn.tribology.oil import kinematic_viscosity
+from tribodyn.validation.books import rows_of, sides
 from tribodyn.validation.books import stplus_geometry as shape
-from tribodyn.validation.books.stplus_geometry import pair
-from tribodyn.validation.books.stplus_scuffing import scuffed
+from tribodyn.validation.books.scuffing import scuffing_numbers
 
 BOOK = "stplus-fzg-c"
 _M, _ALPHA, _WIDTH, _TEETH, _SHIFTS = shape.MODULE, shape.ALPHA, shape.WIDTH, shape.TEETH, shape.SHIFTS
 _TIPS, _TORQUE, _SPEED, _LIMIT = (82.45, 118.35), 130.0, 1500.0, 1510.0
+_LINE_LOAD = 3611.1e3 / 14.0  # F_t/b, N/m
 #: K_v K_Hβ from the pressure at B (1374.113 N/mm² on 7.253 mm), over our K_v.
 _K = 1.358343
 _BASE: dict[str, Any] = {
@@ -90,7 +94,7 @@ def _values() -> dict[str, Any]:
     assert capacity is not None, "the material has a heat treatment"
     sheet, named = geometry_sheet(assembly), capacity.by_name()
     values = shape.geometry(sheet) | shape.measures() | _loads(standard) | _roots(assembly) | dynamic
-    return values | _strength(named, standard) | scuffed(case, standard, stiffness, _K)
+    return values | _strength(named, standard) | _scuffed(case, standard, stiffness)
 
 
 def _loads(standard: Any) -> dict[str, Any]:
@@ -124,21 +128,22 @@ def _loads(standard: Any) -> dict[str, Any]:
 def _roots(assembly: Assembly) -> dict[str, Any]:
     """The critical section, under a load at the outer point of single pair contact and at the tip."""
     sections = [critical_section(assembly, side) for side in SIDES]
-    bases = [1e3 * float(z) * _M / 2e3 * math.cos(_ALPHA) for z in _TEETH]
-    places = [
-        base / math.cos(each.load_angle) - 1e3 * each.arm for base, each in zip(bases, sections, strict=True)
+    angles, arms, thickness = (
+        np.array([getattr(section, name) for section in sections])
+        for name in ("load_angle", "arm", "thickness")
+    )
+    bases, tips = np.array(_TEETH) * _M / 2.0 * math.cos(_ALPHA), np.array(_TIPS) / 2.0
+    places = bases / np.cos(angles) - 1e3 * arms
+    half_angles = [
+        float(thickness_half_angle(assembly.tooth(side), tip * 1e-3))
+        for side, tip in zip(SIDES, tips, strict=True)
     ]
-
-    def at_tip(gear: int) -> float:
-        tip = _TIPS[gear] / 2.0
-        tooth = assembly.tooth(SIDES[gear])
-        return math.acos(bases[gear] / tip) - float(thickness_half_angle(tooth, tip * 1e-3))
-
+    at_tip = np.arccos(bases / tips) - half_angles
     return {
-        "alpha_Fan": pair(lambda i: math.degrees(at_tip(i))),
-        "alpha_Fen": pair(lambda i: math.degrees(sections[i].load_angle)),
-        "h_Fa": pair(lambda i: (bases[i] / math.cos(at_tip(i)) - places[i]) / _M),
-        "d_sF": pair(lambda i: 2.0 * math.hypot(places[i], 500.0 * sections[i].thickness)),
+        "alpha_Fan": np.degrees(at_tip),
+        "alpha_Fen": np.degrees(angles),
+        "h_Fa": (bases / np.cos(at_tip) - places) / _M,
+        "d_sF": 2.0 * np.hypot(places, 500.0 * thickness),
     }
 
 
@@ -151,7 +156,7 @@ def _stiffness() -> iso6336.ReferenceStiffness:
         (1.39 + deeper, 1.39 + deeper),
         _ALPHA,
         1.43615,
-        3611.1e3 / 14.0,
+        _LINE_LOAD,
         (210e9, 210e9),
     )
     return iso6336.reference_stiffness(pair)
@@ -163,7 +168,6 @@ def _dynamic(stiffness: iso6336.ReferenceStiffness) -> dict[str, Any]:
     hard = load_factors.running_in("case-hardened", 1510e6, 5.749)
     base_pitch = gear.single_pitch  # not times cos α there
     mass = load_factors.disc_mass(67.658e-3, (82.45e-3 + 60.893e-3) / 2.0, 1.5, (7850.0, 7850.0))
-    line_load = 3611.1e3 / 14.0
     relief = load_factors.run_in_relief(_LIMIT * 1e6)
     mesh = load_factors.DynamicMesh(
         16.0,
@@ -171,7 +175,7 @@ def _dynamic(stiffness: iso6336.ReferenceStiffness) -> dict[str, Any]:
         mass,
         stiffness.single_pair,
         stiffness.mesh,
-        line_load,
+        _LINE_LOAD,
         base_pitch,
         gear.profile_form,
         1.43615,
@@ -182,7 +186,7 @@ def _dynamic(stiffness: iso6336.ReferenceStiffness) -> dict[str, Any]:
     dynamic = load_factors.dynamic_factor(mesh)
     crooked = 1.33 * 6e-6 + gear.total_helix
     straightened = load_factors.helix_running_in("case-hardened", 1510e6, 5.749).of(crooked)
-    raised = line_load * dynamic.factor
+    raised = _LINE_LOAD * dynamic.factor
     face = load_factors.face_load_factor_c(crooked - straightened, stiffness.mesh_face, raised)
     after = base_pitch - hard.of(base_pitch)
     across = load_factors.transverse_factor_b((1.43615, 0.0), stiffness.mesh, after, raised * 1.32)
@@ -213,56 +217,42 @@ def _dynamic(stiffness: iso6336.ReferenceStiffness) -> dict[str, Any]:
 
 def _strength(named: dict[str, Any], standard: Any) -> dict[str, Any]:
     """ISO 6336-2 and -3 for endurance, and the path of ISO/TS 6336-4."""
-
-    def both(name: str, unit: float = 1.0) -> tuple[float, float]:
-        return named[name]["pinion"] / unit, named[name]["gear"] / unit
-
-    contact, root = both("sigma_H", 1e6), both("sigma_F", 1e6)
-    influence = [both(name) for name in ("Z_L", "Z_v", "Z_R")]
-    product = math.prod(each[0] for each in influence)
+    contact, root = sides(named, "sigma_H", 1e6), sides(named, "sigma_F", 1e6)
+    influence = {name: sides(named, name)[0] for name in ("Z_L", "Z_v", "Z_R")}
+    product = math.prod(influence.values())
     permitted = _LIMIT * product * named["Z_X"]
-    relative = pair(lambda i: 950.0 * both("Y_delta_relT")[i] * both("Y_R_relT")[i] * both("Y_X")[i])
-    rz10 = 1.8 * (10.0 / 8.38205) ** (1.0 / 3.0)
-    values: dict[str, Any] = {
-        "K_Fbeta": named["K_Fbeta"],
-        "N_L": both("N_L", 1e6),
+    relative, smooth, size = (sides(named, name) for name in ("Y_delta_relT", "Y_R_relT", "Y_X"))
+    root_permitted = 950.0 * relative * smooth * size
+    lengths = {
+        name: sides(named, ours) for name, ours in (("s_Fn", "s_Fn"), ("h_Fe", "h_F"), ("rho_F", "rho_F"))
+    }
+    values: dict[str, Any] = {name: named[name] for name in ("K_Fbeta", "f_ZCa", "Z_H", "Z_beta")}
+    values |= {name: sides(named, name) for name in ("f_epsilon", "Y_F", "Y_B", "Y_S")}
+    values |= {name: sides(named, name)[0] for name in ("Z_W", "Y_beta", "Y_DT")}
+    values |= influence | {name: 1e3 * length / _M for name, length in lengths.items()}
+    values |= {
+        "N_L": sides(named, "N_L", 1e6),
         "sigma_H": contact,
         "sigma_H0": 1e-6 * named["sigma_H0"],
-        "f_ZCa": named["f_ZCa"],
         "Z_B": (named["Z_B"], named["Z_D"]),
-        "Z_H": named["Z_H"],
         "Z_E": 1e-3 * named["Z_E"],
         "Z_eps": named["Z_epsilon"],
-        "Z_beta": named["Z_beta"],
-        "Z_L": influence[0][0],
-        "Z_v": influence[1][0],
-        "Z_R": influence[2][0],
-        "R_z10": rz10,
+        "R_z10": 1.8 * (10.0 / 8.38205) ** (1.0 / 3.0),
         "Z_LRv": product,
-        "Z_W": both("Z_W")[0],
         "Z_X": (named["Z_X"], named["Z_X"]),
         "Z_N": (1.0, 1.0),
         "sigma_HP": (permitted, permitted),
-        "S_H": pair(lambda i: permitted / contact[i]),
-        "S_HMo": pair(lambda i: (permitted / contact[i]) ** 2),
+        "S_H": permitted / contact,
+        "S_HMo": (permitted / contact) ** 2,
         "sigma_F": root,
-        "sigma_F0": both("sigma_F0", 1e6),
-        "f_epsilon": both("f_epsilon"),
-        "Y_F": both("Y_F"),
-        "Y_beta": both("Y_beta")[0],
-        "Y_B": both("Y_B"),
-        "Y_DT": both("Y_DT")[0],
-        "Y_S": both("Y_S"),
-        "q_s": pair(lambda i: both("s_Fn")[i] / (2.0 * both("rho_F")[i])),
-        "Y_X": both("Y_X"),
-        "Y_delrelT": both("Y_delta_relT"),
-        "Y_RrelT": both("Y_R_relT"),
+        "sigma_F0": sides(named, "sigma_F0", 1e6),
+        "q_s": lengths["s_Fn"] / (2.0 * lengths["rho_F"]),
+        "Y_X": size,
+        "Y_delrelT": relative,
+        "Y_RrelT": smooth,
         "Y_N": (1.0, 1.0),
-        "sigma_FP": relative,
-        "S_F": pair(lambda i: relative[i] / root[i]),
-        "s_Fn": pair(lambda i: 1e3 * both("s_Fn")[i] / _M),
-        "h_Fe": pair(lambda i: 1e3 * both("h_F")[i] / _M),
-        "rho_F": pair(lambda i: 1e3 * both("rho_F")[i] / _M),
+        "sigma_FP": root_permitted,
+        "S_F": root_permitted / root,
         "rho_slip": (0.003, 0.003),
     }
     path = standard.path
@@ -278,6 +268,55 @@ def _strength(named: dict[str, Any], standard: Any) -> dict[str, Any]:
             f"b_H_{number}": 1e3 * 4.0 * float(rho * p) / modulus,
         }
     return values
+
+
+def _scuffed(case: Any, standard: Any, stiffness: iso6336.ReferenceStiffness) -> dict[str, Any]:
+    """ISO/TS 6336-20 and -21."""
+    path, integral, oil = standard.path, standard.integral, case.lubricant.sheet
+    flash = standard.flash_bulk, standard.flash_contact
+    values = scuffing_numbers(case, standard, (_ALPHA, 0.0), _LINE_LOAD * _K, flash)
+    places = contact_path.point_distances(path)
+    radius, roughness = float(contact_path.equivalent_radius(path, places[3])), case.mean_roughness
+    pitch = path.base_radius[0] * math.tan(path.pressure_angle)
+    gammas = contact_path.curvature_radii(path, places[[0, 2, 3, 4, 6]])[0] / pitch - 1.0
+    stiffnesses = stiffness.single_pair, stiffness.mesh
+    test_torque = fzg.scuffing_torque(6)
+    effective = _LINE_LOAD / math.cos(_ALPHA) / stiffness.mesh
+    values |= {
+        "eta_40": 1e3 * float(oil.viscosity(313.15)),
+        "eta_100": 1e3 * float(oil.viscosity(373.15)),
+        "VT": (math.log10(math.log10(90.82)) - math.log10(math.log10(11.21))) / math.log10(373.0 / 313.0),
+        "nu_50": 1e6 * float(kinematic_viscosity(90.02e-6, 10.41e-6, 323.15)),
+        "nu_60": 1e6 * float(kinematic_viscosity(90.02e-6, 10.41e-6, 333.15)),
+        "B_M": values["B_M"] / math.sqrt(1e3),
+        "K_Bbeta": standard.factors.duty.face,
+        "K_Bgamma": contact_path.helical_load_factor(path.total_contact_ratio),
+        "X_E": 1.0 + 30.0 * 1e3 * roughness / radius,
+        "X_R": micropitting.roughness_factor(roughness, radius),
+        "C_eff_int": 1e6 * scuffing.effective_tip_relief(_LINE_LOAD, stiffnesses, helical=False),
+        "C_eff_fla": 1e6 * effective,
+        "theta_flaE": integral.at_tip,
+        "theta_MT": 80.0 + 0.23 * test_torque,
+        "theta_flaintT": 0.2 * test_torque * (100.0 / 90.02) ** 0.02,
+        "theta_flamax": standard.flash_contact - standard.flash_bulk,
+    }
+    values |= {f"Gamma_{name}": float(gamma) for name, gamma in zip("ABCDE", gammas, strict=True)}
+    return values | _flashes(case, path, values["mu_fla"], effective)
+
+
+def _flashes(
+    case: Any, path: contact_path.ContactPath, friction: float, effective: float
+) -> dict[str, float]:
+    """Flash temperature at A, B, D, E."""
+    flanks, points = flanks_of(case), contact_path.point_distances(path)
+    places = points[[0, 2, 4, 6]]
+    load = _K * _TORQUE / path.base_radius[0] / (_WIDTH * 1e-3) * contact_path.flash_share(path, places, 5.0)
+    radii = contact_path.equivalent_radius(path, places)
+    width = np.sqrt(8.0 * load * radii / (np.pi * flanks.reduced_modulus))
+    speeds = contact_path.rolling_speeds(path, places, case.operating.pinion_speed)
+    rises = scuffing.flash_rise(friction, load, width, speeds, flanks.thermal_contact)
+    rises *= scuffing.flash_approach(points[3] - places, path.length, effective)
+    return {f"theta_fl_{name}": float(rise) for name, rise in zip("ABDE", rises, strict=True)}
 
 
 rows = rows_of(BOOK, _values)

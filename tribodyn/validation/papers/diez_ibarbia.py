@@ -35,7 +35,7 @@ ON_GEAR = "Table 1's torque on the gear"
 _EQUAL_RATIO, _EQUAL_LOSS = 0.01, 0.05
 
 
-def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
+def rows(folder: Path, progress: Callable[[float], None]) -> list[Row]:
     """All rows of the paper."""
     base = drive()
     by_hoehn, by_integral = loss_factors(base)
@@ -57,8 +57,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
             100.0 * cycle.efficiency,
             f"effective contact ratio {cycle.contact_ratio:.3f}",
         )
-        if progress:
-            progress(0.5 * (count + 1) / len(CONDITIONS))
+        progress(0.5 * (count + 1) / len(CONDITIONS))
     on_pinion, on_gear = (_unshifted(cycles[side], theory, by_hoehn, side) for side in cycles)
     for key, (value, note) in on_pinion.items():
         values[key] = value, f"{note}; torque on the gear: {on_gear[key][1]}"
@@ -115,15 +114,14 @@ def _step_at_pitch_point(flexible: PairFlexibility) -> tuple[bool, str]:
     return agree, f"OC4: {before:.4f} to {after:.4f}"
 
 
-def _shifted(progress: Callable[[float], None] | None) -> dict[str, tuple[bool, str]]:
+def _shifted(progress: Callable[[float], None]) -> dict[str, tuple[bool, str]]:
     """Claims about shifted pairs, at all conditions and by both approaches."""
     courses, notes = {}, []
     for count, scenario in enumerate(SHIFTS):
         notes += [_by_hoehn(scenario), *_by_load_contact(scenario)]
         for name in CONDITIONS:
             courses[scenario, name] = np.array(_courses(scenario, name))  # (approach, shift)
-        if progress:
-            progress(0.5 + 0.5 * (count + 1) / len(SHIFTS))
+        progress(0.5 + 0.5 * (count + 1) / len(SHIFTS))
     high = np.array(SHIFTS["S2"]) >= 0.3
     beyond = {key: course[:, high] < course[:, :1] for key, course in courses.items() if key[0] != "S1"}
     apart = {key: np.abs(course[1] - course[0]) for key, course in courses.items()}

@@ -60,8 +60,7 @@ def comparison(_: Path) -> Figure:
         ):
             axes.plot(np.degrees(course.roll), values, linestyle=line, color=colour, label=label)
     for letter, axes, label in zip("abcd", panels.flat, labels, strict=True):
-        axes.set_ylabel(label)
-        axes.set_ylim(bottom=0.0)
+        axes.set(ylabel=label, ylim=(0.0, None))
         mark_panel(axes, letter)
     panels[1, 0].set_ylim(0.0, 1.5 * mean_friction("OC4"))
     for axes in panels[1]:
@@ -158,11 +157,10 @@ def _two_panels(
     for letter, axes, (title, panel_data) in zip("ab", panels, panels_of.items(), strict=True):
         curves(axes, panel_data)
         axes.axvline(0.0, color=QUIET, linewidth=0.6)
-        axes.set_title(title)
-        axes.set_xlabel(ROLL)
+        axes.set(title=title, xlabel=ROLL)
         mark_panel(axes, letter)
-    panels[0].set_ylabel(LOAD_SHARING if quantity == "share" else LOSS)
-    panels[0].set_ylim(bottom=0.0)  # once both have been drawn: they share it
+    # the limits once both have been drawn: they share them
+    panels[0].set(ylabel=LOAD_SHARING if quantity == "share" else LOSS, ylim=(0.0, None))
     return figure, panels[0]
 
 

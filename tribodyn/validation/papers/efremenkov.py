@@ -1,15 +1,20 @@
-"""Efremenkov et al., Mathematics 12 (2024) 873: the gear with rolling elements and a free cage."""
+"""Efremenkov et al., Mathematics 12 (2024) 873: the gear with rolling elements and a free cage.
+
+Figures 4 to 8 are drawn in mode `as_published`.
+"""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.figure import Figure
 
-from tribodyn.errors import SimulationError
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.protocol.run import run
+from tribodyn.validation.papers import run_all
+from tribodyn.validation.published import published
 from tribodyn.validation.rows import Row, compare_paper
 
 PAPER = "efremenkov-2024"
@@ -45,7 +50,7 @@ RUNS: dict[str, tuple[str, dict[str, str]]] = {
 
 
 class FinishedRun(NamedTuple):
-    """What the rows need of a record: its summary, and datasets (time, element)."""
+    """What rows and figures need of a record: its summary, and datasets (time, element)."""
 
     summary: dict[str, Any]
     data: dict[str, np.ndarray]
@@ -56,27 +61,28 @@ class FinishedRun(NamedTuple):
         return (self.data["power_cam"] + self.data["power_crown"])[0]
 
     @property
+    def slip(self) -> np.ndarray:
+        """Slip speed of the elements at the start, mm/s."""
+        return self.data["slip_speed"][0] * 1e3
+
+    @property
     def slip_range(self) -> float:
         """Range of the slip speed over the elements, m/s."""
         return float(np.ptp(self.data["slip_speed"][0]))
 
 
-def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
+def rows(folder: Path, progress: Callable[[float], None]) -> list[Row]:
     """All rows of the paper, from runs whose records are left in `folder`."""
-    results = {}
-    for count, (name, (scenario, changes)) in enumerate(RUNS.items()):
-        results[name] = _run(folder / f"{name}.h5", scenario, changes)
-        if progress:
-            progress((count + 1) / len(RUNS))
+    results = {name: _read(path) for name, path in run_all(RUNS, folder, progress)}
     values, otherwise = (
         _table(results[begin]) | _of_the_text({end: results.get(begin + end) for end in CHANGES})
         for begin in (PUBLISHED, CORRECTED)
     )
-    published_as = results[PUBLISHED].summary["efficiency_by_energy"]
     corrected, coarse = (results[name].summary for name in ("irefc-corrected", CORRECTED))
+    by_energy = results[PUBLISHED].summary["efficiency_by_energy"]
     ranges = [results[PUBLISHED + end].slip_range * 1e3 for end in ("-rb-1.2", "-rb-2.8")]
     notes = {
-        "efremenkov/efficiency": f"the product (23); by energy {published_as:.4f}. With corrected speeds "
+        "efremenkov/efficiency": f"the product (23); by energy {by_energy:.4f}. With corrected speeds "
         f"{coarse['efficiency']:.3f} ({coarse['power_friction_mean']:.0f} W of "
         f"{coarse['power_in_mean']:.0f} W lost), and {corrected['efficiency']:.4f} with a rolling arm "
         "of 0.01 mm",
@@ -98,11 +104,8 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     )
 
 
-def _run(path: Path, scenario: str, changes: dict[str, str]) -> FinishedRun:
-    result = run(load_scenario(scenario, changes), path, force=True)
-    if result.status != "complete":
-        raise SimulationError(f"{path.stem}: {result.message}")
-    with Record(result.path) as record:
+def _read(path: Path) -> FinishedRun:
+    with Record(path) as record:
         return FinishedRun(record.summary, {name: record[name] for name in record})
 
 
@@ -112,7 +115,7 @@ def _table(result: FinishedRun) -> dict[str, Any]:
     columns = (
         data["cam_distance"][0],
         data["crown_distance"][0],
-        data["slip_speed"][0] * 1e3,
+        result.slip,
         result.loss,
         data["normal_load"][0],
     )
@@ -152,10 +155,10 @@ def _columns(result: FinishedRun) -> dict[str, Any]:
 
 def _claims(results: dict[str, FinishedRun], begin: str) -> dict[str, tuple[bool, str]]:
     """Claims about slip and loss, from the radii that there are runs of."""
-    ends = 1e3 * results[f"{begin}-r2-30"].data["slip_speed"][0][[0, -1]]
+    ends = results[f"{begin}-r2-30"].slip[[0, -1]]
     names = (begin + end for end in ("-rb-1.2", "-rb-1.6", "", "-rb-2.4", "-rb-2.8"))
     radii = [results[name] for name in names if name in results]
-    slips = [1e3 * float(np.max(result.data["slip_speed"][0])) for result in radii]
+    slips = [float(np.max(result.slip)) for result in radii]
     losses = [float(result.loss.max()) for result in radii]
     prefix = "efremenkov/claim-"
     return {
@@ -172,3 +175,70 @@ def _claims(results: dict[str, FinishedRun], begin: str) -> dict[str, tuple[bool
             f"{', '.join(f'{loss:.2f}' for loss in losses)} W",
         ),
     }
+
+
+#: Records by the curve that they are: radius of the generating circle, and of the rolling elements, mm.
+CIRCLES = {"$r_2$ = 20 mm": PUBLISHED, "$r_2$ = 30 mm": f"{PUBLISHED}-r2-30"}
+RADII = {
+    1.2: f"{PUBLISHED}-rb-1.2",
+    1.6: f"{PUBLISHED}-rb-1.6",
+    2.0: PUBLISHED,
+    2.4: f"{PUBLISHED}-rb-2.4",
+    2.8: f"{PUBLISHED}-rb-2.8",
+}
+ELEMENT = "Rolling element"
+
+
+def slip_by_circle(records: Path) -> Figure:
+    """Slip speed over the elements, a panel for each generating circle."""
+    figure = new_figure(WIDTH, PANEL_HEIGHT)
+    panels = figure.subplots(1, 2)
+    for letter, axes, (label, name) in zip("ab", panels, CIRCLES.items(), strict=True):
+        slip = _read(records / f"{name}.h5").slip
+        axes.plot(np.arange(1, slip.size + 1), slip, marker="o", markersize=3)
+        axes.axhline(0.0, linewidth=0.6, color="k")
+        axes.set(xlabel=ELEMENT, ylabel="$V_s$ (mm/s)")
+        mark_panel(axes, letter, label)
+    return figure
+
+
+def over_elements(of: str, label: str, curves: dict[str, str], records: Path) -> Figure:
+    """Draw a quantity of the elements over their numbers, a curve for each record."""
+    figure = new_figure(WIDTH, PANEL_HEIGHT + 0.6)
+    axes = figure.subplots()
+    for color, (name, record) in zip(PALETTE, curves.items(), strict=False):
+        values = getattr(_read(records / f"{record}.h5"), of)
+        axes.plot(np.arange(1, values.size + 1), values, marker="o", markersize=3, color=color, label=name)
+    axes.set(xlabel=ELEMENT, ylabel=label)
+    axes.legend()
+    return figure
+
+
+def largest_loss(records: Path) -> Figure:
+    """Maximum N_S over the radius of the rolling elements, with the two printed values."""
+    figure = new_figure(0.7 * WIDTH, PANEL_HEIGHT + 0.3)
+    axes = figure.subplots()
+    axes.plot(
+        list(RADII),
+        [_read(records / f"{name}.h5").loss.max() for name in RADII.values()],
+        marker="o",
+        label="computed",
+    )
+    table, ends = published("efremenkov-2024"), (1.2, 2.8)
+    values = [table[f"efremenkov/ns-max-rb-{radius}"]["published"] for radius in ends]
+    axes.plot(ends, values, linestyle="none", marker="x", markersize=8, color=PALETTE[1], label="printed")
+    axes.set(xlabel="$r_b$ (mm)", ylabel="Maximum $N_S$ (W)")
+    axes.legend()
+    return figure
+
+
+_BY_RADIUS = {f"$r_b$ = {radius} mm": name for radius, name in RADII.items()}
+_LOSS, _SLIP = "$N_S$ (W)", "$V_s$ (mm/s)"
+
+FIGURES: dict[str, Callable[[Path], Figure]] = {
+    "figure-4": slip_by_circle,
+    "figure-5": partial(over_elements, "loss", _LOSS, CIRCLES),
+    "figure-6": partial(over_elements, "slip", _SLIP, _BY_RADIUS),
+    "figure-7": partial(over_elements, "loss", _LOSS, _BY_RADIUS),
+    "figure-8": largest_loss,
+}

@@ -6,7 +6,7 @@ of action.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
-from tribodyn.compliance.sharing.loaded_contact import LoadedContact, at_pitch_point, roll_through
+from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.assembly import assemble
@@ -25,14 +25,59 @@ from tribodyn.geometry.modification import FlankModification, LeadRelief, Misali
 from tribodyn.geometry.path import kinematics
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import hertz_pressure
-from tribodyn.validation.papers.jia_positions import Passage, positions
 from tribodyn.validation.rows import Row, compare_paper
+
+#: Share of the way from the pitch point to the last contact within which a place is near either of them.
+NEAR = 0.25
+
+
+class Passage(NamedTuple):
+    """What one pair of teeth goes through, over increasing pinion angle (point,), maximum over the face."""
+
+    roll: np.ndarray  # pinion angle from the pitch point, rad
+    line_load: np.ndarray  # N/m
+    pressure: np.ndarray  # maximum Hertz pressure, Pa
+    #: compression, tension: maximum root stress of both gears, Pa, as amounts
+    compression: np.ndarray
+    tension: np.ndarray
+
+    def place(self, name: str) -> float:
+        """Where a quantity is largest: from the pitch point, 0, to the last contact, 1; < 0 before it."""
+        return float(self.roll[int(np.argmax(getattr(self, name)))] / self.roll[self.line_load > 0.0][-1])
+
+
+def positions(
+    involute: Passage, parabolic: Passage, relieved: Sequence[Passage]
+) -> dict[str, tuple[bool, str]]:
+    """Claims of §4.2.2 and §4.2.3 about unmodified gears and about parabolic ones with relief."""
+    stresses = ("line_load", "compression", "tension")
+    middle = [involute.place(name) for name in stresses]
+    contact = [passage.place("line_load") for passage in relieved]
+
+    def text_of(places: Sequence[float]) -> str:
+        return ", ".join(f"{place:+.2f}" for place in places) + " of the way from P to the last contact"
+
+    claims = {
+        "jia/claim-involute-largest-near-the-middle": (
+            all(abs(place) <= NEAR for place in middle),
+            f"line load, compression, tension at {text_of(middle)}",
+        ),
+        "jia/claim-contact-largest-near-the-pitch-circle": (
+            all(abs(place) <= NEAR for place in contact),
+            f"line load of the relieved gears at {text_of(contact)}",
+        ),
+    }
+    for name in stresses[1:]:
+        places = [one.place(name) for one in (parabolic, *relieved)]
+        late = all(place >= 1.0 - NEAR for place in places)
+        text = f"unmodified, then relieved at {text_of(places)}"
+        claims[f"jia/claim-{name}-largest-before-the-exit"] = late, text
+    return claims
+
 
 Name = Literal["involute", "parabolic"]
 DRIVES: tuple[Name, Name] = ("involute", "parabolic")
-
-PINION_TORQUE = 134.0  # N m
-ARC_MINUTE = math.radians(1.0 / 60.0)
+PINION_TORQUE, ARC_MINUTE = 134.0, math.radians(1.0 / 60.0)  # N m, rad
 #: Positions over a mesh cycle of 360/17 degrees, steps of a degree; slices of 0.6 mm. With 51 slices ratios
 #: of aligned gears change by less than 0.1 %, those of misaligned ones by less than 1 %.
 POSITIONS, SLICES = 21, 41
@@ -49,6 +94,7 @@ class FaceState(NamedTuple):
 
 #: The paper's relief where it looks at misalignment.
 CROWNED = FaceState(8.0, 8.0)
+STATES = {"unmodified": FaceState(), "crowned": CROWNED}
 
 
 def case_of(name: Name) -> LubricatedCase:
@@ -74,12 +120,10 @@ def rolled(name: Name, state: FaceState = FaceState()) -> LoadedContact:
     """One mesh cycle of a drive in slow rotation."""
     flexible = elastic(name)
     teeth = flexible.assembly.drive
-    modifications = Modifications(
-        pinion=modified(state),
-        misalignment=Misalignment(in_plane=state.misalignment * ARC_MINUTE),
-    )
+    tilt = Misalignment(in_plane=state.misalignment * ARC_MINUTE)
+    flanks = Modifications(pinion=modified(state), misalignment=tilt)
     torque = PINION_TORQUE * teeth.gear.teeth / teeth.pinion.teeth
-    return roll_through(LoadedFlanks(flexible, modifications, SLICES, state.coupled), torque, POSITIONS)
+    return roll_through(LoadedFlanks(flexible, flanks, SLICES, state.coupled), torque, POSITIONS)
 
 
 class Maximum(NamedTuple):
@@ -90,34 +134,23 @@ class Maximum(NamedTuple):
     place: float
 
 
-def maximum_line_load(name: Name, state: FaceState = FaceState()) -> Maximum:
-    """Maximum line load over mesh cycle and face, N/m."""
-    run = rolled(name, state)
-    return _maximum(run, run.line_load)
+def maximum(name: Name, state: FaceState = FaceState(), of: str = "line_load", away: float = 0.0) -> Maximum:
+    """Maximum over mesh cycle and face: of the "line_load" (N/m) or the Hertz "pressure" (Pa).
 
-
-def maximum_pressure(name: Name, state: FaceState = FaceState(), away: float = 0.0) -> Maximum:
-    """Maximum Hertz pressure, Pa; of pairs at least `away` degrees from the pitch point."""
+    Of pairs at least `away` degrees from the pitch point.
+    """
     run = rolled(name, state)
-    far = np.abs(np.degrees(run.roll)) >= away
-    return _maximum(run, run.pressure * far[..., None])
+    values = getattr(run, of) * (np.abs(np.degrees(run.roll)) >= away)[..., None]
+    position, pair, part = np.unravel_index(int(np.argmax(values)), values.shape)
+    place = 1e3 * float(run.slice_position[part])
+    return Maximum(float(values[position, pair, part]), float(np.degrees(run.roll[position, pair])), place)
 
 
 def maximum_root_stress(name: Name, tension: bool, state: FaceState = FaceState()) -> tuple[float, float]:
     """Maximum root stress of pinion and gear over mesh cycle and face, Pa, as an amount."""
     run = rolled(name, state)
-    stress = run.root_tension if tension else -run.root_compression
-    pinion, gear = np.nanmax(stress, axis=(1, 2, 3))
+    pinion, gear = np.nanmax(run.root_tension if tension else -run.root_compression, axis=(1, 2, 3))
     return float(pinion), float(gear)
-
-
-def _maximum(run: LoadedContact, values: np.ndarray) -> Maximum:
-    position, pair, part = np.unravel_index(int(np.argmax(values)), values.shape)
-    return Maximum(
-        float(values[position, pair, part]),
-        float(np.degrees(run.roll[position, pair])),
-        1e3 * float(run.slice_position[part]),
-    )
 
 
 def passage(name: Name, state: FaceState = FaceState()) -> Passage:
@@ -135,67 +168,47 @@ def passage(name: Name, state: FaceState = FaceState()) -> Passage:
     return Passage(run.roll.ravel()[order], *(np.max(part, axis=-1).ravel()[order] for part in along_face))
 
 
-def face_load(name: Name, state: FaceState = FaceState()) -> tuple[np.ndarray, np.ndarray]:
-    """Line load (N/m) along the face (m from its middle) of the pair that is nearest to the pitch point."""
-    run = rolled(name, state)
-    return run.slice_position, run.line_load[at_pitch_point(run.roll)]
-
-
-PAPER = "jia-2022"
 # Pairs closer to the pitch point, degrees, are left out where pressures of the two families are compared.
 _NEAR = 2.0
 _PRESSURES = "Hertz pressures"
 
 
-def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
+def rows(folder: Path, progress: Callable[[float], None]) -> list[Row]:
     """All rows of the paper; no run is recorded, so that `folder` stays empty."""
     values = geometry()
     # Tables 4 and 5 over their own value without misalignment, Table 3 over the unmodified
-    ratios: dict[str, tuple[Name, FaceState, FaceState, bool]] = {
-        f"jia/misaligned-{name}-{sort}-{minutes}": (
-            name,
-            base._replace(misalignment=float(minutes)),
-            base,
-            minutes == 3,
-        )
-        for name in DRIVES
-        for sort, base in (("unmodified", FaceState()), ("crowned", CROWNED))
-        for minutes in (1, 2, 3)
-    }
-    ratios |= {
-        f"jia/crown-{relief}-{relief}-{unmodified}": (
-            "parabolic",
-            FaceState(float(relief), float(unmodified)),
-            FaceState(),
-            relief == 8,
-        )
-        for unmodified in (0, 8)
-        for relief in (4, 8, 12)
-    }
+    ratios: dict[str, tuple[Name, FaceState, FaceState, bool]] = {}
+    for name in DRIVES:
+        for sort, base in STATES.items():
+            for minutes in (1, 2, 3):
+                state = base._replace(misalignment=float(minutes))
+                ratios[f"jia/misaligned-{name}-{sort}-{minutes}"] = name, state, base, minutes == 3
+    for unmodified in (0, 8):
+        for relief in (4, 8, 12):
+            state = FaceState(float(relief), float(unmodified))
+            ratios[f"jia/crown-{relief}-{relief}-{unmodified}"] = "parabolic", state, FaceState(), relief == 8
     for done, (key, printed) in enumerate(ratios.items(), start=1):
         values[key] = _ratio(*printed)
-        if progress:
-            progress(done / len(ratios))
-    values |= _families()
-    values |= tables()
+        progress(done / len(ratios))
+    values |= _families() | tables()
     alternatives: dict[str, dict[str, Any]] = {}
     for key, (_, _, *others) in values.items():
         for choice, value in others:
             alternatives.setdefault(choice, {})[key] = value
-    return compare_paper(PAPER, {key: printed[:2] for key, printed in values.items()}, alternatives)
+    return compare_paper("jia-2022", {key: printed[:2] for key, printed in values.items()}, alternatives)
 
 
 def tables() -> dict[str, tuple[Any, ...]]:
     """Ratios of Tables 3 to 5 and of the conclusions as lists: bending, and one family over the other."""
     kinds: dict[str, Callable[[Name, FaceState], float]] = {
-        "contact": lambda name, state: maximum_line_load(name, state).value,
+        "contact": lambda name, state: maximum(name, state).value,
         "compression": lambda name, state: max(maximum_root_stress(name, False, state)),
         "tension": lambda name, state: max(maximum_root_stress(name, True, state)),
     }
     base, relief = FaceState(), [FaceState(y, y3) for y3 in (0.0, 8.0) for y in (4.0, 8.0, 12.0)]
     tilted = {
         sort: [state._replace(misalignment=float(minutes)) for minutes in range(4)]
-        for sort, state in (("unmodified", base), ("crowned", CROWNED))
+        for sort, state in STATES.items()
     }
     ratios: dict[str, tuple[Any, ...]] = {}
     lower = True
@@ -220,7 +233,7 @@ def tables() -> dict[str, tuple[Any, ...]]:
     ):
         ratios[f"jia/{key}"] = [of("parabolic", after) / of("parabolic", before) for of in kinds.values()], ""
     pressures = [
-        maximum_pressure("parabolic", state).value < maximum_pressure("involute", state).value
+        maximum("parabolic", state, of="pressure").value < maximum("involute", state, of="pressure").value
         for states in tilted.values()
         for state in states
     ]
@@ -286,24 +299,24 @@ def _ratio(
     name: Name, state: FaceState, base: FaceState, apart: bool
 ) -> tuple[float, str, tuple[str, float]]:
     """Ratio of the maximum line loads; the note has where, and the ratios of other readings."""
-    maximum = maximum_line_load(name, state)
-    pressures = maximum_pressure(name, state).value / maximum_pressure(name, base).value
+    most = maximum(name, state)
+    pressures = maximum(name, state, of="pressure").value / maximum(name, base, of="pressure").value
     note = (
-        f"ratio of maximum line loads over mesh cycle and face, {maximum.value / 1e3:.0f} N/mm at "
-        f"{maximum.roll:+.1f} deg from the pitch point, {maximum.place:+.0f} mm from the middle; "
+        f"ratio of maximum line loads over mesh cycle and face, {most.value / 1e3:.0f} N/mm at "
+        f"{most.roll:+.1f} deg from the pitch point, {most.place:+.0f} mm from the middle; "
         f"of maximum Hertz pressures {pressures:.4f}"
     )
     if apart:
-        free = [maximum_line_load(name, state_of._replace(coupled=False)).value for state_of in (state, base)]
+        free = [maximum(name, state_of._replace(coupled=False)).value for state_of in (state, base)]
         note += f"; of line loads on slices that do not hold each other {free[0] / free[1]:.4f}"
-    return maximum.value / maximum_line_load(name, base).value, note, (_PRESSURES, pressures)
+    return most.value / maximum(name, base).value, note, (_PRESSURES, pressures)
 
 
 def _families() -> dict[str, tuple[Any, ...]]:
     """Rows of Table 2: parabolic over involute, neither modified nor misaligned."""
-    ours, theirs = (maximum_line_load(name).value for name in ("parabolic", "involute"))
-    pressure = [maximum_pressure(name).value for name in ("parabolic", "involute")]
-    away = [maximum_pressure(name, away=_NEAR).value for name in ("parabolic", "involute")]
+    ours, theirs = (maximum(name).value for name in ("parabolic", "involute"))
+    pressure = [maximum(name, of="pressure").value for name in ("parabolic", "involute")]
+    away = [maximum(name, of="pressure", away=_NEAR).value for name in ("parabolic", "involute")]
     compared: dict[str, tuple[Any, ...]] = {
         "jia/ratio-contact": (
             ours / theirs,

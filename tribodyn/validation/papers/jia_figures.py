@@ -1,4 +1,4 @@
-"""Figures 13 to 21 of Jia et al.: loads along the face, stresses over the pinion's angle and of the tooth.
+"""Figures 7 and 9 to 21 of Jia et al.: paths, teeth and racks over k1 and k2, then loads and stresses.
 
 Where the paper draws contact stress these show the maximum line load along the face, which its figures
 behave like (docs/validation.md); Hertz pressures have a figure of their own.
@@ -7,19 +7,25 @@ behave like (docs/validation.md); Hertz pressures have a figure of their own.
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tribodyn.compliance.sharing.flank_gap import along_face
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import at_pitch_point
 from tribodyn.compliance.sharing.tooth_field import tooth_field
-from tribodyn.post.style import PALETTE, WIDTH, mark_panel, new_figure, panel_title
+from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.body import rack_outline, tooth_outline
+from tribodyn.geometry.drive import SIDES, Side
+from tribodyn.geometry.families import family
+from tribodyn.geometry.path import position
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure, panel_title
 from tribodyn.studies.load_contact import stress
-from tribodyn.validation.papers import jia_profiles
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation.papers.jia import (
     CROWNED,
     DRIVES,
@@ -27,10 +33,139 @@ from tribodyn.validation.papers.jia import (
     FaceState,
     Name,
     elastic,
-    face_load,
+    modified,
     passage,
     rolled,
 )
+
+#: Coefficients drawn: from the smallest to below the largest without undercut, the paper's 0.32 among them.
+COEFFICIENTS = (0.2, 0.26, 0.32, 0.38, 0.44)
+#: The paper's own.
+CHOSEN = 0.32
+MM = 1e3
+#: Relief is drawn so many times as large as it is: at its own size, 8 µm of 25 mm, it would not be seen.
+EXAGGERATED = 40.0
+
+
+def gears(k1: float = CHOSEN, k2: float = CHOSEN) -> Assembly:
+    """Return the paper's parabolic gears with other coefficients."""
+    case = load_scenario("jia-parabolic-17-29", {"drive.shape.k1": k1, "drive.shape.k2": k2}).pair
+    return assemble(family(case.family), case.drive)
+
+
+def half_tooth(assembly: Assembly, side: Side) -> np.ndarray:
+    """Half a tooth from the root circle to the tip: across and up from the pitch circle, (points, 2), m."""
+    tooth = assembly.tooth(side)
+    shape = tooth_outline(tooth)
+    across = np.concatenate([shape.fillet_y, shape.flank_y[1:]])
+    up = np.concatenate([shape.fillet_x, shape.flank_x[1:]]) - float(tooth.path.pinion_pitch_radius)
+    return np.stack([across, up], axis=-1)
+
+
+def rack_profile(assembly: Assembly, side: Side) -> np.ndarray:
+    """One pitch of a rack-cutter, (points, 2), m; the gear's as it stands against the pinion's."""
+    rack = rack_outline(assembly, side)
+    sense = 1.0 if side == "pinion" else -1.0
+    return np.stack([sense * rack.x, sense * rack.y], axis=-1)
+
+
+def _colours() -> np.ndarray:
+    return colormaps["viridis"](np.linspace(0.0, 0.88, len(COEFFICIENTS)))
+
+
+def paths(_: Path) -> Figure:
+    """Path of contact for the coefficients: k1 in the first quadrant, k2 in the third."""
+    figure = new_figure(WIDTH, 0.95 * PANEL_HEIGHT)
+    axes = figure.subplots()
+    for colour, k in zip(_colours(), COEFFICIENTS, strict=True):
+        pair = gears(k, k)
+        path = pair.path
+        along = path.signed_distance(np.linspace(*pair.roll_limits, 201))
+        axes.plot(*(MM * np.stack(position(path, along))), color=colour, label=f"$k_1 = k_2$ = {k:g}")
+    for line in (axes.axhline, axes.axvline):
+        line(0.0, color="k", linewidth=0.6)
+    axes.set(aspect="equal", xlabel="$x_f$ (mm)", ylabel="$y_f$ (mm)")
+    figure.legend(loc="outside lower center", ncols=len(COEFFICIENTS))
+    return figure
+
+
+def teeth(name: str, _: Path) -> Figure:
+    """Teeth of pinion and gear for values of one coefficient, the other at 0.32."""
+    figure = new_figure(WIDTH, PANEL_HEIGHT + 1.2)
+    panels = figure.subplots(1, 2, sharey=True, sharex=True)
+    for colour, k in zip(_colours(), COEFFICIENTS, strict=True):
+        pair = gears(**{name: k})
+        for axes, side in zip(panels, SIDES, strict=True):
+            _draw_tooth(axes, half_tooth(pair, side), color=colour, label=f"${name[0]}_{name[1]}$ = {k:g}")
+    for letter, axes, side in zip("ab", panels, SIDES, strict=True):
+        axes.axhline(0.0, color="k", linewidth=0.6, linestyle="-.")
+        axes.set(aspect="equal", xlabel="Across the tooth (mm)")
+        mark_panel(axes, letter, side)
+    panels[0].set_ylabel("Above the pitch circle (mm)")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(COEFFICIENTS))
+    return figure
+
+
+def _draw_tooth(axes: Axes, half: np.ndarray, **style: Any) -> None:
+    across, up = MM * half.T
+    axes.plot(np.concatenate([across, -across[::-1]]), np.concatenate([up, up[::-1]]), **style)
+
+
+def racks(_: Path) -> Figure:
+    """Rack-cutters of pinion and gear, k1 = k2 = 0.32, as they fit into each other."""
+    pair = gears()
+    pitch = MM * rack_outline(pair, "pinion").pitch
+    figure = new_figure(WIDTH, PANEL_HEIGHT)
+    axes = figure.subplots()
+    # against the pinion's the gear's stands half a pitch further on
+    for side, first, colour, style in zip(SIDES, (-1.0, -1.5), PALETTE, ("-", "--"), strict=False):
+        across, up = MM * rack_profile(pair, side).T
+        for number in range(4):
+            label = "" if number else f"rack-cutter of the {side}"
+            place = across + (first + number) * pitch
+            axes.plot(place, up, color=colour, linestyle=style, label=label)
+    axes.axhline(0.0, color="k", linewidth=0.6, linestyle="-.")
+    axes.set_aspect("equal")
+    axes.set_xlim(-1.25 * pitch, 1.25 * pitch)
+    axes.set_xlabel("Along the pitch line (mm)")
+    axes.set_ylabel("From the pitch line (mm)")
+    figure.legend(loc="outside lower center", ncols=2)
+    return figure
+
+
+def relieved_teeth(_: Path) -> Figure:
+    """Three teeth of the modified pinion as a grid, the relief of its flanks exaggerated."""
+    pair = gears()
+    width, radius = float(pair.drive.pinion.face_width), float(pair.path.pinion_pitch_radius)
+    place = np.linspace(-width / 2.0, width / 2.0, 26)
+    half = half_tooth(pair, "pinion")[::4]
+    missing = EXAGGERATED * along_face(modified(CROWNED).lead, width, place)
+    # all of it from the form circle up, none at the root circle
+    shares = np.interp(
+        half[:, 1] + radius, [float(pair.pinion.root_radius), float(pair.pinion.form_radius)], [0, 1]
+    )
+    across = half[:, :1] - shares[:, None] * missing
+    up = np.repeat(half[:, 1:], place.size, axis=1) + radius
+    across = np.concatenate([across, np.linspace(1.0, -1.0, 7)[1:-1, None] * across[-1], -across[::-1]])
+    up = np.concatenate([up, np.repeat(up[-1:], 5, axis=0), up[::-1]])
+    figure = new_figure(WIDTH, 4.4)
+    axes: Any = figure.add_subplot(projection="3d")
+    for tooth in (-1, 0, 1):
+        turn = 2.0 * np.pi / float(pair.drive.pinion.teeth) * tooth
+        x, y = across * np.cos(turn) + up * np.sin(turn), up * np.cos(turn) - across * np.sin(turn) - radius
+        grid = MM * np.stack([x, np.broadcast_to(place, x.shape), y])
+        axes.plot_surface(
+            *grid, rstride=1, cstride=1, color="white", edgecolor=PALETTE[0], linewidth=0.3, shade=False
+        )
+    axes.set_box_aspect((20, 25, 8))
+    axes.view_init(elev=32, azim=-50)
+    axes.set(xlabel="Across (mm)", ylabel="Along the face (mm)", zlabel="Above the\npitch circle (mm)")
+    text = f"$y_1 = y_2$ = {CROWNED.relief:g} µm, $y_3$ = {CROWNED.unmodified:g} mm"
+    figure.suptitle(
+        f"Modified pinion, {text}; relief drawn {EXAGGERATED:g} times as large", x=0.01, ha="left", fontsize=9
+    )
+    return figure
+
 
 FACE = "From the middle of the face (mm)"
 ROLL = "Pinion angle from the pitch point (°)"
@@ -83,12 +218,17 @@ def _figure(height: float, quantities: Sequence[str], panels: Sequence[Panel], _
         axes.set_title(panel.title)
         mark_panel(axes, letter)
     for axes, (quantity, _panel) in zip(grid[:, 0], wanted[::2], strict=True):
-        axes.set_ylabel(QUANTITIES[quantity][0])
-        axes.set_ylim(bottom=0.0)
+        axes.set(ylabel=QUANTITIES[quantity][0], ylim=(0.0, None))
     for axes in grid[-1]:
         axes.set_xlabel(FACE if quantities == ["face"] else ROLL)
     figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
+
+
+def face_load(name: Name, state: FaceState = FaceState()) -> tuple[np.ndarray, np.ndarray]:
+    """Line load (N/m) along the face (m from its middle) of the pair that is nearest to the pitch point."""
+    run = rolled(name, state)
+    return run.slice_position, run.line_load[at_pitch_point(run.roll)]
 
 
 def _draw(axes: Axes, quantity: str, panel: Panel) -> None:
@@ -114,8 +254,7 @@ def compared(_: Path) -> Figure:
             course = passage(drive)
             values = factor * getattr(course, quantity)
             axes.plot(np.degrees(course.roll), values, color=colour, label=drive)
-        axes.set_ylabel(label)
-        axes.set_ylim(bottom=0.0)
+        axes.set(ylabel=label, ylim=(0.0, None))
         mark_panel(axes, letter)
     rows[-1].set_xlabel(ROLL)
     rows[0].legend()
@@ -157,7 +296,11 @@ OF_BOTH: tuple[tuple[str, Name, FaceState], ...] = tuple(
 
 
 FIGURES: dict[str, Callable[[Path], Figure]] = {
-    **jia_profiles.FIGURES,
+    "figure-7": relieved_teeth,
+    "figure-9": paths,
+    "figure-10": partial(teeth, "k1"),
+    "figure-11": partial(teeth, "k2"),
+    "figure-12": racks,
     "figure-13": compared,
     "figure-14": partial(_figure, 3.0, ["face"], RELIEVED),
     "figure-15": partial(stresses, 0.0, OF_RELIEF),

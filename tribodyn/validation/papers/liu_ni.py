@@ -6,17 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.errors import SimulationError
-from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.protocol.run import run
+from tribodyn.validation.papers import run_all
 from tribodyn.validation.papers.liu_ni_courses import FAR, NEAR, Steady, courses, steady_cycle
 from tribodyn.validation.rows import Row, compare_paper
 
 PAPER = "liu-ni-2022"
 DRIVES = "crc-23-47", "involute-23-47"
+#: Samples per mesh cycle: at 10 rad/s the mesh vibrates 49 times per cycle, which 200 hardly resolve.
+SAMPLES = 2000
 #: Runs by the names of their records: scenario and what is changed in it.
 RUNS: dict[str, tuple[str, dict[str, Any]]] = {
-    f"{drive}{end}": (drive + scenario, changes)
+    f"{drive}{end}": (drive + scenario, {"output.samples_per_cycle": SAMPLES, **changes})
     for end, scenario, changes in (
         ("", "", {}),
         ("-frictionless", "-frictionless", {}),
@@ -39,21 +39,10 @@ ROTATIONAL, APART = "DTE as r_p θ_p - r_g θ_g", "pairs that do not share the g
 _LINE, _EQUAL = 1e-6, 0.005
 _ABOVE = "liu-ni/claim-dte-of-the-crc-drive-above-the-involute-s-lower"
 
-#: Samples per mesh cycle: at 10 rad/s the mesh vibrates 49 times per cycle, which 200 hardly resolve.
-SAMPLES = 2000
 
-
-def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
+def rows(folder: Path, progress: Callable[[float], None]) -> list[Row]:
     """All rows of the paper, from fourteen runs whose records are left in `folder`."""
-    steady = {}
-    for count, (name, (scenario, changes)) in enumerate(RUNS.items()):
-        case = load_scenario(scenario, {"output.samples_per_cycle": SAMPLES, **changes})
-        result = run(case, folder / f"{name}.h5", force=True)
-        if result.status != "complete":
-            raise SimulationError(f"{name}: {result.message}")
-        steady[name] = steady_cycle(result.path)
-        if progress:
-            progress((count + 1) / len(RUNS))
+    steady = {name: steady_cycle(path) for name, path in run_all(RUNS, folder, progress)}
     wet, dry, elements, apart, *others = (
         [steady[f"{drive}{end}"] for drive in DRIVES]
         for end in ("", "-frictionless", "-fem", "-apart", *CHOICES)

@@ -140,10 +140,9 @@ def normal_load(records: Path) -> Figure:
             color = PALETTE[2 + number]
             axes.axhline(value, color=color, linewidth=1.2, linestyle=PRINTED, zorder=3, label=label)
             label = ""
-    axes.set_xlim(0.0, 1.0)
-    axes.set_ylim(bottom=0.0)
-    axes.set_xlabel("Phase (mesh cycles)")
-    axes.set_ylabel(over_mesh.NORMAL_LOAD.label)
+    axes.set(
+        xlim=(0.0, 1.0), ylim=(0.0, None), xlabel="Phase (mesh cycles)", ylabel=over_mesh.NORMAL_LOAD.label
+    )
     mark_panel(axes, "", "CRC drive without friction: normal loads of consecutive pairs", rows)
     figure.legend(loc="outside lower center", ncols=2)
     return figure
@@ -185,8 +184,7 @@ def error_and_spectrum(records: Path) -> Figure:
             at = places + (0.6 * number - 0.3)
             below.vlines(at, 0.0, 1e6 * spectrum.harmonics(ORDERS), color=PALETTE[number], linewidth=2.2)
             below.plot([], [], color=PALETTE[number], label=label)
-    above.set_xlabel("Time (ms)")
-    above.set_ylabel(ERROR)
+    above.set(xlabel="Time (ms)", ylabel=ERROR)
     above.legend()
     mark_panel(above, "a", "CRC drive without friction: transmission error")
     harmonics = [_value("mesh-frequency"), *published(PAPER)["liu-ni/mesh-harmonics"]["published"]]
@@ -211,8 +209,7 @@ def with_and_without_friction(records: Path) -> Figure:
             axes.plot(*_error(record, _ONE), linewidth=0.9, label=label, **style)
         rows = mark_key_points(axes, [opened[0], opened[2]], _ONE)
         mark_panel(axes, "", "Dynamic transmission error", rows)
-    axes.set_xlabel("Phase (mesh cycles)")
-    axes.set_ylabel(ERROR)
+    axes.set(xlabel="Phase (mesh cycles)", ylabel=ERROR)
     figure.legend(loc="outside lower center", ncols=4)
     return figure
 

@@ -52,13 +52,12 @@ class Efficiencies:
         self.by_module = self.cycloid[4] - self.cycloid[0]
 
 
-def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
+def rows(folder: Path, progress: Callable[[float], None]) -> list[Row]:
     """All rows of the paper. Nothing is written to `folder`: the study needs no simulation."""
     tables: dict[Law, Efficiencies] = {}
     for count, law in enumerate(LAWS):
         tables[law] = Efficiencies(law)
-        if progress:
-            progress((count + 1) / len(LAWS))
+        progress((count + 1) / len(LAWS))
     values, other = (_values(tables["EHL"], tables[reading]) for reading in LAWS[1:])
     return compare_paper(PAPER, values, {"reading B": {key: value for key, (value, _) in other.items()}})
 

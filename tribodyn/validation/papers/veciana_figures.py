@@ -52,9 +52,7 @@ def figure_1(_: Path) -> Figure:
     for law in veciana_study.LAWS:
         friction = surface_state(contact, veciana_study.closure_of(law)).friction_coefficient
         axes.plot(ratio, friction, color=COLOUR[law], label=law)
-    axes.set_xlabel("Slide-to-roll ratio (–)")
-    axes.set_ylabel("Friction coefficient µ (–)")
-    axes.set_ylim(bottom=0)
+    axes.set(xlabel="Slide-to-roll ratio (–)", ylabel="Friction coefficient µ (–)", ylim=(0, None))
     axes.legend()
     return figure
 
@@ -119,8 +117,7 @@ def figure_7(_: Path) -> Figure:
         angle = math.degrees(float(assembly.path.pressure_angle(assembly.r_start)))
         text = f"$d_g$ = {circle:g} $d_1$: α′ = {abs(angle):.1f}°, contact height {height:.2f} mm"
         mark_panel(axes, letter, text)
-        axes.set_xlim(-4.5, 4.5)
-        axes.set_ylim(-3.2, 3.2)
+        axes.set(xlim=(-4.5, 4.5), ylim=(-3.2, 3.2))
     return figure
 
 
@@ -141,8 +138,7 @@ def figure_8(_: Path) -> Figure:
     axes.axhline(involute, color=PALETTE[0], linestyle=":", linewidth=0.9)
     other.axhline(20.0, color=PALETTE[1], linestyle=":", linewidth=0.9)
     axes.axvline(veciana_study.CHOSEN, color=QUIET, linestyle=":", linewidth=0.9)
-    axes.set_xlabel("$d_{g1,2}/d_1$ (dotted: the involute, and 0.17)")
-    axes.set_ylabel("Contact height (mm)")
+    axes.set(xlabel="$d_{g1,2}/d_1$ (dotted: the involute, and 0.17)", ylabel="Contact height (mm)")
     other.set_ylabel("Pressure angle α′ (°)")
     axes.legend(handles=[height, angle])
     return figure
@@ -180,8 +176,7 @@ def figure_9(_: Path) -> Figure:
             ):
                 axes.plot(degrees, values, line, color=COLOUR[law], label=f"{law}, {name}")
     a.set_ylabel("Speeds $V_r$ (sum), $V_s$ (m/s)")
-    right.set_ylabel("Radius R (mm)")
-    right.set_ylim(0.0, 28.0)  # apart from the speeds
+    right.set(ylabel="Radius R (mm)", ylim=(0.0, 28.0))  # apart from the speeds
     b.set_ylabel("Normal load N (kN)")
     c.set_ylabel("Friction coefficient µ (–)")
     d.set_ylabel(r"$Γ_2/Γ_1$ (–)")
@@ -211,8 +206,7 @@ def figure_10(_: Path) -> Figure:
             for (name, line), values in zip(PROFILES.items(), efficiencies, strict=True):
                 percentages, label = 100.0 * np.array(values, dtype=float), f"i = {ratio:g}, {name}"
                 axes.plot(1e3 * modules, percentages, line, color=colour, label=label)
-        axes.set_title(law)
-        axes.set_xlabel("Module (mm)")
+        axes.set(title=law, xlabel="Module (mm)")
         mark_panel(axes, letter)
     axes = figure.axes[0]
     axes.set_ylabel("Efficiency (%)")

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.short_studies import written_template
-from tribodyn.numerics.processes import blas_threads
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes import libraries
+from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.processes.work import usable_cores
 
 # Processor time of the threads that BLAS began, s: the witness that needs no word of BLAS itself.
@@ -20,7 +20,7 @@ PROGRAM = """
 import json, os, sys, threading, time
 import numpy as np, scipy.linalg
 import tribodyn as td
-from tribodyn.numerics.processes.blas_threads import one_blas_thread
+from tribodyn.numerics.processes.libraries import one_blas_thread
 
 others = set(os.listdir("/proc/self/task")) - {str(threading.get_native_id())}
 blocks = {"numpy": lambda: a @ a, "scipy": lambda: scipy.linalg.lu_factor(a)}
@@ -78,7 +78,7 @@ def test_blocks_of_several_threads_end_with_the_last():
     """One that ends first does not give threads back under another, nor keep them from the program after."""
     with one_blas_thread():
         pass  # finds the libraries
-    library = blas_threads._known["numpy.linalg._umath_linalg"]
+    library = libraries._known["numpy.linalg._umath_linalg"]
     if library is None:
         pytest.skip("this BLAS is not known")
     set_before = library.threads()

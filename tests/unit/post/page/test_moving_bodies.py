@@ -10,7 +10,7 @@ from tests.support.pages import data_of, unpacked
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
-from tribodyn.post.page.rolling_teeth import turning_teeth
+from tribodyn.post.page.motion import turning_teeth
 from tribodyn.record.reader import Record
 from tribodyn.studies import study_of
 from tribodyn.studies.irefc.geometry import cam_outline, crown_outline

@@ -14,7 +14,7 @@ from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tests.support.verbs import invoke
 from tribodyn.interface.result import Run
 from tribodyn.post.page.data import MOST_SAMPLES, extrapolated, packed, thinned
-from tribodyn.post.page.rolling_teeth import rolling_teeth
+from tribodyn.post.page.motion import rolling_teeth
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import open_any
 from tribodyn.studies.pages import write_report

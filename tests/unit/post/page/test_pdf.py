@@ -11,8 +11,8 @@ import pytest
 
 from tests.support.short_studies import shortened, written_template
 from tests.support.verbs import complaint, ended, invoke
-from tribodyn.post.page import pdf
-from tribodyn.post.page.pdf import BROWSERS, browser, run_browser
+from tribodyn.post.page import document
+from tribodyn.post.page.document import BROWSERS, browser, run_browser
 
 RECORDS = Path(__file__).parents[3] / "fixtures" / "records-0.2.0"
 
@@ -60,7 +60,7 @@ def test_an_interrupted_browser_leaves_nothing(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setenv("PATH", f"{programs}{os.pathsep}{os.environ['PATH']}")
     monkeypatch.setenv("TMPDIR", str(temporary))
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
-    monkeypatch.setattr(pdf, "LONGEST_PROFILE", 1000)
+    monkeypatch.setattr(document, "LONGEST_PROFILE", 1000)
     before = signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background of a shell
     try:
         with pytest.raises(KeyboardInterrupt):

@@ -14,8 +14,7 @@ from tribodyn.errors import InputError
 from tribodyn.gears.motion.tooth_loads import ToothLoads, tooth_loads
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.limits import least
-from tribodyn.record.meshes import MESHES
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.train.pairs import pairs_of
 from tribodyn.studies.assessment.train.run import tasks_of
 from tribodyn.studies.protocol.load import load_scenario

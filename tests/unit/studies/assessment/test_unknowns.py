@@ -11,7 +11,7 @@ import pytest
 from tests.support.short_studies import short_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.families.involute import tight_centre_distance
-from tribodyn.input.tables.supports.bearings import Bearing, bearing_of
+from tribodyn.input.tables.bearings import Bearing, bearing_of
 from tribodyn.studies.assessment.unknowns import (
     OF_PAIR,
     UnknownsTable,

@@ -10,7 +10,7 @@ from tribodyn.dynamics.parameters import frictionless
 from tribodyn.post.cycles import key_points, path_limits
 from tribodyn.post.figures.over_face import flank_map
 from tribodyn.post.figures.path_of_contact import key_positions
-from tribodyn.post.page.rolling_teeth import rolling_teeth
+from tribodyn.post.page.motion import rolling_teeth
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.motion.batch import BATCH

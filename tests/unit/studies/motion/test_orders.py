@@ -8,15 +8,18 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.post.figures.spectrum import HOP, MOST_HOPPED, WINDOW, track, worth_tracking
-from tribodyn.record.meshes import MeshesOfRecord
+from tribodyn.record.reader import Record
 from tribodyn.studies.pages import figure
 
 TEETH, PER_CYCLE, CYCLES = 20, 32, 120
 PITCH = 2 * np.pi / TEETH
 
 
-class RunUp(types.SimpleNamespace, MeshesOfRecord):
+class RunUp(types.SimpleNamespace):
     """A run whose speed rises linearly in the phase, with orders 1 and 2.5 in its transmission error."""
+
+    names_meshes, meshes = False, ("mesh",)
+    over_meshes, over_bodies, of_mesh = Record.over_meshes, Record.over_bodies, Record.of_mesh
 
     def __init__(self, cycles: int = CYCLES, rise: float = 1.0):
         phase = np.arange(cycles * PER_CYCLE + 1) / PER_CYCLE

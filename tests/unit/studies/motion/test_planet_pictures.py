@@ -13,7 +13,6 @@ from tests.support.soak_parameters import all_in_soak
 from tests.support.train_scenarios import case_of_table
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.post.figures.panel import View
-from tribodyn.record.meshes import MeshesOfRecord
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.check import check
 from tribodyn.studies.motion.drivetrain.carried_sets import body_labels, mesh_labels, sets_of
@@ -220,7 +219,7 @@ def two_sets() -> Any:
         for mesh, made in zip(prepared.case.meshes, prepared.tables, strict=True)
     }
     content = {"geometry": geometry_of(prepared), "of_mesh": lambda _, mesh, group: shapes[mesh]}
-    return type("OfTrain", (dict, MeshesOfRecord), content)(
+    return type("OfTrain", (dict,), content | {"meshes": tuple(shapes), "names_meshes": True})(
         mesh=list(shapes), body=list(prepared.names), gear=[gear.name for gear in prepared.case.gears]
     )
 

@@ -23,7 +23,7 @@ from tribodyn.errors import InputError
 from tribodyn.gears.motion.recorded import SAMPLES
 from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.post.cycles import key_points, last_cycles, pair_curve
-from tribodyn.post.figures import sensors
+from tribodyn.post.figures import sensor_averages
 from tribodyn.post.figures.path_of_contact import gears_in_mesh, key_positions
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
@@ -201,7 +201,7 @@ def failed_record(path: Path, samples: int, of: Record) -> Path:
 
 HELICAL = {"line-load", "in-space"}
 #: Figures of what a run has where its scenario asks for it.
-ASKED = {"revolutions", *sensors.DRAWINGS}
+ASKED = {"revolutions", *sensor_averages.DRAWINGS}
 
 
 @pytest.mark.parametrize(

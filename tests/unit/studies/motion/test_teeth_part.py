@@ -6,8 +6,7 @@ import pytest
 
 from tests.support.short_studies import short_case
 from tribodyn.gears.prepare import contact_quantities
-from tribodyn.record.meshes import MESHES
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.motion.report import verdict
 from tribodyn.studies.motion.run import run
 

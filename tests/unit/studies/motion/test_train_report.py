@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.post.verdict import LINES
-from tribodyn.record.meshes import MeshesOfRecord
+from tribodyn.record.reader import Record
 from tribodyn.studies.motion.report import OF_A_MESH, sentences, tables, verdict
 
 FIRST = {
@@ -41,9 +41,9 @@ TRAIN = {
 
 def record(meshes: dict[str, Any] | None = None, **changed: Any) -> Any:
     meshes = meshes or {"first": FIRST, "second": SECOND}
-    return type("OfTrain", (dict, MeshesOfRecord), {"summary": TRAIN | {"meshes": meshes} | changed})(
-        mesh=np.array([*meshes])
-    )
+    of_record = {"names_meshes": True, "meshes": (*meshes,), "mesh_summaries": Record.mesh_summaries}
+    summary = {"summary": TRAIN | {"meshes": meshes} | changed}
+    return type("OfTrain", (dict,), of_record | summary)(mesh=np.array([*meshes]))
 
 
 def test_the_verdict_names_the_meshes():

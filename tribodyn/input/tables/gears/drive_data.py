@@ -20,8 +20,7 @@ from tribodyn.geometry.families.involute import overlap, shift_sensitivity, tigh
 from tribodyn.geometry.helix import from_written
 from tribodyn.geometry.limits.checks import check_path
 from tribodyn.input.quantity import shift_rounding
-from tribodyn.input.tables.gears.material import Material
-from tribodyn.input.tables.gears.model_files import DriveTable, Gear
+from tribodyn.input.tables.gears.model_files import DriveTable, Gear, Material
 from tribodyn.input.tables.gears.tooth_data import (
     gear_body,
     gives_thickness,

@@ -16,7 +16,7 @@ from tribodyn.geometry.modification import (
     uneven_teeth,
     vary_along_lead,
 )
-from tribodyn.input.scope import outside
+from tribodyn.input.messages import outside
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear, MisalignmentTable, flank_of
 from tribodyn.input.tables.gears.quality import broken_quality_rules, helix_allowance
 from tribodyn.input.tables.gears.tooth_data import broken_tooth_rules, modules_of, shape_errors

@@ -1,4 +1,4 @@
-"""The tables of `models/drives/`: what drives, with their modified flanks, are."""
+"""The tables of `models/drives/` and `models/materials/`: gears with their modified flanks, and solids."""
 
 from typing import Annotated, Any, Literal
 
@@ -9,9 +9,43 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Relief
 from tribodyn.input import quantity, units
 from tribodyn.input.fields import ErrorCurve
-from tribodyn.input.tables.gears.material import Described, MaterialReference
 from tribodyn.standards.allowances import CODES
+from tribodyn.standards.metals import Grade, Treatment
 from tribodyn.tribology.contact import FinishName
+
+Pressure = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE))]
+Strength = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "1500 MPa")]
+
+#: Title of a model that a scenario writes out.
+OWN_VALUES = "own values"
+
+
+class Described(quantity.Table):
+    """What every model begins with; a table in a scenario may leave it out."""
+
+    title: quantity.Text = OWN_VALUES
+    source: quantity.Text = "not stated"
+    assumptions: quantity.Text = ""
+
+
+class Material(Described):
+    """A solid (`models/materials/`)."""
+
+    youngs_modulus: Pressure
+    poisson_ratio: Annotated[float, Field(strict=True, ge=0, lt=0.5)]
+    density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY))]
+    thermal_conductivity: Annotated[float, quantity.InUnit(units.positive(units.CONDUCTIVITY))]
+    specific_heat: Annotated[float, quantity.InUnit(units.positive(units.SPECIFIC_HEAT))]
+    hardness: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "7 GPa")]
+    treatment: Treatment | None = None
+    grade: Grade = "MQ"
+    contact_stress_limit: Strength | None = None
+    bending_stress_limit: Strength | None = None
+    yield_strength: Strength | None = None
+
+
+MaterialReference = Annotated[Material, quantity.model_file("materials")]
+
 
 Amount = Annotated[float, quantity.InUnit(units.not_negative(units.RELIEF))]
 Length = Annotated[float, quantity.InUnit(units.positive(units.LENGTH))]
@@ -102,7 +136,7 @@ Allowance = Annotated[float, quantity.InUnit(units.DEVIATION, "-60 um")]
 Span = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "32.4 mm")]
 OverPins = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "83.2 mm")]
 Pin = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "5.25 mm")]
-Grade = Annotated[int, Field(strict=True, ge=1, le=11)]
+QualityGrade = Annotated[int, Field(strict=True, ge=1, le=11)]
 QualityEdition = Literal[2013, 1995]
 Roughness = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "0.5 um")]
 
@@ -146,7 +180,7 @@ class Gear(quantity.Table):
     rim_thickness: Length | None = None
     web_thickness: Length | None = None
     material: MaterialReference | None = None
-    quality: Grade | None = None
+    quality: QualityGrade | None = None
     hand: Hand | None = None
     modification: Modification = quantity.written({})
     eccentricity: Amount = quantity.written("0 um")
@@ -188,7 +222,7 @@ class DriveTable(Described):
     asperity_density: AsperityDensity = None
     asperity_slope: AsperitySlope = None
     material: MaterialReference | None = None
-    quality: Grade | None = None
+    quality: QualityGrade | None = None
     quality_edition: QualityEdition = 2013
     centre_distance_grade: Annotated[int, Field(strict=True, ge=5, le=11)] | None = None
     pinion: Gear

@@ -21,14 +21,14 @@ from tribodyn.geometry.families import family
 from tribodyn.input import units
 from tribodyn.input.fields import Temperature
 from tribodyn.input.quantity import InUnit, Table, model_file, written
+from tribodyn.input.tables.bearings import Bearings
 from tribodyn.input.tables.duty import OperatingTable, broken_driving_rules, duty_of, spectrum_of
 from tribodyn.input.tables.gears.drive_data import materials_of
-from tribodyn.input.tables.gears.internal_gear import driving_internal
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.quality import tolerances_of
+from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.input.tables.losses import LossesTable, TemperatureTable
-from tribodyn.input.tables.oil.lubricant import lubricant_of
-from tribodyn.input.tables.supports.bearings import Bearings
+from tribodyn.input.tables.lubricant import lubricant_of
 from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
 from tribodyn.studies.assessment.settings import broken_settings, without_data_sheet
 

@@ -11,8 +11,7 @@ from tribodyn.gears.rating.limits import SAFETIES, least
 from tribodyn.post.figures.drawing import Drawing, single
 from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
-from tribodyn.record.meshes import MESHES
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.pair.figures import draw_bars
 from tribodyn.studies.assessment.train.report import groups_of
 

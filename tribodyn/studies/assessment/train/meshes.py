@@ -16,8 +16,7 @@ from tribodyn.gears.rating.rating_text import numbered
 from tribodyn.gears.rating.spectrum import spectrum_part
 from tribodyn.gears.rating.standard import factors_by_name, margins_by_standard
 from tribodyn.geometry.drive import SIDES
-from tribodyn.record.meshes import MESHES
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.pair import parts
 from tribodyn.studies.assessment.pair.case import AssessmentCase
 from tribodyn.studies.assessment.pair.conclusion import ByStandard, by_standard, concluded

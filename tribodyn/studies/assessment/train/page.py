@@ -14,8 +14,7 @@ from tribodyn.geometry.helix import as_written
 from tribodyn.input.names import under_one_name
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.record.meshes import MESHES
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment import first_page
 from tribodyn.studies.assessment.first_page import (
     Judged,

@@ -13,8 +13,7 @@ from tribodyn.gears.rating.spectrum import spectrum_tables
 from tribodyn.post.verdict import numbers, with_unit
 from tribodyn.quantities.catalogue import QUANTITIES, quantities
 from tribodyn.quantities.quantity import Quantity, Reported
-from tribodyn.record.meshes import MESHES
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.pair.report import vibration
 
 REPORTED: Reported = {

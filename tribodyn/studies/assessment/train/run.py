@@ -16,8 +16,7 @@ from tribodyn.gears.rating.limits import SAFETIES, judged, not_judged, with_unli
 from tribodyn.gears.rating.rating_text import factors_said, life_said, numbered, ring_said
 from tribodyn.gears.rating.strength import metal_remarks
 from tribodyn.post.verdict import outside
-from tribodyn.record.meshes import MESHES
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
 from tribodyn.studies.assessment.pair import parts
 from tribodyn.studies.assessment.pair.assessment_text import extrapolated

@@ -1,9 +1,9 @@
 """Pictures of sweeps of motions: responses, spectra, sections."""
 
 from tribodyn.post.figures.drawing import SweepDrawing
-from tribodyn.post.figures.sweep.response import ResponsePanel, response_figure
-from tribodyn.post.figures.sweep.section import bifurcation_figure, poincare_figure
-from tribodyn.post.figures.sweep.spectra import campbell_figure, waterfall_figure
+from tribodyn.post.figures.sweep_response import ResponsePanel, response_figure
+from tribodyn.post.figures.sweep_section import bifurcation_figure, poincare_figure
+from tribodyn.post.figures.sweep_spectra import campbell_figure, waterfall_figure
 from tribodyn.quantities.catalogue import QUANTITIES
 
 PANELS = (

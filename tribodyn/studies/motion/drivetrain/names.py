@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.input.tables.supports.bearings import DEFAULT, broken_bearings
-from tribodyn.input.tables.supports.shafts import broken_list, broken_shafts, listed
+from tribodyn.input.tables.bearings import DEFAULT, broken_bearings
+from tribodyn.input.tables.shafts import broken_list, broken_shafts, listed
 from tribodyn.studies.motion.drivetrain.structure import OF_DRIVE
 from tribodyn.studies.motion.drivetrain.tables import GROUND, Link, PlanetaryStage
 from tribodyn.studies.motion.planetary.stages import broken_sets, planetary_stages

@@ -14,11 +14,11 @@ import numpy as np
 from tribodyn.gears.motion.settings import Mesh
 from tribodyn.geometry.families import family
 from tribodyn.input.quantity import Printed
+from tribodyn.input.tables.bearings import DEFAULT, Bearing
 from tribodyn.input.tables.gears.drive_data import drive_of
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.input.tables.laws import LinkTable
-from tribodyn.input.tables.supports.bearings import DEFAULT, Bearing
-from tribodyn.input.tables.supports.shafts import Shaft, listed
+from tribodyn.input.tables.shafts import Shaft, listed
 from tribodyn.studies.motion.drivetrain.tables import (
     GROUND,
     BareMesh,

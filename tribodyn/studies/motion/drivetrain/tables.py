@@ -18,6 +18,7 @@ from tribodyn.input.quantity import (
     csv_file,
     written,
 )
+from tribodyn.input.tables.bearings import Stiffness
 from tribodyn.input.tables.gears.model_files import (
     Angle,
     AsperityDensity,
@@ -36,7 +37,6 @@ from tribodyn.input.tables.gears.model_files import (
     Rack,
 )
 from tribodyn.input.tables.laws import LinkTable
-from tribodyn.input.tables.supports.bearings import Stiffness
 from tribodyn.train.planetary import CARRIER, RING, SUN
 
 #: Stages, bodies, links, meshes and loads, each: as many as any train has.

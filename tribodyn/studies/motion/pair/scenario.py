@@ -45,14 +45,19 @@ from tribodyn.gears.supports import bearings_of
 from tribodyn.geometry.drive import SIDES, internal_side
 from tribodyn.input.fields import head_of
 from tribodyn.input.quantity import model_file, written
+from tribodyn.input.tables.bearings import Bearings
 from tribodyn.input.tables.duty import broken_duty_rules, duty_of
-from tribodyn.input.tables.gears.damage import Damages, GearPlace, damage_of
 from tribodyn.input.tables.gears.drive_data import gives_backlash
-from tribodyn.input.tables.gears.internal_gear import driving_internal
-from tribodyn.input.tables.gears.single_teeth import own_teeth_of, with_own_teeth
+from tribodyn.input.tables.gears.single_teeth import (
+    Damages,
+    GearPlace,
+    damage_of,
+    own_teeth_of,
+    with_own_teeth,
+)
+from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.input.tables.sensors import Housing, Sensors, broken_sensor_rules, housing_of, sensors_of
-from tribodyn.input.tables.supports.bearings import Bearings
-from tribodyn.input.tables.supports.shafts import listed
+from tribodyn.input.tables.shafts import listed
 from tribodyn.studies.motion.case import (
     HOUSING,
     BodyData,

@@ -14,8 +14,8 @@ from tribodyn.post.figures.panel import (
     abscissa,
     abscissa_label,
     draw_ranges,
+    scale,
 )
-from tribodyn.post.figures.scale import scale
 from tribodyn.record.reader import Record
 
 

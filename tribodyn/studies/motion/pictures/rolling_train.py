@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribodyn.post.page.mechanism import Body, Mechanism, Sight
+from tribodyn.post.page.motion import Body, Mechanism, Sight
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.drivetrain.carried_sets import CarriedSet, carriers, driver_of, sets_of
 from tribodyn.studies.motion.drivetrain.gear_positions import (

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.input.tables.supports.bearings import bearing_of
+from tribodyn.input.tables.bearings import bearing_of
 from tribodyn.studies.motion.case import HOUSING, LinkData, SetData
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
 from tribodyn.studies.motion.planetary.stages import SetPart, pin_offset

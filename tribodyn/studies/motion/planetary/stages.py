@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.input.tables.supports.bearings import bearing_of, broken_bearing
-from tribodyn.input.tables.supports.shafts import listed
+from tribodyn.input.tables.bearings import bearing_of, broken_bearing
+from tribodyn.input.tables.shafts import listed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
 from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly

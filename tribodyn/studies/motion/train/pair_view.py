@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.gears.motion.settings import Friction, Mesh
 from tribodyn.gears.supports import GearSupports
-from tribodyn.input.tables.gears.damage import GearPlace, damage_of
 from tribodyn.input.tables.gears.model_files import DriveTable
-from tribodyn.input.tables.gears.single_teeth import own_teeth_of
+from tribodyn.input.tables.gears.single_teeth import GearPlace, damage_of, own_teeth_of
 from tribodyn.input.tables.losses import LossesTable, broken_losses
 from tribodyn.mesh.teeth.fields import CARRYING, OwnTeeth
 from tribodyn.studies.motion.drivetrain.duty import TrainOperating

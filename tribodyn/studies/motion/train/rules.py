@@ -17,7 +17,7 @@ from tribodyn.input.tables.duty import unnamed_duty
 from tribodyn.input.tables.gears.drive_data import gives_backlash
 from tribodyn.input.tables.laws import broken_link_law
 from tribodyn.input.tables.sensors import broken_sensor_rules
-from tribodyn.input.tables.supports.shafts import drawn_shafts, listed
+from tribodyn.input.tables.shafts import drawn_shafts, listed
 from tribodyn.studies.motion.drivetrain.duty import broken_duty, duty_of
 from tribodyn.studies.motion.drivetrain.names import broken_names, broken_sort
 from tribodyn.studies.motion.drivetrain.placed_train import (

@@ -22,16 +22,20 @@ from tribodyn.gears.supports import GearSupport
 from tribodyn.geometry.drive import SIDES, BodyMass
 from tribodyn.input.fields import PartName, head_of
 from tribodyn.input.quantity import Count, model_file, written
+from tribodyn.input.tables.bearings import Bearing, Bearings, bearing_of
 from tribodyn.input.tables.duty import SpectrumScenario
-from tribodyn.input.tables.gears.damage import Damages
 from tribodyn.input.tables.gears.drive_data import materials_of
-from tribodyn.input.tables.gears.material import MaterialReference
-from tribodyn.input.tables.gears.model_files import DriveTable, Grade, QualityEdition, Roughness
-from tribodyn.input.tables.gears.single_teeth import with_own_teeth
+from tribodyn.input.tables.gears.model_files import (
+    DriveTable,
+    MaterialReference,
+    QualityEdition,
+    QualityGrade,
+    Roughness,
+)
+from tribodyn.input.tables.gears.single_teeth import Damages, with_own_teeth
 from tribodyn.input.tables.laws import law_values
 from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
-from tribodyn.input.tables.supports.bearings import Bearing, Bearings, bearing_of
-from tribodyn.input.tables.supports.shafts import Shafts
+from tribodyn.input.tables.shafts import Shafts
 from tribodyn.studies.motion.case import (
     HOUSING,
     BodyData,
@@ -99,7 +103,7 @@ class GearTrainScenario(SpectrumScenario):
     link: tuple[Link, ...] = Field((), max_length=MOST_PARTS)
     material: MaterialReference | None = None
     mean_roughness: Roughness | None = None
-    quality: Grade | None = None
+    quality: QualityGrade | None = None
     quality_edition: QualityEdition = 2013
     lubricant: Oil
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")

@@ -18,8 +18,8 @@ from tribodyn.gears.supports import (
     mean_loads,
 )
 from tribodyn.geometry.modification import misalignment_of_tilts
-from tribodyn.input.tables.supports.bearings import bearing_of
-from tribodyn.input.tables.supports.shafts import drawn_shafts
+from tribodyn.input.tables.bearings import bearing_of
+from tribodyn.input.tables.shafts import drawn_shafts
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
 from tribodyn.studies.motion.drivetrain.structure import bearings_by_body

@@ -10,16 +10,26 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from tribodyn.post.figures.panel import View, record_title
-from tribodyn.post.figures.sensors.shown_signals import ShownSignal, shown_signals, toothed, turns_of
-from tribodyn.post.figures.sensors.spectra import line_colors
-from tribodyn.post.style import PALETTE, QUIET, WIDTH, literal, mark_panel, new_figure
+from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.panel import View
+from tribodyn.post.figures.sensor_spectra import (
+    ShownSignal,
+    has_signals,
+    line_colors,
+    order_spectrum_figure,
+    sensor_panels,
+    shown_signals,
+    signal_figure,
+    spectrogram_figure,
+    toothed,
+    turns_of,
+)
+from tribodyn.post.style import PALETTE, QUIET, literal, mark_panel
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import SENSORS, Sensed, SensorSignal, read_sensed
-from tribodyn.signals.envelopes import Band, Kurtogram, envelope_spectrum, kurtogram
-from tribodyn.signals.indicators import FLOOR, fm4, rms
+from tribodyn.signals.indicators import FLOOR, difference, fm4, residual, rms, synchronous_average
 from tribodyn.signals.lines import MESH, SignalLine
-from tribodyn.signals.synchronous import difference, residual, synchronous_average
+from tribodyn.signals.spectra import Band, Kurtogram, envelope_spectrum, kurtogram
 
 #: Signals and shafts in a figure, at most, and turns that an average needs.
 _SIGNALS, _SHAFTS, _TURNS = 2, 3, 1.0
@@ -53,10 +63,9 @@ def average_figure(records: Sequence[Record], _view: View) -> Figure:
         for shaft, teeth in toothed(sensed.lines)[:_SHAFTS]
         if _turned(one.signal, shaft)
     ]
-    figure = new_figure(WIDTH, _HEIGHT * max(1, len(pairs)) + 0.8)
-    figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    rows = figure.subplots(max(1, len(pairs)), 1, squeeze=False)[:, 0]
-    for number, (axes, (one, shaft, teeth)) in enumerate(zip(rows, pairs, strict=True)):
+    count = max(1, len(pairs))
+    figure, rows = sensor_panels(records, _HEIGHT * count + 0.8, count)
+    for number, ((axes,), (one, shaft, teeth)) in enumerate(zip(rows, pairs, strict=True)):
         average = synchronous_average(one.values, one.signal.turns * shaft.order)
         residue, rest = residual(average.values, teeth), difference(average.values, teeth)
         place = np.append(average.turn, 1.0)
@@ -68,17 +77,14 @@ def average_figure(records: Sequence[Record], _view: View) -> Figure:
             axes.plot(place, np.append(values, values[:1]), color=color, linewidth=0.7, label=label)
         told = f", FM4 {fm4(rest):.3g}" if rms(rest) > FLOOR * rms(average.values) else ""
         name = literal(shaft.name)
-        count = f"{average.turns} turns" if average.turns > 1 else "1 turn"
-        mark_panel(
-            axes, "abcdefgh"[number] if len(pairs) > 1 else "", f"{one.name} over {count} of {name}{told}"
-        )
-        axes.set_ylabel(f"{one.name} ({one.unit})")
-        axes.set_xlim(0.0, 1.0)
+        turns = f"{average.turns} turns" if average.turns > 1 else "1 turn"
+        letter = "abcdefgh"[number] if len(pairs) > 1 else ""
+        mark_panel(axes, letter, f"{one.name} over {turns} of {name}{told}")
+        axes.set(ylabel=f"{one.name} ({one.unit})", xlim=(0.0, 1.0))
         if max(teeth) <= 60:
             axes.set_xticks(np.arange(max(teeth)) / max(teeth), minor=True)
         axes.set_xlabel(f"Turn of {name}; minor ticks: teeth, from where the run began")
-    handles, labels = rows[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    figure.legend(*rows[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 
 
@@ -91,9 +97,7 @@ def envelope_figure(records: Sequence[Record], _view: View) -> Figure:
     """Draw kurtogram and envelope spectrum of the first record's signals, side by side."""
     sensed, shown = shown_signals(records)
     shown = shown[:_ENVELOPES]
-    figure = new_figure(1.35 * WIDTH, _ENVELOPE_HEIGHT * len(shown) + 0.6)
-    figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    rows = figure.subplots(len(shown), 2, squeeze=False, width_ratios=(2, 3))
+    figure, rows = sensor_panels(records, _ENVELOPE_HEIGHT * len(shown) + 0.6, len(shown), (2, 3))
     for number, ((left, right), one) in enumerate(zip(rows, shown, strict=True)):
         bands = kurtogram(one.values, one.signal.rate)
         band, most = bands.best()
@@ -118,8 +122,7 @@ def _draw_kurtogram(figure: Figure, axes: Axes, bands: Kurtogram, band: Band) ->
         interpolation="nearest",
     )
     axes.set_yticks(range(len(bands.widths)), [f"{width:.0f}" for width in bands.widths])
-    axes.set_ylabel("Width of the bands (Hz)")
-    axes.set_xlabel("Frequency (kHz)")
+    axes.set(ylabel="Width of the bands (Hz)", xlabel="Frequency (kHz)")
     level = int(np.argmin(np.abs(np.asarray(bands.widths) - (band[1] - band[0]))))
     corner, size = (band[0] * 1e-3, level - 0.5), ((band[1] - band[0]) * 1e-3, 1.0)
     axes.add_patch(Rectangle(corner, *size, fill=False, edgecolor="white", linewidth=1.0))
@@ -139,7 +142,24 @@ def _draw_envelope(axes: Axes, one: ShownSignal, band: Band, sensed: Sensed) -> 
             label = literal(line.name)
             axes.axvline(place, color=color, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0, label=label)
     axes.legend(loc="upper right")
-    axes.set_xlim(0.0, limit)
-    axes.set_ylim(bottom=0.0)
-    axes.set_xlabel("Frequency (Hz)")
-    axes.set_ylabel(f"Envelope ({one.unit})")
+    axes.set(xlim=(0.0, limit), ylim=(0.0, None), xlabel="Frequency (Hz)", ylabel=f"Envelope ({one.unit})")
+
+
+#: Pictures of sensors by name, in the order of a page.
+DRAWINGS: dict[str, Drawing] = {
+    "signals": Drawing("what every sensor gave", signal_figure, has_signals),
+    "order-spectrum": Drawing(
+        "amplitudes of signals over the orders of a shaft, lines named", order_spectrum_figure, has_signals
+    ),
+    "spectrogram": Drawing(
+        "spectra along the signals, with the orders of the meshes drawn in", spectrogram_figure, has_signals
+    ),
+    "synchronous-average": Drawing(
+        "signals averaged over the turns of a shaft, and what regular teeth leave", average_figure, has_turns
+    ),
+    "envelope": Drawing(
+        "kurtogram of signals, and the spectrum of the envelope of their most impulsive band",
+        envelope_figure,
+        has_signals,
+    ),
+}

@@ -1,4 +1,4 @@
-"""`tribodyn plot`: pictures of records."""
+"""Verbs on records: `tribodyn show` prints one, `plot` draws pictures, `report` writes a page."""
 
 from collections.abc import Sequence
 from enum import StrEnum
@@ -7,19 +7,37 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tribodyn.cli.options import Align, AlignOption, MeasuredOption, ReplaceOption, records_and_plots
+from tribodyn.cli.options import (
+    Align,
+    AlignOption,
+    FullOption,
+    JsonOption,
+    MeasuredOption,
+    ReplaceOption,
+    records_and_plots,
+)
 from tribodyn.errors import InputError
 
 if TYPE_CHECKING:
     from tribodyn.record.sweep_reader import SweepRecord
 
-EXAMPLES = (
+PLOT_EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn plot crc-23-47.h5\n"
     "  tribodyn plot crc-23-47.h5 involute-23-47.h5 film normal-load -o pictures"
     "\n  tribodyn plot crc-23-47.h5 transmission-error --against time --cycles 0 --format pdf"
     "\n  tribodyn plot jump-involute-23-47-pinion_speed.h5 response campbell"
     "\n  tribodyn plot jump-involute-23-47-pinion_speed.h5 poincare --at pinion_speed=3000rpm"
+)
+REPORT_EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn report crc-23-47.h5\n"
+    "  tribodyn report crc-23-47.h5 involute-23-47.h5 -o both.html\n"
+    "\b\nThe page is one file, which needs no other and no network: summary, figures that can be\n"
+    "zoomed, the teeth rolling through mesh, the scenario."
+)
+SHOW_EXAMPLES = (
+    "\b\nExamples:\n  tribodyn show crc-23-47.h5\n  tribodyn show crc-23-47-pinion_speed.h5 --json"
 )
 
 
@@ -140,3 +158,64 @@ def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
         except ValueError:
             raise InputError("--at", f'"{option}"', "not a number", f"write it like {name}=1.5") from None
     return place
+
+
+def report(
+    records: Annotated[
+        list[str],
+        typer.Argument(metavar="RECORD...", help="Records of tribodyn run, or one of tribodyn sweep."),
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="The page; default: the records' names, in this folder."),
+    ] = None,
+    measured: MeasuredOption = None,
+    align: AlignOption = Align.given,
+    force: ReplaceOption = False,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Also print it, through an installed browser.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print the path as JSON.")] = False,
+) -> None:
+    """Write a page of records for the browser; several side by side."""
+    from contextlib import ExitStack
+
+    from tribodyn.cli.printing import print_files, print_json
+    from tribodyn.numerics.files.output_files import check_output
+    from tribodyn.post.page.document import print_page, require_browser
+    from tribodyn.record.sweep_reader import open_any
+    from tribodyn.studies.pages import write_report
+
+    target = output or Path(f"{'-'.join(Path(path).stem for path in records)}.html")
+    if pdf:
+        require_browser()
+        check_output(target.with_suffix(".pdf"), force)
+    with ExitStack() as stack:
+        opened = [stack.enter_context(open_any(Path(path))) for path in records]
+        written = write_report(opened, target, force=force, measured=measured, align=align.value)
+    files = {"report": written}
+    if pdf:
+        files["pdf"] = print_page(written, force=force)
+    if json:
+        print_json({what: str(path) for what, path in files.items()})
+    else:
+        for what, path in files.items():
+            print_files(what, [path])
+
+
+def show(
+    record: Annotated[Path, typer.Argument(help="A record that tribodyn wrote.")],
+    full: FullOption = False,
+    json: JsonOption = False,
+) -> None:
+    """Print the summary of a record."""
+    from tribodyn.cli.printing import print_json, print_rich
+    from tribodyn.post.sweep_report import sweep_as_json
+    from tribodyn.record.sweep_reader import SweepRecord, open_any
+    from tribodyn.studies.pages import summary_json, summary_table, sweep_table
+
+    with open_any(record) as opened:
+        sweep = isinstance(opened, SweepRecord)
+        if json:
+            data = sweep_as_json(opened) if sweep else summary_json(opened)
+            print_json({**data, "scenario": opened.scenario})
+        else:
+            print_rich(sweep_table(opened) if sweep else summary_table(opened, full))

@@ -2,11 +2,21 @@
 
 HDF5 follows what a file says: into other files, around in circles, to sizes that no memory has, and now and
 then it crashes. So a file that this process has not written is first read in a child process.
+
+The child is a copy of this process where that is safe: 0.02 s for every record that is read, where a new
+process needs 0.2 s to import h5py. Otherwise, as in a notebook, whose threads a copy would not have, it is a
+copy of a process that is kept for this: only the first call waits for imports. Where the system copies no
+processes, that process calls the function itself.
 """
 
+import atexit
 import math
 import os
+import sys
+import threading
+from collections.abc import Callable
 from contextlib import suppress
+from importlib import import_module
 from pathlib import Path
 from traceback import walk_tb
 from typing import Any
@@ -14,19 +24,111 @@ from typing import Any
 import h5py
 
 from tribodyn.errors import InputError, no_descriptors
-from tribodyn.record.files import guarded_read
+from tribodyn.numerics.processes import child
+
+#: Seconds that a look through a file may take, also where other work keeps the processor busy.
+TIME_LIMIT = 20.0
+#: Seconds of the processor, and bytes of the file for each further one. A record of 1 GB takes milliseconds,
+#: its data are not read; those of one that somebody has compressed are.
+PROCESSOR_LIMIT, BYTES_A_SECOND = 1.5, 5e7
+#: Seconds more where a process has to be started: a slow machine needs some time to import h5py.
+START_LIMIT = 40.0
+#: Characters of what is said of a file.
+_LONGEST = 4096
+
+Look = Callable[[Path], str]
+
+CRASHED = "HDF5 crashes on it"
+
+
+def through_a_child(look: Look, path: Path) -> str:
+    """Call a function at module level of a path in a child process.
+
+    Returns what it says is wrong with the file, "" where nothing is, or that it hung or crashed.
+    """
+    return forked(look, path) if child.copies_are_safe() else _kept(look).answer(path)
+
+
+def forked(look: Look, path: Path) -> str:
+    """Call it in a copy of this process."""
+    try:
+        processor = PROCESSOR_LIMIT + path.stat().st_size / BYTES_A_SECOND
+        reply = child.in_a_copy(lambda: look(path)[:_LONGEST].encode(errors="replace"), TIME_LIMIT, processor)
+    except TimeoutError as error:
+        return f"reading it {error}"
+    except ChildProcessError:
+        return CRASHED
+    return reply.decode()
+
+
+class _Kept:
+    """A process that calls a function in copies of itself; it ends with this one."""
+
+    def __init__(self, look: Look) -> None:
+        self.owner = os.getpid()
+        self._lock = threading.Lock()
+        self._process = child.start(f"{__name__}:serve", look.__module__, look.__name__)
+        atexit.register(self.end)  # it would end by itself, but with a warning of Python's
+
+    def alive(self) -> bool:
+        return self._process.poll() is None
+
+    def end(self) -> None:
+        """End it, if it is this process's own."""
+        if self.owner == os.getpid():
+            child.end(self._process)
+            return
+        for pipe in (self._process.stdin, self._process.stdout):
+            if pipe is not None:
+                pipe.close()
+
+    def answer(self, path: Path) -> str:
+        """What the function says of a file."""
+        limit = START_LIMIT + TIME_LIMIT
+        with self._lock:
+            try:
+                child.tell(self._process, os.fsencode(path.absolute()).hex().encode() + b"\n")
+                line = child.answer(self._process, limit, line=True)
+            except BaseException as error:  # the answer to this would be taken for one to the next
+                self.end()
+                if isinstance(error, TimeoutError):
+                    return f"reading it did not end within {limit:g} s"
+                if isinstance(error, (OSError, ValueError)):  # it has ended
+                    return CRASHED
+                raise
+            if not line.endswith(b"\n"):
+                self.end()
+                return CRASHED
+        return bytes.fromhex(line.decode()).decode(errors="replace")
+
+
+_processes: dict[Look, _Kept] = {}
+_starting = threading.Lock()
+
+
+def _kept(look: Look) -> _Kept:
+    """The process that is kept for a function; another one if it ended or belongs to who forked this one."""
+    with _starting:
+        process = _processes.get(look)
+        if process is None or process.owner != os.getpid() or not process.alive():
+            if process is not None:
+                process.end()
+            process = _processes[look] = _Kept(look)
+        return process
+
+
+def serve(module: str, name: str) -> None:
+    """Answer every path on standard input with what a function says of it; both are hexadecimal."""
+    look: Look = getattr(import_module(module), name)
+    call = forked if hasattr(os, "fork") else lambda look, path: look(path)[:_LONGEST]
+    for line in sys.stdin.buffer:
+        reply = call(look, Path(os.fsdecode(bytes.fromhex(line.decode()))))
+        sys.stdout.buffer.write(reply.encode(errors="replace").hex().encode() + b"\n")
+        sys.stdout.buffer.flush()
+
 
 #: What a damaged file makes h5py and those who read it raise.
-UNREADABLE = (
-    OSError,
-    KeyError,
-    RuntimeError,
-    ValueError,
-    TypeError,
-    AttributeError,
-    IndexError,
-    OverflowError,
-)
+UNREADABLE = (OSError, LookupError, RuntimeError, ValueError, TypeError, AttributeError, OverflowError)
 #: What else it makes those raise who evaluate what it holds: numbers for texts, tables without their keys.
 _MISREAD = (*(error for error in UNREADABLE if error is not OSError), ArithmeticError, AssertionError)
 #: Maximum number of items in a group, and of items in all; depth of groups, axes of a dataset, and bytes of
@@ -88,7 +190,7 @@ def check_sound(path: Path) -> None:
     """
     if _identity(path) in _own | _sound:
         return
-    reason = guarded_read.through_a_child(unsound, path)
+    reason = through_a_child(unsound, path)
     if no_descriptors(failed := OSError(reason)):
         raise failed
     if reason:
@@ -121,8 +223,7 @@ class _Look:
     """A walk through a file of some size."""
 
     def __init__(self, size: int) -> None:
-        self._size = size
-        self._items = 0
+        self._size, self._items = size, 0
         self._groups: set[Any] = set()
         self._scales: set[Any] = set()
 
@@ -134,8 +235,7 @@ class _Look:
             self._dataset(name, dataset)
 
     def _group(self, group: Any, depth: int, datasets: list[tuple[str, h5py.Dataset]]) -> None:
-        address = _address(group)
-        if address in self._groups or depth > MAXIMUM_DEPTH:
+        if (address := _address(group)) in self._groups or depth > MAXIMUM_DEPTH:
             raise _Unsound("its groups have no end")
         self._groups.add(address)
         self._attributes(group)
@@ -197,10 +297,7 @@ class _Look:
             if name in _REFERENCES:
                 continue
             attribute = item.attrs.get_id(name)
-            size = attribute.dtype.itemsize
-            for length in attribute.shape or ():
-                size *= length
-            if size > MAXIMUM_ATTRIBUTE:
+            if attribute.dtype.itemsize * math.prod(attribute.shape or ()) > MAXIMUM_ATTRIBUTE:
                 raise _Unsound(f"the attribute {name!r} is too large")
             item.attrs[name]
 

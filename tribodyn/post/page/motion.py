@@ -1,7 +1,7 @@
-"""What the page needs to roll the teeth through mesh: outlines, path of contact, contact points, angles."""
+"""What moves on a page: teeth that roll through mesh, and the bodies of a mechanism with their loads."""
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -33,48 +33,21 @@ def rolling_teeth(record: Record) -> dict[str, Any] | None:
     places = _of_the_table(record, cycle) if tabulated else _of_the_roll_angles(record, shape, cycle)
     if places is None or not len(places.roll):
         return None
-    frames = np.unique(
-        np.linspace(0, len(places.roll) - 1, min(len(places.roll), MOST_FRAMES)).round().astype(int)
-    )
-    x, y = places.x[frames], places.y[frames]
-    return {
-        "frames": None if len(frames) == len(places.roll) else packed(frames, "<u4"),
-        "roll": packed(places.roll[frames], "<f8"),
-        "pairs": x.shape[1],
-        "x": packed(x),
-        "y": packed(y),
-        "alpha": packed(places.angle[frames]),
-        "pinion": packed(shape["pinion_outline"]),
-        "gear": packed(shape["gear_outline"]),
-        "path": packed(shape["path_of_contact"]),
-        "radii": [float(shape["pinion_pitch_radius"]), float(shape["gear_pitch_radius"])],
-        "outside": outside_of(shape),
-    }
+    frames, kept = _frames(len(places.roll), MOST_FRAMES)
+    return {"frames": kept} | _teeth(shape, _Places(*(values[frames] for values in places)))
 
 
 def turning_teeth(shape: Mapping[str, Any], pinion_teeth: float) -> dict[str, Any]:
     """The same over one mesh cycle of gears of which no motion is known, by `geometry_arrays`."""
-    pinion, gear = (float(shape[f"{side}_pitch_radius"]) for side in ("pinion", "gear"))
-    distance, angle, roll = along_path(np.asarray(shape["path_of_contact"]), pinion)
+    radius = float(shape["pinion_pitch_radius"])
+    distance, angle, roll = along_path(np.asarray(shape["path_of_contact"]), radius)
     pitch = 2.0 * np.pi / pinion_teeth
     phase = np.linspace(0.0, 1.0, FRAMES_OF_A_CYCLE, endpoint=False)[:, None]
     turned = roll[0] + pitch * (phase + np.arange(int(np.ceil((roll[-1] - roll[0]) / pitch))))
     place = np.where(turned <= roll[-1], np.interp(turned, roll, distance), np.nan)
     slope = np.interp(turned, roll, angle)
-    return {
-        "frames": None,
-        "turning": True,
-        "roll": packed(turned[:, 0], "<f8"),
-        "pairs": turned.shape[1],
-        "x": packed(place * np.cos(slope)),
-        "y": packed(place * np.sin(slope)),
-        "alpha": packed(slope),
-        "pinion": packed(shape["pinion_outline"]),
-        "gear": packed(shape["gear_outline"]),
-        "path": packed(shape["path_of_contact"]),
-        "radii": [pinion, gear],
-        "outside": outside_of(shape),
-    }
+    places = _Places(turned[:, 0], place * np.cos(slope), place * np.sin(slope), slope)
+    return {"frames": None, "turning": True} | _teeth(shape, places)
 
 
 class _Places(NamedTuple):
@@ -84,6 +57,28 @@ class _Places(NamedTuple):
     x: np.ndarray
     y: np.ndarray
     angle: np.ndarray
+
+
+def _frames(samples: int, most: int) -> tuple[np.ndarray, str | None]:
+    """Samples that are kept, evenly over the run, and as the page reads them: None where all are."""
+    frames = np.unique(np.linspace(0, samples - 1, min(samples, most)).round().astype(int))
+    return frames, None if len(frames) == samples else packed(frames, "<u4")
+
+
+def _teeth(shape: Mapping[str, Any], places: _Places) -> dict[str, Any]:
+    """Gears and where their pairs touch, as the page reads them."""
+    return {
+        "roll": packed(places.roll, "<f8"),
+        "pairs": places.x.shape[1],
+        "x": packed(places.x),
+        "y": packed(places.y),
+        "alpha": packed(places.angle),
+        "pinion": packed(shape["pinion_outline"]),
+        "gear": packed(shape["gear_outline"]),
+        "path": packed(shape["path_of_contact"]),
+        "radii": [float(shape[f"{side}_pitch_radius"]) for side in ("pinion", "gear")],
+        "outside": outside_of(shape),
+    }
 
 
 def _of_the_table(record: Record, cycle: dict[str, Any]) -> _Places | None:
@@ -132,3 +127,65 @@ def _turned(x: np.ndarray, y: np.ndarray, centre: float, by: np.ndarray) -> tupl
     """Points turned about an axis on the line of centres, anticlockwise."""
     c, s, along = np.cos(by), np.sin(by), y - centre
     return c * x - s * along, centre + s * x + c * along
+
+
+#: Positions that are kept, evenly over the run, at least, and of all bodies and contacts together.
+_MOST_POSES, _MOST_PLACES = 1500, 60_000
+
+
+class Body(NamedTuple):
+    """A body: its outline about its own centre, and where it is."""
+
+    outline: np.ndarray  # (points, 2), m; NaN between closed lines that bound one area
+    pose: np.ndarray  # (samples, 3); x and y of the centre, m, and rotation, rad, anticlockwise
+    fill: Literal["pinion", "gear", "paper", "ring"]  # colour of the page; a ring is a line of `width`
+    width: float = 0.0  # m
+    opacity: float = 1.0  # of its area
+
+
+class Sight(NamedTuple):
+    """A part of a mechanism to look at."""
+
+    label: str
+    x: float  # middle, m
+    y: float
+    reach: float  # half of what is seen in height, m
+    front: Sequence[int] = ()  # numbers of the bodies that lie in front then
+    #: x and y (m) about which it turns with a body, and the number of that body; -1: it stands still
+    turns: tuple[float, float, int] = (0.0, 0.0, -1)
+
+
+class Mechanism(NamedTuple):
+    """What a page shows of a mechanism, as a study describes it."""
+
+    title: str  # heading of the section
+    bodies: Sequence[Body]  # the one that lies in front comes last
+    load: str  # dataset of the loads, by which arrows are as long; a curve for each contact
+    contacts: np.ndarray  # (samples, contacts, 3); x, y, m, and direction of the load, rad
+    reach: float  # half of what is seen in height, m
+    longest: float  # length of the arrow of the largest load, m; shorter where less than `reach` is seen
+    sights: Sequence[Sight] = ()  # to choose from; none: all of it
+
+
+def mechanism_data(mechanism: Mechanism) -> dict[str, Any]:
+    """A mechanism as the page reads it."""
+    samples = len(mechanism.contacts)
+    most = max(_MOST_POSES, _MOST_PLACES // (len(mechanism.bodies) + mechanism.contacts.shape[1]))
+    frames, kept = _frames(samples, most)
+    x, y, alpha = np.moveaxis(mechanism.contacts[frames], -1, 0)
+    bodies = [
+        body._asdict() | {"outline": packed(body.outline), "pose": packed(body.pose[frames])}
+        for body in mechanism.bodies
+    ]
+    return {
+        "frames": kept,
+        "title": mechanism.title,
+        "bodies": bodies,
+        "pairs": x.shape[1],
+        "x": packed(x),
+        "y": packed(y),
+        "alpha": packed(alpha),
+        "reach": mechanism.reach,
+        "longest": mechanism.longest,
+        "sights": [sight._asdict() for sight in mechanism.sights],
+    }

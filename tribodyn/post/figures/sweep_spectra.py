@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
 from tribodyn.post.figures.spectrum import apart
-from tribodyn.post.figures.sweep.branch import Branch, axis_label, chosen_branch, sweep_title
+from tribodyn.post.figures.sweep_branch import Branch, axis_label, chosen_branch, sweep_title
 from tribodyn.post.style import (
     INK,
     PALETTE,
@@ -226,8 +226,7 @@ def _draw(axes: Axes, branch: Branch, norm: LogNorm, limit: float) -> LineCollec
     axes.plot(modes, branch.x, color=QUIET, linestyle=(0, (3, 2)), linewidth=0.7, zorder=0.9)
     for row, (place, numbers) in enumerate(apart(modes[last][np.isfinite(modes[last])], NAMES_APART * limit)):
         name_above(axes, place, f"mode {numbers}", row % 2, INK)
-    axes.set_xlim(0, limit)
-    axes.set_ylim(float(np.min(low)), float(np.max(high)))
+    axes.set(xlim=(0, limit), ylim=(float(np.min(low)), float(np.max(high))))
     axes.grid(False)
     return lines
 

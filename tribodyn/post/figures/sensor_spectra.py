@@ -1,21 +1,84 @@
 """Signals over time, their amplitudes over the orders of a shaft with the lines named, and along the time."""
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from tribodyn.errors import InputError
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.post.figures.panel import View, record_title
-from tribodyn.post.figures.sensors.shown_signals import ShownSignal, shown_signals
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, literal, mark_panel, name_above, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.record.sensors import Sensed
+from tribodyn.record.sensors import SENSORS, Sensed, SensorSignal, read_sensed
 from tribodyn.signals.indicators import crest_factor, kurtosis, rms
 from tribodyn.signals.lines import MESH, PASS, SHAFT, SignalLine
 from tribodyn.signals.resampling import PASSED
 from tribodyn.signals.spectra import AmplitudeSpectrum, order_spectrum, spectrogram
+
+#: Signals in a figure, at most.
+MOST = 6
+#: Samples that a spectrum needs.
+FEWEST = 32
+#: SI unit of a signal -> that of a figure and the factor to it.
+UNITS = {"m/s2": ("m/s²", 1.0), "m": ("µm", 1e6), "rad": ("µrad", 1e6), "N*m": ("N m", 1.0)}
+
+
+class ShownSignal(NamedTuple):
+    """A signal as a figure shows it."""
+
+    signal: SensorSignal
+    values: Float[Array, " sample"]  # in `unit`
+    unit: str
+    name: str  # as figures write it
+
+    @property
+    def turning(self) -> float:
+        """Mean turns of the reference in a second."""
+        turns, time = self.signal.turns, self.signal.time
+        return float((turns[-1] - turns[0]) / (time[-1] - time[0]))
+
+
+def has_signals(record: Record) -> bool:
+    """Whether a record holds signals that are long enough for a spectrum."""
+    return SENSORS in record.groups and any(len(s.values) >= FEWEST for s in read_sensed(record).signals)
+
+
+def shown_signals(records: Sequence[Record]) -> tuple[Sensed, list[ShownSignal]]:
+    """The signals of the first record that has some; InputError where none has."""
+    for record in records:
+        sensed = read_sensed(record)
+        signals = [_shown(signal) for signal in sensed.signals if len(signal.values) >= FEWEST][:MOST]
+        if signals:
+            return sensed, signals
+    path = str(records[0].path)
+    raise InputError("record", path, "holds no signals of sensors", "add a [[sensor]] and run it again")
+
+
+def _shown(signal: SensorSignal) -> ShownSignal:
+    unit, factor = UNITS.get(signal.units, (signal.units, 1.0))
+    return ShownSignal(signal, signal.values * factor, unit, literal(signal.name))
+
+
+def shafts_of(lines: Sequence[SignalLine]) -> list[SignalLine]:
+    """Shafts that turn."""
+    return [line for line in lines if line.sort == SHAFT and line.order > 0.0]
+
+
+def toothed(lines: Sequence[SignalLine]) -> list[tuple[SignalLine, list[int]]]:
+    """Shafts with the orders of the meshes of their gears, where these are whole."""
+    meshes = [line for line in lines if line.sort == MESH]
+    shafts = [(shaft, sorted({shaft.teeth_of(mesh) for mesh in meshes} - {0})) for shaft in shafts_of(lines)]
+    return [(shaft, teeth) for shaft, teeth in shafts if teeth]
+
+
+def turns_of(signal: SensorSignal, shaft: SignalLine) -> float:
+    """Revolutions of a shaft in a signal."""
+    return float(np.ptp(signal.turns)) * shaft.order
+
 
 _HEIGHT = 1.75
 #: Harmonics of the slowest mesh that are shown, and below which part of the highest amplitude nothing is.
@@ -28,12 +91,19 @@ _BESIDE = 3
 _PERIODS, _PARTS = 24, 40
 
 
+def sensor_panels(
+    records: Sequence[Record], height: float, rows: int, ratios: Sequence[int] = (1,)
+) -> tuple[Figure, np.ndarray]:
+    """A figure so high (inch) with its panels (row, column); columns of these ratios, of two a wider one."""
+    figure = new_figure(WIDTH if len(ratios) == 1 else 1.35 * WIDTH, height)
+    figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    return figure, figure.subplots(rows, len(ratios), squeeze=False, width_ratios=ratios)
+
+
 def signal_figure(records: Sequence[Record], _view: View) -> Figure:
     """Draw what every sensor of the first record gave, over time; at the right a turn of the reference."""
     sensed, shown = shown_signals(records)
-    figure = new_figure(1.35 * WIDTH, _HEIGHT * len(shown) + 0.5)
-    figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    rows = figure.subplots(len(shown), 2, squeeze=False, width_ratios=(3, 2))
+    figure, rows = sensor_panels(records, _HEIGHT * len(shown) + 0.5, len(shown), (3, 2))
     for number, ((whole, last), one) in enumerate(zip(rows, shown, strict=True)):
         time, turns = one.signal.time * 1e3, one.signal.turns
         whole.plot(time, one.values, color=PALETTE[0], linewidth=0.5)
@@ -58,9 +128,7 @@ def order_spectrum_figure(records: Sequence[Record], _view: View) -> Figure:
     At the right what lies beside the highest harmonic of a mesh.
     """
     sensed, shown = shown_signals(records)
-    figure = new_figure(1.35 * WIDTH, (_HEIGHT + 0.3) * len(shown) + 0.8)
-    figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    rows = figure.subplots(len(shown), 2, squeeze=False, width_ratios=(5, 4))
+    figure, rows = sensor_panels(records, (_HEIGHT + 0.3) * len(shown) + 0.8, len(shown), (5, 4))
     colors = line_colors([line for line in sensed.lines if line.sort in (SHAFT, PASS)])
     for number, ((left, right), one) in enumerate(zip(rows, shown, strict=True)):
         spectrum = order_spectrum(one.values, one.signal.turns)
@@ -129,8 +197,7 @@ def _draw_sidebands(
 def _logarithmic(axes: Axes, amplitudes: np.ndarray) -> None:
     top = float(np.max(amplitudes, initial=0.0))
     if top > 0.0:
-        axes.set_yscale("log")
-        axes.set_ylim(_FLOOR * top, 3.0 * top)
+        axes.set(yscale="log", ylim=(_FLOOR * top, 3.0 * top))
 
 
 def line_colors(lines: Sequence[SignalLine]) -> dict[SignalLine, str]:
@@ -146,14 +213,14 @@ def line_colors(lines: Sequence[SignalLine]) -> dict[SignalLine, str]:
 def spectrogram_figure(records: Sequence[Record], _view: View) -> Figure:
     """Draw spectra along the first record's signals, with the orders of its meshes as they turn."""
     sensed, shown = shown_signals(records)
-    figure, rows = _rows(len(shown), records, 0.45)
+    figure, rows = sensor_panels(records, (_HEIGHT + 0.45) * len(shown) + 0.5, len(shown))
     meshes = [line for line in sensed.lines if line.sort == MESH]
-    for number, (axes, one) in enumerate(zip(rows, shown, strict=True)):
+    for number, ((axes,), one) in enumerate(zip(rows, shown, strict=True)):
         _draw_map(figure, axes, one, meshes)
         mark_panel(
             axes, _letter(number, len(shown)), f"{one.name} over time and frequency; dotted: mesh orders"
         )
-    rows[-1].set_xlabel("Time (ms)")
+    rows[-1, 0].set_xlabel("Time (ms)")
     return figure
 
 
@@ -195,16 +262,9 @@ def _draw_map(figure: Figure, axes: Axes, one: ShownSignal, meshes: Sequence[Sig
                     color="white",
                     fontsize=5.5,
                 )
-    axes.set_ylim(0.0, limit * 1e-3)
-    axes.set_ylabel("Frequency (kHz)")
+    axes.set(ylim=(0.0, limit * 1e-3), ylabel="Frequency (kHz)")
     axes.grid(False)
 
 
 def _letter(number: int, count: int) -> str:
     return "abcdefghijkl"[number] if count > 1 else ""
-
-
-def _rows(count: int, records: Sequence[Record], more: float = 0.0) -> tuple[Figure, list[Axes]]:
-    figure = new_figure(WIDTH, (_HEIGHT + more) * count + 0.5)
-    figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
-    return figure, list(figure.subplots(count, 1, squeeze=False)[:, 0])

@@ -11,9 +11,8 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.input import units
 from tribodyn.input.fields import Inertia, PartName, TorsionalDamping, TorsionalStiffness
 from tribodyn.input.quantity import InUnit, NotNegative, Positive, Switch, Table, Text, written
+from tribodyn.input.tables.bearings import Bearings, MatrixUnits, Rows, Stiffness, broken_matrix
 from tribodyn.input.tables.laws import LinkTable, broken_link_law
-from tribodyn.input.tables.supports.bearings import Bearings, Stiffness
-from tribodyn.input.tables.supports.support_matrix import MatrixUnits, Rows, broken_matrix
 
 Size = Annotated[float, InUnit(units.positive(units.LENGTH), "30 mm")]
 Place = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.sweep.branch import (
+from tribodyn.post.figures.sweep_branch import (
     MARKS,
     Branch,
     axis_label,

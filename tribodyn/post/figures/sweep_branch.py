@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from tribodyn.errors import InputError
+from tribodyn.post.cycles import stretches
 from tribodyn.post.style import PALETTE, QUIET, literal
 from tribodyn.quantities.quantity import shown, shown_unit
 from tribodyn.record.sweep_reader import SweepRecord
@@ -209,8 +210,7 @@ def shade_contact_loss(axes: Axes, curves: Sequence[Branch]) -> None:
         x, lost = branch.x[order], branch.values("contact_loss_fraction")[order] > 0.0
         middle = (x[1:] + x[:-1]) / 2.0
         edges = np.concatenate([x[:1], middle, x[-1:]])
-        starts = np.flatnonzero(np.diff(np.concatenate([[False], lost, [False]]).astype(int)))
-        for first, behind in zip(starts[::2], starts[1::2], strict=True):
+        for first, behind in stretches(lost):
             axes.axvspan(float(edges[first]), float(edges[behind]), color=LOST, linewidth=0, zorder=0)
 
 

@@ -1,1 +1,0 @@
-"""The lubricant in a scenario, and how it thickens under pressure."""

@@ -1,1 +1,0 @@
-"""Shafts, bearings and stiffness matrices in a scenario."""

@@ -1,1 +1,0 @@
-"""Figures of sweeps, one subject a file; the pictures of a study name them."""
