@@ -9,7 +9,7 @@ import numpy as np
 
 from tribodyn.cases.cost import refuse_large, say_beforehand
 from tribodyn.errors import InputError, quoted
-from tribodyn.identification.fit import WHITE, Fit, evolution, fitted, sobol, whiteness
+from tribodyn.identification.fit import WHITE, Fit, Search, evolution, fitted, sobol, whiteness
 from tribodyn.identification.simulated import SignalComparison, measured_of, turn_of
 from tribodyn.identification.unknowns import Unknown, case_at, shares_of, unknowns_of
 from tribodyn.input import units
@@ -194,7 +194,7 @@ def _fit(compare: SignalComparison, sought: Sequence[Unknown], method: str, seed
     initial = shares_of(sought)
     power = 2 ** int(np.ceil(np.log2(STARTS * len(sought))))
     starts = [initial, *sobol(len(sought), power, seed)]
-    fit = fitted(residuals, starts, _search(method, seed))
+    fit = fitted(residuals, starts, _evolution(seed) if method == "cma-es" else None)
     if compare.failure and np.all(np.abs(fit.residuals) >= 1.0) and fit.deviation >= 1.0:
         raise InputError(
             "unknowns", None, f"the scenario cannot be run there: {compare.failure}", "narrow them"
@@ -208,9 +208,7 @@ def _fit(compare: SignalComparison, sought: Sequence[Unknown], method: str, seed
     return fit._replace(evaluations=total)
 
 
-def _search(method: str, seed: int) -> Any:
-    if method != "cma-es":
-        return None
+def _evolution(seed: int) -> Search:
     try:
         return evolution(seed)
     except ImportError:

@@ -9,6 +9,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.gears.prepare import PreparedGears, assembled
 from tribodyn.geometry.helix import curvature_share, line_stretch, speed_share
 from tribodyn.geometry.path import kinematics
+from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array
@@ -57,8 +58,6 @@ class PairWay(NamedTuple):
 
 def prepare(case: EhlCase) -> PreparedEhl:
     """Check the geometry and tabulate the mesh; raises InputError where teeth cannot be made or run."""
-    from tribodyn.mesh.by_compliance import mesh_cycle_of
-
     assembly = assembled(case)
     cycle = mesh_cycle_of(assembly, case.materials, case.mesh, case.operating.gear_torque)
     return PreparedGears(case, assembly, cycle, None)

@@ -24,9 +24,8 @@ class FaceMap(NamedTuple):
 
     def to_edges(self, record: Record) -> tuple[Float[Array, " place"], Float[Array, "position place"]]:
         """Places and values to the edges of the face, with the values of the outermost slices there."""
-        edges = face_edges(record)[[0, -1]]
-        values = np.concatenate([self.values[:, :1], self.values, self.values[:, -1:]], axis=1)
-        return np.concatenate([edges[:1], self.face, edges[1:]]), values
+        first, *_, last = face_edges(record)
+        return np.array([first, *self.face, last]), np.pad(self.values, ((0, 0), (1, 1)), mode="edge")
 
 
 def over_phase(record: Record, name: str) -> tuple[Float[Array, " position"], Float[Array, "position ..."]]:
@@ -45,8 +44,7 @@ def pair_over_phase(
 
     At the end of a cycle the teeth that were pair 1 become pair 0: a piece's last point is taken there.
     """
-    x, _ = over_phase(record, "phase")
-    _, values = over_phase(record, name)
+    x, values = over_phase(record, name)
     slot = record.pairs.index(pair)
     older = values[:, slot - 1] if slot > 0 else np.full(len(x), np.nan)
     begins = np.flatnonzero(np.diff(np.floor(x + 1e-9), prepend=-1.0))
