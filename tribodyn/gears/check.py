@@ -2,13 +2,11 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tribodyn.cases.results import CheckResult, TextTable
-from tribodyn.compliance.sharing.loaded_contact import single_pair_stiffness
-from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.gears.case import LubricatedCase, rounded_in
 from tribodyn.gears.prepare import PreparedGears
 from tribodyn.geometry.assembly import Assembly
@@ -32,6 +30,9 @@ from tribodyn.tribology.oil import (
     oil_values,
 )
 from tribodyn.tribology.surface_state import range_shares
+
+if TYPE_CHECKING:  # SciPy, which a plain run does without
+    from tribodyn.compliance.sharing.slices import PairFlexibility
 
 
 def with_rounding(checked: CheckResult, toml: str) -> CheckResult:
@@ -236,8 +237,10 @@ def sheet_and_stiffness(
     return CheckResult(data, (*sheet_tables(sheet), table, *tables), remarks)
 
 
-def check_on_elements(case: Any, flexible: PairFlexibility) -> CheckResult:
+def check_on_elements(case: Any, flexible: "PairFlexibility") -> CheckResult:
     """What `check` says of gears on finite elements: their sheet, and the stiffness of a pair of them."""
+    from tribodyn.compliance.sharing.loaded_contact import single_pair_stiffness
+
     assembly, torque = flexible.assembly, case.operating.gear_torque
     transverse = math.cos(float(assembly.path.pressure_angle(0.0)))
     # the stiffness along the path of contact, as the standard has it: load and deflection are each cos β_n of
