@@ -1,4 +1,4 @@
-"""Motions of helical pairs: every compiler and solver, mirrored hands, limits, energy, steady states."""
+"""Motions of helical pairs: every compiler and solver, limits, energy, steady states."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tests.support.helical_motion import EVEN, HELICAL, mirrored
+from tests.support.helical_motion import EVEN, HELICAL
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.support.states import altered, recorded, sampled
 from tribodyn.solve.initial import static_equilibrium
@@ -40,13 +40,6 @@ def marched(model, method="dopri5", rtol=1e-10, cycles=3, start=None):
 def test_right_hand_sides_agree_over_random_states(rng):
     keys = {"mesh.backlash": "12 um", "friction.sliding": "dynamic", "mesh.formulation": "energy-consistent"}
     assert_right_hand_sides_agree(at_several_conditions(pair(**keys).model), rng, 1e-11)
-
-
-def test_mirrored_hands_move_as_mirror_images():
-    right, left = (pair(**{"drive.hand": hand}).model for hand in ("right", "left"))
-    start, factors = static_equilibrium(right), mirrored(right)
-    ours, other = marched(right, start=start), marched(left, start=factors * start)
-    np.testing.assert_allclose(factors * other, ours, rtol=1e-9, atol=1e-20)
 
 
 @pytest.mark.parametrize(

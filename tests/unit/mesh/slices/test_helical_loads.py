@@ -3,8 +3,6 @@
 import math
 from dataclasses import replace
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -34,10 +32,8 @@ from tribodyn.mesh.quasi_static import (
     quasi_static,
     single_pair,
 )
-from tribodyn.mesh.slices.helical import slice_layout, tabulate_slices
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 
-jax.config.update("jax_enable_x64", True)
 TORQUE = 300.0
 
 
@@ -213,22 +209,6 @@ def test_deflection_converges_with_the_square_of_the_slices_width(overlap):
     errors = [np.sqrt(np.mean((deflection(k) - exact) ** 2)) for k in (5, 10, 20, 40)]
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert np.mean(orders) > 1.8
-
-
-@pytest.mark.soak  # `tests/unit/interface/test_helical_gradient.py` differentiates by the helix angle too
-def test_tables_and_loads_are_traced():
-    """Gradient of the mean deflection in the helix angle against a difference quotient."""
-    base = helical_pair(1.1)
-    layout = slice_layout(base, ENERGY, 5)._replace(nodes=65)
-
-    def mean(angle):
-        pair = assemble(involute.FAMILY, base.drive._replace(helix_angle=angle))
-        cycle = tabulate_slices(pair, (STEEL, STEEL), ENERGY, layout)
-        return cycle_mean(cycle, quasi_static(cycle, TORQUE).deflection)
-
-    at, step = base.drive.helix_angle, 1e-5
-    gradient = float(jax.grad(lambda x: jnp.asarray(mean(x)))(at))
-    assert gradient == pytest.approx((mean(at + step) - mean(at - step)) / (2.0 * step), rel=1e-4)
 
 
 def test_contacts_of_slices_are_as_long_as_the_lines():

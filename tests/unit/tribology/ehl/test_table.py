@@ -16,7 +16,7 @@ from tribodyn.tribology.closure import closure, duty_range
 from tribodyn.tribology.contact import DutyRange, local_contact
 from tribodyn.tribology.ehl import table as tables
 from tribodyn.tribology.ehl.coupled import solve_coupled
-from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, polynomial
+from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction
 from tribodyn.tribology.ehl.lookup import clipped as clipped_at
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.film import FILM_LAWS
@@ -46,13 +46,6 @@ def by_powers(monkeypatch, tmp_path):
     tables.table_over.cache_clear()
     yield
     tables.table_over.cache_clear()
-
-
-def test_polynomial_is_the_sum_of_its_terms(rng):
-    table = rng.standard_normal(len(TERMS))
-    point = rng.uniform(-1.0, 1.0, 4)
-    terms = [c * np.prod(point ** np.array(powers)) for c, powers in zip(table, TERMS, strict=True)]
-    assert polynomial(table, *point) == pytest.approx(sum(terms), rel=1e-12)
 
 
 def test_laws_read_what_the_table_was_made_of(by_powers):
