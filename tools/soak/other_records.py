@@ -167,8 +167,8 @@ def train_assessment_faults(record: Record) -> Iterator[str]:
     summary = record.summary
     yield from _negative(record, "dynamic_factor", "power_friction_mean", "S_B", "S_lambda", missing=True)
     for name, mesh in summary["meshes"].items():
-        for part in ("iso", "simulated"):
-            margins = {key: least(value) for key, value in mesh.get(part, {}).items() if key.startswith("S_")}
+        for part, of_part in mesh.get("margins", {}).items():
+            margins = {key: least(value) for key, value in of_part.items() if key.startswith("S_")}
             if not all(value is None or value >= 0.0 for value in margins.values()):
                 yield f"margins of {name}, {part}: {margins}"
 

@@ -17,8 +17,8 @@ from tools.by_schema.changes import keys_of, opened
 from tools.by_schema.effects import acts, is_table, of_case, of_run, silent
 from tools.by_schema.keys import SchemaKey
 from tribodyn.errors import InputError
-from tribodyn.studies.assessment.pair.case import AssessmentCase
-from tribodyn.studies.assessment.pair.parts import request_of
+from tribodyn.studies.assessment.asked import request_of
+from tribodyn.studies.assessment.case import AssessmentCase
 
 soak = pytest.mark.soak
 #: Pattern of a key that leaves the results of a kind as they are -> why.
@@ -116,7 +116,7 @@ def of_case_and_parts(case: Any) -> str:
     parts: Any = ""
     if isinstance(case, AssessmentCase):
         try:
-            parts = request_of(case)._asdict()
+            parts = request_of(case.pair)._asdict()
         except InputError as error:
             parts = str(error)
     return of_case(case) + of_case(parts)

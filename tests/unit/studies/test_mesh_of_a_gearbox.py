@@ -35,12 +35,12 @@ WITH_GEARS = [
 def test_every_study_of_gears_takes_a_mesh(kind: str):
     """Gears, speed and torque are the mesh's."""
     data = {"title": "x", "kind": kind, "gearbox": SECOND} | FURTHER.get(kind, {})
-    found = load_data(data, "x").case
+    found = load_data(data, "x").case.pair
     mesh = next(mesh for mesh in load_scenario("two-stage-reducer").meshes if mesh.name == "second")
     assert found.drive == mesh.pair.drive
     assert found.operating.pinion_speed == pytest.approx(mesh.pair.operating.pinion_speed, rel=1e-12)
     assert found.operating.gear_torque == pytest.approx(mesh.pair.operating.gear_torque, rel=1e-12)
-    again = load_data(tomllib.loads(found.toml), "again").case
+    again = load_data(tomllib.loads(found.toml), "again").case.pair
     assert again.drive == found.drive
 
 

@@ -10,7 +10,8 @@ from tribodyn.gears.rating.capacity import Capacity
 from tribodyn.gears.rating.standard import LoadFactors
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData, Side, body_of, tip_circle_radius
-from tribodyn.geometry.helix import normal_section
+from tribodyn.geometry.families import family
+from tribodyn.geometry.helix import as_written, normal_section
 from tribodyn.standards import agma
 from tribodyn.standards.metals import VICKERS
 
@@ -121,6 +122,17 @@ def _pair(assembly: Assembly, cut: Side = "pinion") -> agma.AgmaPair:
         float(body_of(normal, cut).dedendum),
         float(body_of(normal, cut).fillet_radius),
     )
+
+
+def not_by_agma(case: OiledCase) -> list[InputError]:
+    """Why this rating has no formulas for a pair of gears; empty: it rates the pair."""
+    teeth = family(case.family)
+    drive = as_written(teeth, case.drive)
+    gears = drive.pinion, drive.gear
+    width = min(float(gear.face_width) for gear in gears)
+    others = min(float(gear.teeth) for gear in gears) < 0.0 or not teeth.involute
+    helix = abs(float(drive.helix_angle)), float(drive.module), width
+    return list(broken_agma(helix, others, case.materials))
 
 
 def broken_agma(

@@ -9,15 +9,16 @@ import math
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Annotated, Any, NamedTuple, TypeVar
 
 import numpy as np
 from pydantic import Field
 
-from tribodyn.cases.assessment_part import MeshAtDuty, of_teeth
+from tribodyn.cases.assessment_part import MeshAtDuty
 from tribodyn.errors import InputError
 from tribodyn.gears.case import GearCase
-from tribodyn.geometry.drive import SIDES
+from tribodyn.gears.prepare import assembled
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.input import units
 from tribodyn.input.quantity import InUnit, NotNegative, Switch, Table
@@ -34,6 +35,7 @@ _STIFFNESS = ("stiffness_x", "stiffness_y", "stiffness_axial", "stiffness_tilt")
 _ROLLING = "rolling"
 #: Key of the centre distance of a pair.
 OF_PAIR = "drive.centre_distance"
+_GRADE = "centre_distance_grade"
 
 AnyCase = TypeVar("AnyCase", bound=GearCase)
 
@@ -54,6 +56,7 @@ class Draw(NamedTuple):
     bearings: Mapping[str, float]  # by name of a table of bearings: stiffness over what the scenario says
     damping_ratio: float  # of the mesh
     distances: Mapping[str, float]  # centre distances by key, m; others are as they are
+    pins: Mapping[str, Sequence[float]] = MappingProxyType({})  # errors of every planet's pin by key, m
 
     def keys(self, bearings: Mapping[str, Any]) -> dict[str, Any]:
         """What takes the place of a scenario's keys, whose table of bearings is given."""
@@ -61,15 +64,16 @@ class Draw(NamedTuple):
         if self.deviation is not None:
             overrides["mesh.deviation_sample"] = self.deviation
         overrides |= {key: f"{1e3 * distance:.12f} mm" for key, distance in self.distances.items()}
+        overrides |= {key: [f"{error!r} m" for error in errors] for key, errors in self.pins.items()}
         for name, factor in self.bearings.items():
             if factor != 1.0:
                 overrides[f"bearings.{name}"] = stiffened(bearings[name], factor)
         return overrides
 
-    def of_teeth(self, key: str) -> dict[str, Any]:
+    def of_mesh(self, key: str) -> "Draw":
         """The same for a pair of gears alone, whose centre distance has a key in the gearbox."""
         own = {OF_PAIR: self.distances[key]} if key in self.distances else {}
-        return of_teeth(self._replace(bearings={}, distances=own).keys({}))
+        return self._replace(bearings={}, distances=own, pins={})
 
     def of(self, case: AnyCase, key: str = OF_PAIR) -> AnyCase:
         """The case of a pair with the centre distance that has a key."""
@@ -85,6 +89,7 @@ class Ranges(NamedTuple):
     bearings: Mapping[str, float]  # factor up and down; 1: known
     damping_ratio: tuple[float, float]
     distances: Mapping[str, tuple[float, float]]
+    pins: Mapping[str, Sequence[tuple[float, float]]] = MappingProxyType({})  # of every planet
 
 
 def stiffened(bearing: Mapping[str, Any], factor: float) -> dict[str, Any]:
@@ -106,8 +111,16 @@ def drawn(ranges: Ranges, samples: int, seed: int) -> list[Draw]:
     if not samples:
         return []
     random = np.random.default_rng([seed, samples])
-    names = [*ranges.bearings, "", *ranges.distances]
+    ends = dict(ranges.distances) | {
+        f"{key}.{planet}": each for key, pins in ranges.pins.items() for planet, each in enumerate(pins, 1)
+    }
+    names = [*ranges.bearings, "", *ends]
     shares = {name: (random.permutation(samples) + random.uniform(size=samples)) / samples for name in names}
+
+    def even(key: str, number: int) -> float:
+        low, high = ends[key]
+        return low + float(shares[key][number]) * (high - low)
+
     return [
         Draw(
             seed + number if ranges.deviations else None,
@@ -116,41 +129,56 @@ def drawn(ranges: Ranges, samples: int, seed: int) -> list[Draw]:
                 for name, factor in ranges.bearings.items()
             },
             _logarithmic(shares[""][number], *ranges.damping_ratio),
+            {key: even(key, number) for key in ranges.distances},
             {
-                key: low + float(shares[key][number]) * (high - low)
-                for key, (low, high) in ranges.distances.items()
+                key: [even(f"{key}.{planet}", number) for planet, _ in enumerate(pins, 1)]
+                for key, pins in ranges.pins.items()
             },
         )
         for number in range(samples)
     ]
 
 
-def ranges_of(case: GearCase, table: UnknownsTable, damping_ratio: float) -> Ranges:
-    """What is not known of a pair; bearings of drawn shafts and of matrices are."""
-    of_gears = zip(SIDES, (case.supports.pinion, case.supports.gear), strict=True)
-    bearings = {side: table.bearings if support is None else 1.0 for side, support in of_gears}
-    apart = distances(case, table)
-    of_pair = {} if apart is None else {OF_PAIR: apart}
-    return Ranges(table.deviations, bearings, damping_range(table, damping_ratio), of_pair)
-
-
-def ranges_of_gearbox(
-    scenario: Mapping[str, Any], meshes: Sequence[MeshAtDuty], table: UnknownsTable
+def ranges_of(
+    meshes: Sequence[MeshAtDuty],
+    table: UnknownsTable,
+    bearings: Mapping[str, float],
+    damping_ratio: float,
+    stages: Sequence[Mapping[str, Any]] = (),
 ) -> Ranges:
-    """What is not known of a gearbox with meshes; bearings by the names that the scenario gives them.
+    """What is not known of a gearbox: its meshes, factors of its bearings, `stages` as a scenario has them.
 
-    Centre distances of planetary stages are known, and deviations where a gear has no tolerance class.
+    Of a planetary stage the centre distance is known, and the pins are out of their places by as much along
+    the circle. Deviations are known where a gear has no tolerance class.
     """
-    bearings = {
-        name: table.bearings
-        for name, each in scenario.get("bearings", {}).items()
-        if isinstance(each, Mapping) and "matrix" not in each
-    }
     apart = {mesh.distance: distances(mesh.pair, table) for mesh in meshes if mesh.distance}
-    classed = all(mesh.pair.quality is not None for mesh in meshes)
-    damping = damping_range(table, float(meshes[0].pair.mesh.damping_ratio))
-    of_stages = {key: ends for key, ends in apart.items() if ends is not None}
-    return Ranges(table.deviations and classed, bearings, damping, of_stages)
+    return Ranges(
+        table.deviations and all(mesh.pair.quality is not None for mesh in meshes),
+        bearings,
+        damping_range(table, damping_ratio),
+        {key: ends for key, ends in apart.items() if ends is not None},
+        dict(_pins(meshes, table, stages)),
+    )
+
+
+def _pins(
+    meshes: Sequence[MeshAtDuty], table: UnknownsTable, stages: Sequence[Mapping[str, Any]]
+) -> Iterator[tuple[str, list[tuple[float, float]]]]:
+    """Key and lowest and highest error, m, of every pin of planetary stages."""
+    carried = {mesh.stage: mesh.pair for mesh in meshes if mesh.stage}
+    for place, stage in enumerate(stages):
+        pair = carried.get(stage.get("name", ""))
+        if "planet" not in stage or pair is None or table.centre_distance == 0.0:
+            continue
+        path = assembled(pair).path
+        nominal = abs(float(path.pinion_pitch_radius + path.gear_pitch_radius))
+        tolerance = table.centre_distance or centre_distance_allowance(stage.get(_GRADE, 7), nominal)
+        given = stage.get("tangential_pin_errors") or ["0 m"] * stage["planets"]
+        errors = [units.to_si(text, units.LENGTH) for text in given]
+        yield (
+            f"stage.{place}.tangential_pin_errors",
+            [(error - tolerance, error + tolerance) for error in errors],
+        )
 
 
 def damping_range(table: UnknownsTable, damping_ratio: float) -> tuple[float, float]:
@@ -177,7 +205,7 @@ def distances(case: GearCase, table: UnknownsTable) -> tuple[float, float] | Non
     if case.drive.centre_distance is None or table.centre_distance == 0.0:
         return None
     nominal = float(case.drive.centre_distance)
-    grade = tomllib.loads(case.toml).get("drive", {}).get("centre_distance_grade", 7)
+    grade = tomllib.loads(case.toml).get("drive", {}).get(_GRADE, 7)
     tolerance = table.centre_distance or centre_distance_allowance(grade, nominal)
     tight = float(tight_centre_distance(case.drive))
     return min(max(nominal - tolerance, tight), nominal), nominal + tolerance
@@ -209,4 +237,6 @@ def described(ranges: Ranges) -> str:
         parts.append(f"damping of the mesh {lowest:.2g} to {highest:.2g}")
     for low, high in ranges.distances.values():
         parts.append(f"centre distance {1e3 * low:.7g} to {1e3 * high:.7g} mm")
+    for pins in ranges.pins.values():
+        parts.append(f"pins up to {0.5e6 * (pins[0][1] - pins[0][0]):.3g} µm along their circle")
     return ", ".join(parts) or "nothing: all is known"

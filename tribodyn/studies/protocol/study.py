@@ -81,8 +81,8 @@ class Study:
     verbs         ``VERBS``, verbs and Python functions that it offers (optional), see `protocol.verb`;
                   ``RUN_PROPERTIES``, a class of properties that its runs have in Python beside those of a
                   `Run` (optional): ``tribodyn`` has that class by its name
-    template      ``template.toml``, a commented scenario in which TITLE stands for its title, see
-                  `protocol.load.filled`; of a study in a single module its attribute ``TEMPLATE``
+    template      ``template.toml``, or the kind's name: a commented scenario in which TITLE stands for its
+                  title, see `protocol.load.filled`; of a study in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
 
     Parameters
@@ -115,7 +115,7 @@ class Study:
     def table(self, data: Mapping[str, Any] = MappingProxyType({})) -> "type[Table]":
         """The schema of a scenario file, of one with these data where it depends on them."""
         of_data = self._part("scenario", "table_for", optional=True)
-        return of_data(data) if of_data else self._part("scenario", "Scenario")
+        return of_data({"kind": self.kind, **data}) if of_data else self._part("scenario", "Scenario")
 
     def broken_rules(self, scenario: Any) -> Iterable[InputError]:
         """Go through the rules that tie keys of a scenario together and that this one breaks."""
@@ -131,7 +131,9 @@ class Study:
         package = import_module(self._packages[0])
         if not hasattr(package, "__path__"):  # one module, which has no folder of its own
             return package.TEMPLATE
-        return resources.files(package).joinpath("template.toml").read_text(encoding="utf-8")
+        files = resources.files(package)
+        own = files.joinpath(f"{self.kind}.toml")
+        return (own if own.is_file() else files.joinpath("template.toml")).read_text(encoding="utf-8")
 
     def estimate(self, case: Any) -> Estimate:
         """What a run of a case takes; nothing, where the study does not say."""

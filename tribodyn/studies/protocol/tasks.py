@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import tomli_w
@@ -81,11 +81,19 @@ def results(
     return done
 
 
+class Concluded(NamedTuple):
+    """What tasks come to."""
+
+    along: Mapping[str, Any]  # the datasets along the axis of the record's layout
+    summary: dict[str, Any]
+    rows: Sequence[Mapping[str, Any]] = ()  # of the datasets along other axes
+
+
 def recorded(
     case: CaseHead,
     output: str | Path | None,
     layout: Layout,
-    concluded: Callable[[Path, Progress | None, bool], tuple[Mapping[str, Any], dict[str, Any]]],
+    concluded: Callable[[Path, Progress | None, bool], Concluded],
     *,
     force: bool = False,
     progress: Progress | None = None,
@@ -93,13 +101,13 @@ def recorded(
 ) -> RunResult:
     """Write the record of a case that is concluded from tasks; see `study.Study.run`.
 
-    `concluded` runs them into a folder, as `results` does, and returns the datasets along the layout's axis
-    and the summary; `more` is for the `writer`. Tasks that were done before a call was stopped are kept.
+    `concluded` runs them into a folder, as `results` does; `more` is for the `writer`. Tasks that were done
+    before a call was stopped are kept.
     """
     path = target(case, output, force)
     folder = folder_of(path)
     try:
-        along, summary = concluded(folder, progress, force)
+        along, summary, rows = concluded(folder, progress, force)
     except SimulationError as error:
         with writer(case, path, layout, 0, force=force) as record:
             return RunResult(record.fail(str(error), {}), "failed", str(error), {})
@@ -109,6 +117,8 @@ def recorded(
         raise
     with writer(case, path, layout, len(along[layout.axis_name]), force=force, **more) as record:
         record.write(0, along)
+        for number, row in enumerate(rows):
+            record.put(number, row)
         return RunResult(record.finish(summary), "complete", "", summary)
 
 

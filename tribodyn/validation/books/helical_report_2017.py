@@ -69,11 +69,11 @@ def _values() -> dict[str, Any]:
     named = capacity.by_name()
     middle, _, roots = _rated(overrides | MIDDLE_TIPS)
     sections = [critical_section(assembled(middle), side) for side in SIDES]
-    assemblies = {"": assembled(load_scenario(SCENARIO, GIVEN))}
+    assemblies = {"": assembled(load_scenario(SCENARIO, GIVEN).pair)}
     for end, allowances in shape.THICKNESS.items():
         thinner = zip(SIDES, allowances, strict=True)
         changes = {f"drive.{side}.thickness_allowance": f"{amount} mm" for side, amount in thinner}
-        assemblies[end] = assembled(load_scenario(SCENARIO, GIVEN | changes))
+        assemblies[end] = assembled(load_scenario(SCENARIO, GIVEN | changes).pair)
     values = shape.geometry(assemblies) | shape.measures() | shape.tolerances_1995(2.884)
     values |= _loads() | factors | {"alfFen": [math.degrees(section.load_angle) for section in sections]}
     relieved = _rated(overrides | {"assessment.tip_relief": "1 mm"})[1]
@@ -82,7 +82,7 @@ def _values() -> dict[str, Any]:
 
 
 def _rated(changes: Mapping[str, Any]) -> tuple[Any, Standard, Any]:
-    case = load_scenario(SCENARIO, changes)
+    case = load_scenario(SCENARIO, changes).pair
     assembly = assembled(case)
     standard = standard_of(case, assembly, rated_duty(case.settings, case.oil_temperature, face=1.0))
     standard = standard._replace(factors=standard.factors._replace(stiffness=_stiffness()))

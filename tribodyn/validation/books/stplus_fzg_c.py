@@ -85,7 +85,7 @@ def _values() -> dict[str, Any]:
     stiffness = _stiffness()
     dynamic = _dynamic(stiffness)
     factor = float(dynamic["K_v"])
-    case = load_data(SCENARIO, BOOK, {"assessment.face_load_factor": _K / factor}).case
+    case = load_data(SCENARIO, BOOK, {"assessment.face_load_factor": _K / factor}).case.pair
     assembly = assembled(case)
     duty = rated_duty(case.settings, case.oil_temperature, face=1.0)._replace(dynamic=factor)
     standard = standard_of(case, assembly, duty)

@@ -19,8 +19,8 @@ from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
-from tribodyn.studies.assessment.pair.margins import local_of, point_angles
-from tribodyn.studies.assessment.pair.parts import request_of
+from tribodyn.studies.assessment.asked import request_of
+from tribodyn.studies.assessment.concluded.margins import local_of, point_angles
 from tribodyn.studies.protocol.load import load_scenario
 
 KIND = "assessment"
@@ -274,8 +274,8 @@ def test_an_oil_without_its_data_sheet_is_refused(tmp_path: Path):
 
 
 def test_the_temperature_of_the_teeth_can_be_asked_for_otherwise(tmp_path: Path):
-    given = request_of(short_case(KIND, tmp_path, temperature__model="oil"))
-    absent = request_of(short_case(KIND, tmp_path, assessment__lubrication="spray"))
+    given = request_of(short_case(KIND, tmp_path, temperature__model="oil").pair)
+    absent = request_of(short_case(KIND, tmp_path, assessment__lubrication="spray").pair)
     assert given.tables["temperature"]["model"] == "oil"
     assert absent.tables["temperature"] == {"model": "iso", "lubrication": "spray"}
     assert absent.pinion_speed in absent.speeds
@@ -296,7 +296,7 @@ def test_where_the_radius_vanishes_there_is_no_hertz_contact(tmp_path: Path):
         "friction_coefficient_mean": 0.05,
         "bulk_temperature": 360.0,
     }
-    local = local_of(short_case(KIND, tmp_path), assembly, along, figures)
+    local = local_of(short_case(KIND, tmp_path).pair, assembly, along, figures)
     film = local.at_points(local.films.specific_film)
     assert np.isnan(film[POINTS.index("C")])
     assert np.all(np.delete(film, POINTS.index("C")) > 0.0)
@@ -304,4 +304,4 @@ def test_where_the_radius_vanishes_there_is_no_hertz_contact(tmp_path: Path):
     assert local.films.bulk_temperature == 360.0
     along["normal_load"][:] = 1e9
     with pytest.raises(SimulationError, match="nowhere narrower than"):
-        local_of(short_case(KIND, tmp_path), assembly, along, figures)
+        local_of(short_case(KIND, tmp_path).pair, assembly, along, figures)

@@ -13,9 +13,9 @@ from tribodyn.compliance.sharing.loaded_contact import roll_through
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.capacity import capacity_of, life_bins
 from tribodyn.gears.rating.standard import rated_duty, standard_of
-from tribodyn.studies.assessment.pair.reasons import bending_reasons, pitting_reasons, reasons, rests_on
-from tribodyn.studies.assessment.rated_flank import NominalLoad, nominal_load, rated_flanks
-from tribodyn.studies.assessment.simulated_strength import (
+from tribodyn.studies.assessment.concluded.rated_flank import NominalLoad, nominal_load, rated_flanks
+from tribodyn.studies.assessment.concluded.reasons import bending_reasons, pitting_reasons, reasons, rests_on
+from tribodyn.studies.assessment.concluded.simulated_strength import (
     GivenFactors,
     _in_motion,
     given_factors,
@@ -32,7 +32,7 @@ STATIC = {"dynamic_factor": 1.0, "face_load_factor": 1.0}
 
 @pytest.fixture(scope="module")
 def case(tmp_path_factory):
-    return short_case("assessment", tmp_path_factory.mktemp("beside"), drive__material="16MnCr5")
+    return short_case("assessment", tmp_path_factory.mktemp("beside"), drive__material="16MnCr5").pair
 
 
 @pytest.fixture(scope="module")
@@ -181,7 +181,7 @@ def test_a_helical_pair_counts_with_its_hertz_pressure_and_a_spur_pair_with_Z_ep
     """ISO 6336-2, (28) to (30), over the share of the load that presses there."""
     spur = assembled(case)
     assert nominal_load(spur).credit == pytest.approx(math.sqrt((4.0 - float(spur.contact_ratio)) / 3.0))
-    helical = assembled(load_scenario("assessment-helical-24-95"))
+    helical = assembled(load_scenario("assessment-helical-24-95").pair)
     assert nominal_load(helical).credit == pytest.approx(1.0)
     assert nominal_load(helical).carried == pytest.approx(1.0 / float(helical.contact_ratio))
 

@@ -10,7 +10,7 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.interface.scenario import scenario
-from tribodyn.studies.assessment.pair.run import check
+from tribodyn.studies.assessment.run import check
 
 PSI = 6894.757
 STEEL = {"like": "42CrMo4", "treatment": "through-hardened", "grade": "ML"}

@@ -12,13 +12,13 @@ from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.capacity import Capacity, capacity_of, life_bins
 from tribodyn.gears.rating.standard import Standard, iso_part, rated_duty, standard_of
 from tribodyn.geometry.drive import SIDES
-from tribodyn.studies.assessment.pair.parts import faces_of, other_torques, request_of
+from tribodyn.studies.assessment.asked import faces_of, other_torques, request_of
 from tribodyn.studies.motion.train import assessable as whole
 from tribodyn.studies.protocol.load import load_scenario
 
 
 def case_of(changes: dict[str, Any] | None = None) -> Any:
-    return load_scenario("assessment-helical-24-95", changes or {})
+    return load_scenario("assessment-helical-24-95", changes or {}).pair
 
 
 def rated(changes: dict[str, Any] | None = None, **of_gears: Any) -> tuple[Standard, Capacity]:
@@ -201,7 +201,7 @@ def test_internal_external_spur_and_helical_pairs_have_every_factor(drive: str):
     changes = {"drive": {"like": drive, "material": "42CrMo4", "quality": 6}}
     if drive.startswith("ring"):
         train = load_scenario("wind-turbine-gearbox-assessment")
-        meshes = whole.meshes(train.subject.case)
+        meshes = whole.meshes(train.gearbox.case)
         case = next(each.pair for each in meshes if each.pair.drive.pinion.teeth < 0)
         assembly, settings = assembled(case), train.settings
     else:

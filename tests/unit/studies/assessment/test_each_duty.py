@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from tests.support.short_studies import SHORT, written_template
-from tribodyn.studies.assessment.pair.run import assessed
+from tribodyn.studies.assessment.run import assessed
 from tribodyn.studies.protocol.load import load_scenario
 
 DUTIES = [
@@ -28,7 +28,7 @@ def test_safety_and_life_by_the_standard_do_not_depend_on_the_duty_that_is_asses
     found: list[dict[str, Any]] = []
     for number in (1, 2):
         keys = SHORT["assessment"] | SMALL | LEANING | {"duty": DUTIES, "operating.duty": number}
-        found.append(assessed(load_scenario(scenario, keys), tmp_path / str(number))[1])
+        found.append(assessed(load_scenario(scenario, keys), tmp_path / str(number))[2])
     one, other = found
     assert one["duty"] != other["duty"]
     # K_Hβ of each duty, the contact of which is analysed at its torque

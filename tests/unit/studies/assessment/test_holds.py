@@ -3,7 +3,7 @@
 import re
 
 import tribodyn as td
-from tribodyn.studies.assessment.pair.limit_table import holds
+from tribodyn.studies.assessment.shown.holds import holds
 
 SUMMARY = {
     "limits": {

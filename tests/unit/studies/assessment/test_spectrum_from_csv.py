@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.gears.rating.spectrum import spectrum_tables
-from tribodyn.studies.assessment.pair.run import check
+from tribodyn.studies.assessment.run import check
 from tribodyn.studies.protocol.load import load_scenario
 
 SCENARIO = """
@@ -67,14 +67,14 @@ def test_damage_of_every_class_is_as_the_annex_has_it(tmp_path: Path):
 
 def test_a_file_is_the_same_as_its_tables_written_out(tmp_path: Path):
     text = "share [1];power [kW];oil_temperature [degC]\n0.75;20;80\n0.25;10;60\n"
-    one = load_scenario(written(tmp_path, text))
+    one = load_scenario(written(tmp_path, text)).pair
     tables = SCENARIO.replace('duty = "spectrum.csv"', "") + "".join(
         f'[[duty]]\nshare = {share}\npower = "{power} kW"\noil_temperature = "{oil} degC"\n'
         for share, power, oil in ((3.0, 20, 80), (1.0, 10, 60))
     )
-    other = load_scenario(written(tmp_path, scenario=tables))
+    other = load_scenario(written(tmp_path, scenario=tables)).pair
     assert one.spectrum == other.spectrum
-    changed = load_scenario(written(tmp_path, text), {"duty.1.power": "5 kW"})
+    changed = load_scenario(written(tmp_path, text), {"duty.1.power": "5 kW"}).pair
     assert changed.spectrum[1][2] == pytest.approx(one.spectrum[1][2] / 2)
 
 

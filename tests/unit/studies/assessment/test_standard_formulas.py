@@ -71,7 +71,7 @@ def deviations() -> tuple[float, float]:
 def case(tmp_path_factory: pytest.TempPathFactory) -> Any:
     duty = {"operating.power": "20 kW", "operating.oil_temperature": "80 degC"}
     scenario = written_template("assessment", tmp_path_factory.mktemp("hand"))
-    return load_scenario(scenario, {**duty, "drive.mean_roughness": "0.8 um"})
+    return load_scenario(scenario, {**duty, "drive.mean_roughness": "0.8 um"}).pair
 
 
 @pytest.fixture(scope="module")

@@ -16,16 +16,17 @@ from tribodyn.record.sweep_schema import OF_MESH as OF_MESH
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
 from tribodyn.studies.motion.case import Gearbox, refuse_long_period
 from tribodyn.studies.motion.planetary.frames import rolling_of
-from tribodyn.studies.motion.planetary.results import stage_quantities, worst_stage
+from tribodyn.studies.motion.planetary.results import meshes_of_member, stage_quantities, worst_stage
 from tribodyn.studies.motion.prepare import PreparedGearbox, structure_of
 from tribodyn.studies.motion.summary import concluded, meshes_of_run, steady_quantities
 from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
+from tribodyn.train.planetary import RING, SUN
 
 #: What a sweep keeps of every mesh; the name of the dataset is that of the quantity and `OF_MESH`.
 KEPT = (
     *("transmission_error_peak_to_peak", "dynamic_factor", "contact_loss_fraction", "hertz_pressure_max"),
     *("film_parameter_min", "friction_coefficient_mean", "transmission_error_mean", "mesh_frequency"),
-    *("efficiency", "power_friction_mean", "bulk_temperature"),
+    *("efficiency", "power_friction_mean", "bulk_temperature", "mesh_load_factor"),
 )
 OF_MESHES = {name + OF_MESH: QUANTITIES[name].variable()._replace(dims=("mesh",)) for name in KEPT}
 #: States that bound the memory of a sweep before its cases are known.
@@ -122,13 +123,17 @@ def quantities_over(
 ) -> tuple[dict[str, Any], dict[str, np.ndarray], Sequence[Mapping[str, Any]]]:
     """Quantities over a window: of the case, of each mesh for `OF_MESHES`, and of each mesh to judge."""
     whole, each = steady_quantities(inside.meshes, work, prepared, meshes_of_run(prepared), samples, extremes)
+    stages = stage_quantities(prepared, inside.meshes, each) if prepared.case.sets else {}
     of_meshes = {}
     if prepared.case.named:
+        for gearset in prepared.case.sets:
+            for m in (m for member in (SUN, RING) for m in meshes_of_member(prepared.case, gearset, member)):
+                each[m]["mesh_load_factor"] = stages[gearset.name]["mesh_load_factor"]
         of_meshes = {
             name + OF_MESH: np.array([mesh.get(name, np.nan) for mesh in each], dtype=float) for name in KEPT
         }
-    if prepared.case.sets:
-        whole |= worst_stage(stage_quantities(prepared, inside.meshes, each))
+    if stages:
+        whole |= worst_stage(stages)
     return concluded(prepared, whole, each), of_meshes, each
 
 

@@ -6,8 +6,14 @@ from tribodyn.cases.assessment_part import GEARBOX, Contribution, Findings, Requ
 from tribodyn.studies.motion.over_speed import speed_findings, speed_tasks
 
 #: Of every mesh, and further ones of a train, at the duty.
-OF_MESHES = ("dynamic_factor_of_mesh",)
-_FURTHER = ("mesh_load_factor", "hertz_pressure_max")
+OF_MESHES = tuple(
+    f"{name}_of_mesh"
+    for name in (
+        *("dynamic_factor", "mesh_load_factor", "power_friction_mean", "friction_coefficient_mean"),
+        "bulk_temperature",
+    )
+)
+_FURTHER = ("mesh_load_factor", "hertz_pressure_max", "power_friction_mean", "efficiency")
 _SPEED = "operating.input_speed"
 
 

@@ -1,4 +1,4 @@
-"""The tables of a scenario of ``kind = "train-assessment"``."""
+"""The scenario of an assessment: of a pair of gears in its own file, or of the gearbox of a scenario."""
 
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -7,29 +7,41 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, create_model
 
+from tribodyn.cases.assessment_part import MeshAtDuty
 from tribodyn.errors import InputError, quoted
+from tribodyn.gears.rating.american import not_by_agma
 from tribodyn.gears.rating.capacity import required
-from tribodyn.gears.rating.limits import OilLimits
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Positive, Table, scenario_file, written
 from tribodyn.studies import study_of
-from tribodyn.studies.assessment.settings import broken_settings, without_data_sheet
-from tribodyn.studies.assessment.train.case import TrainAssessmentCase, TrainRatingTable, of_mesh
+from tribodyn.studies.assessment import OF_SCENARIO, STUDY
+from tribodyn.studies.assessment.case import AssessmentCase, RatedMesh
+from tribodyn.studies.assessment.meshes import meshes_of
+from tribodyn.studies.assessment.pair_file import (
+    AssessmentLimits,
+    AssessmentScenario,
+    broken_pair_rules,
+    rated_pair,
+)
+from tribodyn.studies.assessment.settings import (
+    TrainRatingTable,
+    broken_settings,
+    of_mesh,
+    without_data_sheet,
+)
+from tribodyn.studies.assessment.unknowns import OF_PAIR
 from tribodyn.studies.protocol.load import broken_rules as rules_broken_by
 from tribodyn.studies.protocol.load import load_data, schema_inside
 
-#: The kind, and what a file may write for it.
-KIND, SHORT = "train-assessment", "assessment"
 
-
-class TrainLimits(OilLimits):
+class TrainLimits(AssessmentLimits):
     """What must hold in every mesh: red on the first page where it does not. Judged where given."""
 
     mesh_load_factor: Positive | None = None
 
 
 class TrainAssessmentScenario(ScenarioHead):
-    """A scenario file of an assessment of a train."""
+    """A scenario file of an assessment of the gearbox of a scenario."""
 
     kind: Literal["train-assessment"]
     scenario: Annotated[dict[str, Any], scenario_file()]
@@ -37,12 +49,12 @@ class TrainAssessmentScenario(ScenarioHead):
     limits: TrainLimits = written({})
 
 
-Scenario = TrainAssessmentScenario
-
-
 def table_for(data: Mapping[str, Any]) -> type[Table]:
-    """Return the schema for data whose train, where it is opened, is of a known kind."""
-    return _around(schema_inside(data.get("scenario"), KIND), data.get("kind") == SHORT)
+    """Return the schema for data: of a gearbox, where it is opened, by its kind."""
+    if data.get("kind") == STUDY.kind and "scenario" not in data:
+        return AssessmentScenario
+    inside = schema_inside(data.get("scenario"), OF_SCENARIO.kind)
+    return _around(inside, data.get("kind") == STUDY.kind)
 
 
 @lru_cache(maxsize=16)
@@ -63,29 +75,44 @@ def _around(base: type[Table] | None, short: bool) -> type[Table]:
     )
 
 
-def case_of(scenario: Scenario, toml: str, sha256: str) -> TrainAssessmentCase:
+def case_of(scenario: Any, toml: str, sha256: str) -> AssessmentCase:
     """Return the case of a scenario that has passed schema and rules."""
+    head: dict[str, Any] = head_of(scenario, toml, sha256)
+    settings = scenario.assessment
+    limits = scenario.limits.model_dump() | required(settings)
+    if isinstance(scenario, AssessmentScenario):
+        pair = rated_pair(scenario, toml, sha256)
+        return AssessmentCase(**head, settings=settings, limits=limits, own=pair, rated=_own_mesh)
     train = tomllib.loads(toml)["scenario"]
     subject = load_data(train, str(train.get("name") or "train"))
-    whole = subject.study.whole()
-    names = [mesh.name for mesh in whole.meshes(subject.case)] if whole else []
-    for name, factor in scenario.assessment.face_load_factors.items():
+    head["kind"] = OF_SCENARIO.kind
+    case = AssessmentCase(**head, settings=settings, limits=limits, subject=subject, rated=meshes_of)
+    names = [mesh.name for mesh in case.whole.meshes(subject.case)] if subject.study.whole() else []
+    for name, factor in settings.face_load_factors.items():
         if not any(of_mesh(name, mesh) for mesh in names):
             key, rule = (
                 f"assessment.face_load_factors.{name}",
                 "is no mesh, and no mesh's name begins with it",
             )
             raise InputError(key, factor, rule, f"the meshes: {', '.join(names)}")
-    return TrainAssessmentCase(
-        **{**head_of(scenario, toml, sha256), "kind": KIND},
-        subject=subject,
-        settings=scenario.assessment,
-        limits=scenario.limits.model_dump() | required(scenario.assessment),
-    )
+    if settings.standard == "agma":
+        refused = [not_by_agma(mesh.rated) for mesh in case.meshes.values()]
+        if refused and all(refused):
+            raise refused[0][0]
+    return case
+
+
+def _own_mesh(case: AssessmentCase) -> dict[str, RatedMesh]:
+    """The only mesh of a pair of gears."""
+    pair = case.pair
+    return {"": RatedMesh(MeshAtDuty("", pair, distance=OF_PAIR), pair, pair)}
 
 
 def broken_rules(scenario: Any) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks."""
+    if isinstance(scenario, AssessmentScenario):
+        yield from broken_pair_rules(scenario)
+        return
     inner, settings = scenario.scenario, scenario.assessment
     yield from _of_subject(inner)
     damping = getattr(getattr(inner, "mesh", None), "damping_ratio", None)

@@ -9,8 +9,8 @@ from tribodyn.gears.rating.standard import LoadFactors
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.studies.assessment.pair.case import AssessmentCase
-from tribodyn.studies.assessment.simulated_strength import (
+from tribodyn.studies.assessment.case import RatedPair
+from tribodyn.studies.assessment.concluded.simulated_strength import (
     GivenFactors,
     LoadedTeeth,
     SimulatedStrength,
@@ -202,7 +202,7 @@ class Compared(NamedTuple):
 
 
 def compared(
-    case: AssessmentCase,
+    case: RatedPair,
     assembly: Assembly,
     motion: tuple[Mapping[str, Any], Mapping[str, Any]],
     capacity: Capacity | None,

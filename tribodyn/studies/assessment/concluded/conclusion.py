@@ -1,25 +1,28 @@
 """What a pair of gears comes to by what the studies found of it, and by the standards beside them."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from tribodyn.cases.assessment_part import Meshing
 from tribodyn.gears.prepare import assembled
-from tribodyn.gears.rating.capacity import Capacity, capacity_of, life_bins
-from tribodyn.gears.rating.margins import strength_of
+from tribodyn.gears.rating.american import agma_part, not_by_agma
+from tribodyn.gears.rating.capacity import Capacity, capacity_of, life_bins, required
+from tribodyn.gears.rating.spectrum import spectrum_part
 from tribodyn.gears.rating.standard import Standard, iso_part, rated_duty, standard_of
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.studies.assessment.pair import parts
-from tribodyn.studies.assessment.pair.case import AssessmentCase
-from tribodyn.studies.assessment.pair.margins import (
+from tribodyn.studies.assessment.asked import faces_of
+from tribodyn.studies.assessment.case import RatedMesh, RatedPair
+from tribodyn.studies.assessment.concluded.margins import (
     largest_stresses,
     local_of,
     margins_and_limits,
     simulated_part,
 )
-from tribodyn.studies.assessment.pair.reasons import compared
-from tribodyn.studies.assessment.scatter import Conclusion
+from tribodyn.studies.assessment.concluded.reasons import compared
+from tribodyn.studies.assessment.concluded.scatter import Conclusion
+from tribodyn.studies.assessment.unknowns import Draw
 
 
 class ByStandard(NamedTuple):
@@ -29,9 +32,17 @@ class ByStandard(NamedTuple):
     standard: Standard | None = None
     capacity: Capacity | None = None  # None: the materials' strength is not known
 
+    def summary(self, case: RatedPair) -> dict[str, Any]:
+        """What a summary and a check have of it: by ISO, by AGMA where it is asked for, duty by duty."""
+        found: dict[str, Any] = {"iso": self.iso} if self.iso else {}
+        asked_for = case.settings.standard == "agma" and not not_by_agma(case)
+        if asked_for and self.standard and self.capacity:
+            found["agma"] = agma_part(case, assembled(case), self.standard.factors, self.capacity)
+        return found | spectrum_part(self.capacity, required(case.settings))
+
 
 def by_standard(
-    case: AssessmentCase,
+    case: RatedPair,
     assembly: Assembly,
     face: float,
     faces: Sequence[float] = (),
@@ -48,25 +59,52 @@ def by_standard(
     return ByStandard(iso, standard, capacity)
 
 
+class Rating(NamedTuple):
+    """A mesh by the standards."""
+
+    rated: RatedPair
+    pressed: RatedPair
+    by: ByStandard
+
+    def seen(self) -> ByStandard:
+        """As the gears are pressed."""
+        if self.pressed is self.rated or self.by.capacity is None:
+            return self.by
+        capacity = self.by.capacity
+        return self.by._replace(capacity=capacity._replace(gears=capacity.gears[::-1]))
+
+
+def rating_of(
+    mesh: RatedMesh, share: float, quantities: Mapping[str, Any], draw: Draw | None = None
+) -> Rating:
+    """The rating with K_γ of a planetary stage and K_Hβ of the contact, of a sample where one is given."""
+    rated, pressed = mesh.rated, mesh.pressed
+    if mesh.mesh.stage:
+        settings = rated.settings.model_copy(update={"mesh_load_factor": share})
+        rated, pressed = (replace(one, settings=settings) for one in (rated, pressed))
+    if draw is not None:
+        rated, pressed = (draw.of(one, mesh.mesh.distance) for one in (rated, pressed))
+    pressed = pressed if mesh.turned else rated
+    face, faces = float(quantities["face_load_factor"]), faces_of(pressed, quantities)
+    return Rating(rated, pressed, by_standard(rated, assembled(rated), face, faces, mesh.mesh.meshing))
+
+
 def concluded(
-    case: AssessmentCase,
+    rating: Rating,
     along: Mapping[str, Any],
     quantities: Mapping[str, Any],
     motion: Mapping[str, Any] = MappingProxyType({}),
     *,
     accurate: Conclusion | None = None,
-    rated: ByStandard | None = None,
 ) -> Conclusion:
-    """Put together what the studies found of a case: arrays along the path, quantities, loads in motion.
+    """Put together what the studies found of a mesh: arrays along the path, quantities, loads in motion.
 
     A sample has no loads in motion: its stresses in motion are those of `accurate` teeth, by how the largest
-    in slow rotation, with its dynamic factor, are to theirs. `rated` is the rating where it is known.
+    in slow rotation, with its dynamic factor, are to theirs.
     """
+    case, (iso, standard, capacity) = rating.pressed, rating.seen()
     assembly = assembled(case)
     local = local_of(case, assembly, along, quantities)
-    if rated is None:
-        rated = by_standard(case, assembly, quantities["face_load_factor"], parts.faces_of(case, quantities))
-    iso, standard, capacity = rated
     factors = standard.factors if standard else None
     comparison = compared(case, assembly, (along, motion), capacity, factors, quantities)
     stresses = largest_stresses(case, local, quantities)
@@ -75,7 +113,6 @@ def concluded(
         case,
         standard,
         capacity,
-        strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor, case.materials),
         strength.safeties() if strength else {},
         local,
         quantities,

@@ -12,7 +12,7 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.gears.rating.capacity import Capacity, safeties, shorter_life
 from tribodyn.gears.rating.limits import judged, with_unlimited, worst
-from tribodyn.gears.rating.margins import Strength, bulk_of, flanks_of, oil_of
+from tribodyn.gears.rating.margins import Strength, bulk_of, flanks_of, oil_of, strength_of
 from tribodyn.gears.rating.standard import (
     ZERO_CELSIUS,
     Standard,
@@ -26,7 +26,8 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards import micropitting, scuffing
 from tribodyn.standards.micropitting import Films
-from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
+from tribodyn.studies.assessment.case import RatedPair
+from tribodyn.studies.assessment.settings import AssessmentTable
 
 #: Half width of a Hertz contact over its radius from which it is none: at the pitch point of a cycloid.
 _WIDEST = 0.1
@@ -60,7 +61,7 @@ def point_angles(assembly: Assembly) -> Float[Array, " point"]:
 
 
 def local_of(
-    case: AssessmentCase, assembly: Assembly, along: Mapping[str, Any], quantities: Mapping[str, Any]
+    case: RatedPair, assembly: Assembly, along: Mapping[str, Any], quantities: Mapping[str, Any]
 ) -> LocalValues:
     """Evaluate method A; SimulationError where no place has a Hertz contact.
 
@@ -117,7 +118,7 @@ def load_factor(settings: AssessmentTable, quantities: Mapping[str, Any]) -> flo
 
 
 def largest_stresses(
-    case: AssessmentCase, local: LocalValues, quantities: Mapping[str, Any]
+    case: RatedPair, local: LocalValues, quantities: Mapping[str, Any]
 ) -> tuple[float, float]:
     """Largest pressure between B and D and tension in the roots, slow rotation times `load_factor`, Pa."""
     root = max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"])
@@ -129,7 +130,7 @@ def largest_stresses(
 
 
 def simulated_part(
-    case: AssessmentCase,
+    case: RatedPair,
     assembly: Assembly,
     local: LocalValues,
     quantities: Mapping[str, Any],
@@ -144,7 +145,7 @@ def simulated_part(
     angle = float(assembly.path.pressure_angle(0.0))
     power = (
         case.operating.gear_torque
-        * float(case.drive.pinion.teeth / case.drive.gear.teeth)
+        * abs(float(case.drive.pinion.teeth / case.drive.gear.teeth))
         * case.operating.pinion_speed
     )
     loss, friction = float(quantities["power_friction_mean"]), float(quantities["friction_coefficient_mean"])
@@ -169,11 +170,16 @@ def simulated_part(
     }
 
 
+def strength_of_case(case: RatedPair) -> Strength:
+    """What its oil stands."""
+    structure = case.settings.structure_factor
+    return strength_of(case.lubricant, case.oil_temperature, structure, case.materials)
+
+
 def margins_and_limits(
-    case: AssessmentCase,
+    case: RatedPair,
     standard: Standard | None,
     capacity: Capacity | None,
-    strength: Strength,
     further: Mapping[str, Any],
     local: LocalValues,
     quantities: Mapping[str, Any],
@@ -183,9 +189,11 @@ def margins_and_limits(
     The worse of both safeties is compared with a limit; `further` are the simulation's against pitting and
     bending, and its life. One whose load stage the oil lacks is left out.
     """
-    by_standard = margins_by_standard(standard, strength, case.oil_temperature) if standard else {}
+    by_standard = (
+        margins_by_standard(standard, strength_of_case(case), case.oil_temperature) if standard else {}
+    )
     rated = safeties(capacity)
-    simulated = _by_simulation(case, strength, local) | dict(further)
+    simulated = scuffing_and_micropitting(case, local) | dict(further)
     values = {
         "scuffing_flash": worst(by_standard.get("S_B"), simulated.get("S_B")),
         "scuffing_integral": by_standard.get("S_intS", math.nan),
@@ -220,7 +228,9 @@ def margins_and_limits(
     return {"margins": margins, "load_factors": factors, "limits": limits}
 
 
-def _by_simulation(case: AssessmentCase, strength: Strength, local: LocalValues) -> dict[str, float]:
+def scuffing_and_micropitting(case: RatedPair, local: LocalValues) -> dict[str, float]:
+    """Contact temperature, °C, and safeties of the simulation, of what the oil has load stages for."""
+    strength = strength_of_case(case)
     films = local.films
     contact = films.bulk_temperature + float(np.nanmax(films.flash_rise))
     margins = {"theta_B": contact - ZERO_CELSIUS}

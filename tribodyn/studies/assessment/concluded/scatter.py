@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.gears.rating.capacity import Capacity, safeties, shorter_life
-from tribodyn.gears.rating.limits import least, over_samples, worst
+from tribodyn.gears.rating.capacity import Capacity
+from tribodyn.gears.rating.limits import least, over_samples
 from tribodyn.gears.rating.standard import Standard
 from tribodyn.quantities.catalogue import SPREAD, scatter
-from tribodyn.studies.assessment.pair.margins import LocalValues
-from tribodyn.studies.assessment.simulated_strength import SimulatedStrength
+from tribodyn.studies.assessment.concluded.margins import LocalValues
+from tribodyn.studies.assessment.concluded.simulated_strength import SimulatedStrength
 from tribodyn.studies.assessment.unknowns import Draw
 
 #: Quantity of the simulation -> its name by the standards.
@@ -37,12 +37,6 @@ class Conclusion(NamedTuple):
     strength: SimulatedStrength | None = None  # of the simulation against pitting and bending
     parted: Sequence[str] = ()  # why simulation and standard part
     rests: str = ""  # which of both the verdict rests on
-
-    def least(self) -> dict[str, Any]:
-        """The worse of the standard and the simulation: S_H, S_F, and the life, s."""
-        both = safeties(self.capacity), self.strength.safeties() if self.strength else {}
-        names = [name for name in ("S_H", "S_F") if any(name in values for values in both)]
-        return {name: worst(*(values.get(name) for values in both)) for name in names} | shorter_life(*both)
 
     def strength_under(self, stresses: tuple[float, float]) -> SimulatedStrength | None:
         """The strength where the largest stresses are others."""
@@ -202,7 +196,7 @@ def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
     safeties |= {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
     by_sample = samples.drawn | samples.quantities | safeties
     return {
-        **with_ranges(summary, samples),
+        **summary,
         **spread,
         "limits": over_samples(summary["limits"], samples.limits),
         "sample_counts": counts(samples),
@@ -214,12 +208,12 @@ def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
 
 
 def with_ranges(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
-    """A summary of a pair with the ranges of what is simulated and by the standards."""
+    """A summary of a mesh with the ranges of what is simulated and by the standards, and of its limits."""
     parts = (("simulated", samples.simulated), ("iso", samples.iso))
     ranges = {
         name: {**summary[name], "spread": _ranges(values)} for name, values in parts if summary.get(name)
     }
-    return {**summary, **ranges}
+    return {**summary, **ranges, "limits": over_samples(summary["limits"], samples.limits)}
 
 
 def _ranges(samples: Mapping[str, np.ndarray]) -> dict[str, dict[str, float]]:

@@ -36,7 +36,7 @@ class Front(NamedTuple):
     holds: str
     asked: str
     tiles: str
-    beside_limits: str
+    below_limits: str
 
 
 def written(record: Record, what: str, front: Front, body: Sequence[str], sheets: Iterable[TextTable]) -> str:
@@ -53,7 +53,8 @@ def written(record: Record, what: str, front: Front, body: Sequence[str], sheets
         "</div>",
         '<div class="break"></div>',
         front.tiles,
-        f'<div class="columns"><div>{limits_table(summary)}</div><div>{front.beside_limits}</div></div>',
+        limits_table(summary),
+        front.below_limits,
         *body,
         f"<section><h2>Gears and oil</h2>{''.join(table(*sheet) for sheet in sheets)}</section>",
         origin(record),
@@ -99,7 +100,8 @@ def tiles(shown: Sequence[Sequence[str]]) -> str:
         + f"<span>{escape(text)}</span></div>"
         for value, text, *over in shown
     )
-    return f'<div class="tiles">{"".join(each)}</div>'
+    five = " five" * (len(shown) % 4 == 1)
+    return f'<div class="tiles{five}">{"".join(each)}</div>'
 
 
 def numbers_table(
@@ -166,8 +168,8 @@ def bearings_table(summary: Mapping[str, Any]) -> str:
 
 def limits_table(summary: Mapping[str, Any]) -> str:
     """Every limit that was judged, those that are not kept red."""
-    limits = summary.get("limits", {})
-    rows = []
+    judged = summary.get("limits", {})
+    limits, rows = {name: judged[name] for name in LIMITS if name in judged}, []
     for name, cell in limits.items():
         limit = LIMITS[name]
         value, bound = written_limit(name, cell), limit.quantity.written(float(cell["limit"]))

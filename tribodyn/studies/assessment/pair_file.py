@@ -1,7 +1,6 @@
-"""The tables of a scenario of ``kind = "assessment"``."""
+"""The tables of an assessment whose file has a pair of gears, and the pair as it is rated."""
 
 from collections.abc import Iterator
-from itertools import pairwise
 from typing import Annotated, ClassVar, Literal
 
 from tribodyn.errors import InputError
@@ -29,8 +28,8 @@ from tribodyn.input.tables.gears.quality import tolerances_of
 from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.input.tables.losses import LossesTable, TemperatureTable
 from tribodyn.input.tables.lubricant import lubricant_of
-from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.assessment.settings import broken_settings, without_data_sheet
+from tribodyn.studies.assessment.case import RatedPair
+from tribodyn.studies.assessment.settings import AssessmentTable, broken_settings, without_data_sheet
 
 Length = Annotated[float, InUnit(units.positive(units.LENGTH), "5 um")]
 
@@ -75,15 +74,12 @@ class AssessmentScenario(GearScenario):
     limits: AssessmentLimits = written({})
 
 
-Scenario = AssessmentScenario
-
-
-def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
-    """Return the case of a scenario that has passed schema and rules."""
+def rated_pair(scenario: AssessmentScenario, toml: str, sha256: str) -> RatedPair:
+    """Return the pair of gears of a scenario that has passed schema and rules."""
     oil_temperature = scenario.operating.oil_temperature
     teeth = scenario.drive.pinion.teeth, scenario.drive.gear.teeth
     duties = [(share, duty_of(duty.operating, *teeth)) for share, duty in spectrum_of(scenario)]
-    return AssessmentCase(
+    return RatedPair(
         **gear_fields(scenario, toml, sha256),
         lubricant=lubricant_of(scenario.lubricant, oil_temperature),
         oil_temperature=oil_temperature,
@@ -93,7 +89,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
     )
 
 
-def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+def broken_pair_rules(scenario: AssessmentScenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks."""
     drive, data_sheet = scenario.drive, scenario.lubricant.viscosity_40 is not None
     yield from broken_gear_rules(scenario, oil=data_sheet)
@@ -118,15 +114,5 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         helix = abs(drive.helix_angle or 0.0), drive.module, width
         others = drive.gear.internal or not family(drive.family).involute
         yield from broken_agma(helix, others, materials_of(drive))
-    yield from _broken_settings(scenario)
-
-
-def _broken_settings(scenario: Scenario) -> Iterator[InputError]:
     settings = scenario.assessment
-    for lower, higher in pairwise(settings.torque_shares):
-        if not lower < higher:
-            rule = f"must increase: {higher:g} follows {lower:g}"
-            yield InputError(
-                "assessment.torque_shares", f"{higher:g}", rule, "write them in increasing order"
-            )
     yield from broken_settings(settings, settings.damping_ratio, "assessment.damping_ratio")

@@ -26,8 +26,14 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards.bending import mean_stress_influence, pulsating_stress
 from tribodyn.standards.fatigue import Bin, damage
 from tribodyn.standards.rainflow import rainflow_repeated
-from tribodyn.studies.assessment.pair.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.assessment.rated_flank import NominalLoad, RatedFlank, nominal_load, rated_flanks
+from tribodyn.studies.assessment.case import RatedPair
+from tribodyn.studies.assessment.concluded.rated_flank import (
+    NominalLoad,
+    RatedFlank,
+    nominal_load,
+    rated_flanks,
+)
+from tribodyn.studies.assessment.settings import AssessmentTable
 
 
 class LoadedTeeth(NamedTuple):
@@ -49,7 +55,7 @@ class LoadedTeeth(NamedTuple):
 
 
 def loaded_teeth(
-    case: AssessmentCase, assembly: Assembly, along: Mapping[str, Any], motion: Mapping[str, Any]
+    case: RatedPair, assembly: Assembly, along: Mapping[str, Any], motion: Mapping[str, Any]
 ) -> LoadedTeeth | None:
     """Stresses from the loads of a pair `along` its path and in `motion`, see `Findings`.
 
@@ -205,7 +211,7 @@ class SimulatedStrength(NamedTuple):
 
 
 def strength_beside(
-    case: AssessmentCase, teeth: LoadedTeeth, capacity: Capacity | None, quantities: Mapping[str, Any]
+    case: RatedPair, teeth: LoadedTeeth, capacity: Capacity | None, quantities: Mapping[str, Any]
 ) -> SimulatedStrength:
     """Safeties and lives of stresses of the simulation, by the stresses that the standard permits.
 
