@@ -95,8 +95,10 @@ $(VENV)/.installed: $(VENV)/.created pyproject.toml constraints.txt
 	$(INSTALL) --editable .
 	@touch $@
 
+# machine code for the tests is made meanwhile, for which nothing of it is needed
 $(VENV)/.testing: $(VENV)/.installed
-	$(INSTALL) --editable ".[test]"
+	@$(BIN)/python -m tests.support.shared_kernels lanes > /dev/null 2>&1 & \
+	  $(INSTALL) --editable ".[test]" && wait
 	@touch $@
 
 $(VENV)/.documenting: $(VENV)/.installed

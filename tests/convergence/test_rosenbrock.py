@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.states import PAIR, TURN_G, random_place, random_state
-from tribodyn.dynamics.parameters import DRIVE_SPEED
+from tribodyn.dynamics.parameters import DRIVE_SPEED, with_shared_code
 from tribodyn.solve.choice import STIFF, choose
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.integrator import Status
@@ -81,6 +81,7 @@ def test_it_is_stable_for_every_step(tableau):
 def test_jacobian_is_the_derivative_of_the_right_hand_side(prepared, rng, overrides):
     """Against central differences of all columns, over random states, loaded or apart."""
     model = prepared("crc-23-47", **overrides).model
+    native = with_shared_code(model)
     layout, states = model.layout, model.layout.states
     work, scale = work_array(model), tolerances_from(model, np.zeros(states), 1.0, 1).atol
     still = [layout.half + layout.lag] if model.options.drive == DRIVE_SPEED else []
@@ -97,10 +98,10 @@ def test_jacobian_is_the_derivative_of_the_right_hand_side(prepared, rng, overri
             np.empty(states),
             np.empty((states, states)),
         )
-        rhs(phase, 0.0, segment, y, model, work, f)
+        rhs(phase, 0.0, segment, y, native, work, f)
         before = y.copy()
         place = Place(phase, 0.0, segment, 1.0)
-        differentiate(place, y, f, scale, model, work, Differences(trial, jacobian, slope))
+        differentiate(place, y, f, scale, native, work, Differences(trial, jacobian, slope))
         np.testing.assert_array_equal(y, before)
         up, down = (accelerations(y + sign * steps, phase, segment, model) for sign in (1, -1))
         exact = (up - down).T / (2 * steps.sum(axis=1))

@@ -8,6 +8,7 @@ import pytest
 import tribodyn as td
 from tests.support.helical_motion import EVEN, HELICAL
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
+from tests.support.soak_parameters import all_in_soak
 from tests.support.states import altered, recorded, sampled
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.periodic import steady_states
@@ -43,7 +44,7 @@ def test_right_hand_sides_agree_over_random_states(rng):
 
 
 @pytest.mark.parametrize(
-    "method", ["rodas4", "switching", "radau", pytest.param("tsit5", marks=pytest.mark.soak)]
+    "method", all_in_soak(["rodas4", "switching", "radau", "tsit5"], ["rodas4", "radau"])
 )
 def test_solvers_agree(method):
     model = pair().model

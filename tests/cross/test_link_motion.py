@@ -132,7 +132,7 @@ LAWS = {
     ("law", "method"),
     all_in_soak(
         product(LAWS, ["dopri5", "rodas4", "tsit5", "radau"]),
-        [("play", "dopri5"), ("play", "rodas4"), ("cubic", "dopri5")],
+        [("play", "dopri5"), ("cubic", "dopri5")],
         names=2,
     ),
 )
@@ -150,7 +150,7 @@ def test_two_bodies_move_as_scipy_finds(law, method):
 
 def test_contact_over_the_default_width_is_a_sharp_one():
     prepared = spring_model(scenario({"law": "play", "play": f"{PLAY} rad"}))
-    times, states = motion(prepared, "rodas4", 1e-9)
+    times, states = motion(prepared, "dopri5", 1e-9)
     found = states[:, places(prepared)]
     assert off(found, expected(sharp, found[0], times, 1e-10)) < 1e-4
 

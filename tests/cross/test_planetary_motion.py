@@ -17,7 +17,7 @@ from tribodyn.dynamics.approach import NORMAL_LOAD
 from tribodyn.dynamics.energy import stored_energy
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.modes import modes
-from tribodyn.dynamics.parameters import DRIVE_SPEED, DRIVE_TORQUE
+from tribodyn.dynamics.parameters import DRIVE_SPEED, DRIVE_TORQUE, with_shared_code
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.march.jacobian import Differences, differentiate
@@ -70,6 +70,7 @@ def test_every_compiler_makes_the_same_of_a_planetary_set(rng):
 def test_jacobian_is_the_derivative_of_the_right_hand_side(rng, drive):
     """Against central differences, over random states: levers, offsets, a held ring, a negative radius."""
     model, _ = planetary_springs(a_set(3, ((3e-6, 5e-6),) * 3), drive, 300.0, LOAD, turning=True)
+    native = with_shared_code(model)
     layout, states = model.layout, model.layout.states
     work, scale = work_array(model), tolerances_from(model, np.zeros(states), 1.0, 1).atol
     still = [layout.half + layout.lag] if drive == DRIVE_SPEED else []
@@ -80,9 +81,9 @@ def test_jacobian_is_the_derivative_of_the_right_hand_side(rng, drive):
         y[still] = 0.0
         phase, interval = random_place(rng, model.schedule)
         f, trial, slope, jacobian = (*np.empty((3, states)), np.empty((states, states)))
-        rhs(phase, 0.0, interval, y, model, work, f)
+        rhs(phase, 0.0, interval, y, native, work, f)
         differentiate(
-            Place(phase, 0.0, interval, 1.0), y, f, scale, model, work, Differences(trial, jacobian, slope)
+            Place(phase, 0.0, interval, 1.0), y, f, scale, native, work, Differences(trial, jacobian, slope)
         )
         up, down = (accelerations(y + sign * steps, phase, interval, model) for sign in (1, -1))
         exact = (up - down).T / (2 * steps.sum(axis=1))
@@ -175,7 +176,7 @@ def test_energy_balances_over_a_load_step(drive, turning):
     stored = []
     for state in (start, ends[0]):
         work = work_array(after)
-        rhs(0.0, 0.0, 0, state, after, work, np.empty(layout.states))
+        rhs(0.0, 0.0, 0, state, with_shared_code(after), work, np.empty(layout.states))
         stored.append(float(stored_energy(state, after, work)))
     work_in, work_out, damped, parametric = (
         float(ends[0][work_of(layout, which)]) for which in (IN, OUT, DAMPING, PARAMETRIC)

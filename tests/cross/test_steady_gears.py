@@ -188,7 +188,17 @@ def test_a_motion_of_two_cycles_is_recognised_from_afar(prepared):
     assert scaled(here.model, by_another_solver(here.model, steady.state, 2) - steady.state) < 1e-5
 
 
-def test_with_a_motor_the_speed_is_a_state(prepared):
+SHAFT = {
+    "operating.shaft_stiffness": "2e4 N*m/rad",
+    "operating.shaft_damping": "2 N*m*s/rad",
+    "operating.drive_inertia": "0.02 kg*m**2",
+}
+
+
+@pytest.mark.parametrize(
+    ("shaft", "states"), [({}, 11), pytest.param(SHAFT, 13, marks=pytest.mark.soak)], ids=["rigid", "shaft"]
+)
+def test_with_a_motor_the_speed_is_a_state(prepared, shaft, states):
     motor = {
         "operating.source": "torque",
         "operating.speed_regulation": "10 N*m*s/rad",
@@ -196,29 +206,20 @@ def test_with_a_motor_the_speed_is_a_state(prepared):
         "operating.pinion_speed": "200 rad/s",
         "mesh.formulation": "energy-consistent",
     }
-    with_shaft = {
-        **motor,
-        "operating.shaft_stiffness": "2e4 N*m/rad",
-        "operating.drive_inertia": "0.02 kg*m**2",
-    }
-    cases = [
-        prepared("crc-23-47", **motor),
-        prepared("crc-23-47", **with_shaft, **{"operating.shaft_damping": "2 N*m*s/rad"}),
-    ]
-    for case, steady, states in zip(cases, steady_states(models(cases), samples=1000), (11, 13), strict=True):
-        model, layout = case.model, case.model.layout
-        assert steady.kind == "period-1"
-        assert len(steady.multipliers) == states
-        # the losses slow the motor down along its line: mean slip over the angle = loss torque / regulation
-        lost = [work_of_mesh(layout, 0, FRICTION), work_of(layout, DAMPING)]
-        loss = np.sum(steady.end[lost]) / model.operation.pitch_angle
-        mean = np.mean(slip_of_body(layout.input, steady.samples.T, model))
-        assert mean == pytest.approx(-loss / 10.0, rel=2e-3)
-        assert steady.end[layout.lag] > 0.0
-        turned = 23 / 47 * model.operation.pitch_angle
-        assert steady.end[work_of(layout, OUT)] == pytest.approx(300.0 * turned, rel=1e-4)
-        end = by_another_solver(model, steady.state, 1)
-        assert scaled(model, end - steady.state) < 1e-6
+    model = prepared("crc-23-47", **motor, **shaft).model
+    (steady,), layout = steady_states([model], samples=1000), model.layout
+    assert steady.kind == "period-1"
+    assert len(steady.multipliers) == states
+    # the losses slow the motor down along its line: mean slip over the angle = loss torque / regulation
+    lost = [work_of_mesh(layout, 0, FRICTION), work_of(layout, DAMPING)]
+    loss = np.sum(steady.end[lost]) / model.operation.pitch_angle
+    mean = np.mean(slip_of_body(layout.input, steady.samples.T, model))
+    assert mean == pytest.approx(-loss / 10.0, rel=2e-3)
+    assert steady.end[layout.lag] > 0.0
+    turned = 23 / 47 * model.operation.pitch_angle
+    assert steady.end[work_of(layout, OUT)] == pytest.approx(300.0 * turned, rel=1e-4)
+    end = by_another_solver(model, steady.state, 1)
+    assert scaled(model, end - steady.state) < 1e-6
 
 
 def test_a_case_that_fails_leaves_the_others_alone(prepared, linear):

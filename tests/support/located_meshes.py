@@ -15,7 +15,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from tribodyn.dynamics.approach import NORMAL_LOAD
-from tribodyn.dynamics.parameters import CLASSICAL, Model
+from tribodyn.dynamics.parameters import CLASSICAL, Model, with_shared_code
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.train.structure import turned
@@ -51,7 +51,7 @@ class LocatedMeshes:
         teeth = [2.0 * np.pi / float(mesh.table.pitch_angle) for mesh in model.meshes]
         self._further = share * np.array(teeth) / (2.0 * np.pi)
         self._offset, self._segment = np.zeros((1, count)), np.zeros((1, count))
-        self._model = model._replace(
+        self._model = with_shared_code(model)._replace(
             schedule=model.schedule._replace(rate=np.zeros(count), offset=self._offset, segment=self._segment)
         )
         self._work = work_array(model)

@@ -47,7 +47,7 @@ SHORT: dict[str, dict[str, Any]] = {
         "drive.gear.bore_radius": "25 mm",
         "assessment.speeds": 8,
         "assessment.samples": 2,
-        "assessment.friction_laws": ["masjedi-khonsari", "niemann"],
+        "assessment.friction_laws": ["niemann", "masjedi-khonsari"],  # steady states under a mean coefficient
     },
     "train-assessment": {
         "scenario.solver.cycles": 4,
