@@ -19,7 +19,9 @@ IN_PARALLEL := -n 2 --dist loadfile --no-loadscope-reorder --benchmark-disable
 VENV := .venv
 BIN := $(VENV)/bin
 # the constraints also hold for what builds the package
-INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check
+INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
+# what pip does on one core
+BYTECODE := $(BIN)/python -m compileall -q -j 0 $(VENV)/lib > /dev/null 2>&1 || true
 
 .PHONY: demo docs test quick soak fuzz elsewhere durations lint types tests in-parallel ratios wheel clean
 
@@ -93,12 +95,14 @@ $(VENV)/.created:
 
 $(VENV)/.installed: $(VENV)/.created pyproject.toml constraints.txt
 	$(INSTALL) --editable .
+	@$(BYTECODE)
 	@touch $@
 
 # machine code for the tests is made meanwhile, for which nothing of it is needed
 $(VENV)/.testing: $(VENV)/.installed
 	@$(BIN)/python -m tests.support.shared_kernels lanes > /dev/null 2>&1 & \
 	  $(INSTALL) --editable ".[test]" && wait
+	@$(BYTECODE)
 	@touch $@
 
 $(VENV)/.documenting: $(VENV)/.installed
