@@ -79,10 +79,10 @@ def _in_less_time() -> Iterator[None]:
     known: dict[Any, Any] = {}
     collects, typed = gc.isenabled(), types.BaseFunction.get_call_type
 
-    def type_once(function: Any, context: Any, arguments: Any, keywords: Any) -> Any:
-        call = function, tuple(arguments), tuple(keywords.items())
+    def type_once(self: Any, context: Any, args: Any, kws: Any) -> Any:
+        call = self, tuple(args), tuple(kws.items())
         if call not in known:
-            known[call] = typed(function, context, arguments, keywords)
+            known[call] = typed(self, context, args, kws)
         return known[call]
 
     gc.disable()
