@@ -92,6 +92,9 @@ ASSESSMENT = (
         "part of the time."
     ),
     Quantity("centre_distance", "Centre distance", "mm", ".6g").defined_as("Of a sample of an assessment."),
+    Quantity("pin_error", "Error of a planet's pin along its circle", "µm", ".3g").defined_as(
+        "Of a sample of an assessment."
+    ),
     Quantity("input_speed", "Speed of the input", "rpm", ".5g").defined_as("Of the duty of a train."),
     Quantity("mesh_load_factor_max", "Maximum mesh load factor over the speeds", digits=".3f").defined_as(
         "Maximum over all speeds and planetary stages of an assessment."

@@ -205,11 +205,10 @@ def _over_speed(
     """What is recorded over the speed, with the smallest safeties of the simulation."""
     curves = dict(found.over_speed)
     for name, mesh in found.meshes.items():
-        if mesh.rated is None or meshes[name].outcome is None:
+        pressed, speeds = meshes[name].pressed, curves["input_speed"]
+        if pressed is None:
             continue
-        case = mesh.rated.pressed
-        speeds = curves["input_speed"]
-        of_mesh = safeties_over_speed(case, mesh.along, mesh.quantities, mesh.over_speed, speeds, speed)
+        of_mesh = safeties_over_speed(pressed, mesh.along, mesh.quantities, mesh.over_speed, speeds, speed)
         for safety, values in of_mesh.items():
             curves[safety] = np.fmin(curves[safety], values)
     return curves
@@ -258,7 +257,7 @@ def units_of(summary: Mapping[str, Any]) -> dict[str, str]:
     """
     units: dict[str, str] = {}
     for name, value in summary.items():
-        quantity = QUANTITIES.get(name.removesuffix(SPREAD_OF))
+        quantity = QUANTITIES.get(name.removesuffix(SPREAD_OF).rpartition(".")[2])
         if name in WITHOUT_UNIT:
             continue
         if quantity is None and isinstance(value, Mapping):

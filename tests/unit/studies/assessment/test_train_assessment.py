@@ -89,13 +89,18 @@ def test_other_speeds_have_the_same_torques_and_the_duty_its_steady_state(
     folder: Path, assessed: dict[str, Any]
 ):
     with Record(folder / "out" / "assessment.h5") as record:
-        speeds, power, factor = (
-            record[name] for name in ("input_speed", "power_friction_mean", "dynamic_factor")
-        )
+        names = "input_speed", "power_friction_mean", "dynamic_factor", "S_B", "S_lambda"
+        speeds, power, factor, *safeties = (record[name] for name in names)
     assert speeds == pytest.approx(np.array([0.5, 1.0]) * assessed["input_speed"])
     # the same loads slide half as fast; oil at half the speed rubs up to twice as much
     assert 0.4 * power[1] < power[0] < power[1]
     assert factor[1] == pytest.approx(assessed["dynamic_factor"], rel=0.02)
+    for name, values in zip(("S_B", "S_lambda"), safeties, strict=True):
+        simulated = [mesh["margins"]["simulated"][name] for mesh in assessed[MESHES].values()]
+        assert values[1] == pytest.approx(min(simulated), rel=1e-9)
+    # slower flanks are cooler, and their film is thinner
+    assert safeties[0][0] > safeties[0][1]
+    assert safeties[1][0] < safeties[1][1]
 
 
 def test_a_power_is_held_as_a_torque():
@@ -130,6 +135,10 @@ def test_samples_of_a_train_are_its_worst_meshes(assessed: dict[str, Any]):
         assert mesh["iso"]["spread"]["K_Hbeta"]["p5"] >= 1.0, name
     assert assessed["limits"]["dynamic_factor"]["samples"] == 2
     assert assessed["sample_counts"]["samples"] == 2
+    assert assessed["power_friction_mean_spread"][1] < assessed["power_friction_mean_spread"][2]
+    assert len([name for name in samples if name.endswith(".pin_error")]) == 3
+    units = assessed["units"]
+    assert (units["sigma_H"], units["stage.0.1.pin_error"]) == ("Pa", "m")
 
 
 def test_what_exceeds_a_limit_is_named(assessed: dict[str, Any], folder: Path):

@@ -12,6 +12,7 @@ from tribodyn.gears.rating.rating_text import numbered
 from tribodyn.gears.rating.standard import factors_by_name, margins_by_standard
 from tribodyn.geometry.drive import SIDES
 from tribodyn.standards.contact_path import POINTS
+from tribodyn.studies.assessment.case import RatedPair
 from tribodyn.studies.assessment.concluded.conclusion import ByStandard, concluded, rating_of
 from tribodyn.studies.assessment.concluded.margins import strength_of_case
 from tribodyn.studies.assessment.concluded.scatter import (
@@ -39,7 +40,7 @@ class ConcludedMesh(NamedTuple):
     summary: dict[str, Any]
     outcome: Conclusion | None = None  # None: its teeth were not pressed together
     samples: SampleValues | None = None
-    by: ByStandard = ByStandard({})
+    pressed: RatedPair | None = None  # with K_γ
 
 
 def concluded_mesh(found: MeshFindings, limits: Mapping[str, Any], draws: Sequence[Draw]) -> ConcludedMesh:
@@ -66,7 +67,7 @@ def concluded_mesh(found: MeshFindings, limits: Mapping[str, Any], draws: Sequen
     if by.capacity is not None and by.capacity.remarks:
         summary["outside"] = numbered(by.capacity.remarks)
     if not found.along:
-        return ConcludedMesh(summary | _without_contact(found, limits, by), by=by)
+        return ConcludedMesh(summary | _without_contact(found, limits, by))
     outcome = concluded(rating, found.along, found.quantities, found.loads)
     margins = outcome.judged["margins"]
     films, names = outcome.local.films, found.names[:: -1 if mesh.turned else 1]
@@ -92,7 +93,7 @@ def concluded_mesh(found: MeshFindings, limits: Mapping[str, Any], draws: Sequen
         summary = with_ranges(summary, samples)
     if mesh.turned:
         summary = _other_sides(summary)
-    return ConcludedMesh(summary, outcome, samples, by)
+    return ConcludedMesh(summary, outcome, samples, rating.pressed)
 
 
 def _without_contact(found: MeshFindings, limits: Mapping[str, Any], by: ByStandard) -> dict[str, Any]:

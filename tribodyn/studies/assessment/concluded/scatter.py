@@ -168,6 +168,10 @@ def drawn_values(draws: Sequence[Draw]) -> dict[str, np.ndarray]:
     for key in first.distances:
         name = key if len(first.distances) > 1 else "centre_distance"
         variables[name] = np.array([draw.distances[key] for draw in draws])
+    for key, pins in first.pins.items():
+        for planet in range(len(pins)):
+            name = f"{key.rpartition('.')[0]}.{planet + 1}.pin_error"
+            variables[name] = np.array([draw.pins[key][planet] for draw in draws])
     return variables
 
 
