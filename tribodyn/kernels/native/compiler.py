@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from typing import Any, cast
 
 from llvmlite import ir
-from numba.core import cgutils, config, types
+from numba.core import cgutils, config, event, types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Flags, compile_extra
 from numba.core.compiler_lock import global_compiler_lock
@@ -72,12 +72,13 @@ _C_FUNCTIONS = set("exp exp2 log log2 log10 pow sin cos tan memcpy memmove memse
 
 @contextmanager
 def _in_less_time() -> Iterator[None]:
-    """Type every call once, and collect no garbage: nearly all that numba makes lives until the end.
+    """Type every call once, announce no step, and collect no garbage: nearly all lives until the end.
 
-    numba asks for the type of each call four times and more, and goes through all that its function may mean.
+    numba asks for the type of each call four times and more, and goes through all that its function may mean;
+    and it announces each of its 40 000 calls of LLVM.
     """
     known: dict[Any, Any] = {}
-    collects, typed = gc.isenabled(), types.BaseFunction.get_call_type
+    collects, typed, told = gc.isenabled(), types.BaseFunction.get_call_type, event.broadcast
 
     def type_once(self: Any, context: Any, args: Any, kws: Any) -> Any:
         call = self, tuple(args), tuple(kws.items())
@@ -87,10 +88,12 @@ def _in_less_time() -> Iterator[None]:
 
     gc.disable()
     types.BaseFunction.get_call_type = type_once
+    event.broadcast = lambda event: None
     try:
         yield
     finally:
         types.BaseFunction.get_call_type = typed
+        event.broadcast = told
         if collects:
             gc.enable()
 
