@@ -86,11 +86,11 @@ def _refuse(records: Sequence[Record]) -> None:
     seen = set()
     for record in records:
         if record.path.resolve() in seen:
-            raise InputError("record", str(record.path), "given twice", "name each record once")
+            raise record.refused("given twice", "name each record once")
         seen.add(record.path.resolve())
         if record.status != "complete":
             rule = f"{record.status}, so its means and extremes are not those of a whole run"
-            raise InputError("record", str(record.path), rule, "run its scenario again")
+            raise record.refused(rule, "run its scenario again")
 
 
 def distinct_labels(records: Sequence[Record]) -> list[str]:

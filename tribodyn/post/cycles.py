@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 
 #: Change of speed or load over a run, as a share of the maximum, by which it is a transient.
@@ -46,7 +45,7 @@ class KeyPoint(NamedTuple):
 def samples_per_cycle(record: Record) -> int:
     """Find the samples in one mesh cycle, of a train its first mesh's; InputError below two samples."""
     if record.samples < 2:
-        raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
+        raise record.refused("holds no samples to draw", "run the scenario again")
     if "mesh_phase" in record:
         phase = record["mesh_phase"][:, 0]
         return max(1, round((phase.size - 1) / (phase[-1] - phase[0])))

@@ -17,7 +17,7 @@ def signals_named(record: Record, names: Sequence[str]) -> list[SensorSignal]:
     by_name = {signal.name: signal for signal in read_sensed(record).signals if len(signal.values) > 1}
     if not by_name:
         rule, remedy = "holds no signals of sensors", "add a [[sensor]] to its scenario and run it again"
-        raise InputError("record", str(record.path), rule, remedy)
+        raise record.refused(rule, remedy)
     for name in names:
         if name not in by_name:
             raise unknown_name("sensor", name, by_name, "sensor")

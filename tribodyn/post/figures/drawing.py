@@ -51,8 +51,7 @@ def drawing(
             raise InputError("against", "time", f"{timeless} knows no time", "phase")
         for record in records:
             if record.samples < samples:
-                rule = "holds no samples to draw"
-                raise InputError("record", str(record.path), rule, "run the scenario again")
+                raise record.refused("holds no samples to draw", "run the scenario again")
             if not fits(record):
                 name, rule, remedy = missing
                 raise InputError("plot", name, rule.replace("{path}", str(record.path)), remedy)

@@ -8,7 +8,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tribodyn.errors import InputError
 from tribodyn.post.cycles import along_path, outside_of, pair_history, path_limits
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh, draw_gears, key_rolls, placed
 from tribodyn.post.figures.panel import ALONE, KEY_POINTS, View, record_label, record_title
@@ -68,7 +67,7 @@ def path_figure(records: Sequence[Record], view: View) -> Figure:
     width = 0.8 * WIDTH if columns == 1 else 1.25 * WIDTH
     for record in records:
         if "pinion_outline" not in record.geometry:
-            raise InputError("record", str(record.path), "holds no tooth outlines", "draw another figure")
+            raise record.refused("holds no tooth outlines", "draw another figure")
     figure = new_figure(width, rows * (0.8 * (width / columns - 0.6) + 0.6) + 0.5)
     grid = figure.subplots(rows, columns, squeeze=False).ravel()
     for axes in grid[len(records) :]:

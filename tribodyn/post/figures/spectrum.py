@@ -37,7 +37,7 @@ def steady_spectrum(record: Record) -> tuple[Spectrum, Window]:
     """
     whole = int(last_cycles(record, None).phase[-1])
     if whole < 1:
-        raise InputError("record", str(record.path), "holds no whole mesh cycle", "run at least one cycle")
+        raise record.refused("holds no whole mesh cycle", "run at least one cycle")
     window = last_cycles(record, max(1, whole // 2))
     signal = record["transmission_error_rotational"][window.part]
     return amplitude_spectrum(signal, window.samples_per_cycle), window
@@ -220,7 +220,7 @@ def _too_few(record: Record, kept: int) -> InputError:
     if ran > kept:
         of = f" of the {ran} that were run"
     rule = f"holds {kept} mesh cycles{of}, too few to track orders"
-    return InputError("record", str(record.path), rule, ", and ".join(remedies))
+    return record.refused(rule, ", and ".join(remedies))
 
 
 def orders_figure(records: Sequence[Record], view: View) -> Figure:

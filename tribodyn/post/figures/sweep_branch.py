@@ -77,14 +77,12 @@ def branches(records: Sequence[SweepRecord]) -> list[Branch]:
     """
     keys = {record.parameters[0].key for record in records}
     if len(keys) > 1:
-        rule = f"other first parameters: {', '.join(sorted(keys))}"
-        raise InputError("record", str(records[1].path), rule, "draw apart")
+        raise records[1].refused(f"other first parameters: {', '.join(sorted(keys))}", "draw apart")
     curves = []
     for record in records:
         first, *others = record.parameters
         if first.values.dtype.kind not in "fi":
-            rule = f"{first.key} is not a number"
-            raise InputError("record", str(record.path), rule, "vary a number first")
+            raise record.refused(f"{first.key} is not a number", "vary a number first")
         for place in np.ndindex(*(len(parameter.values) for parameter in others)):
             label = ", ".join(_value(parameter, i) for parameter, i in zip(others, place, strict=True))
             if len(records) > 1:

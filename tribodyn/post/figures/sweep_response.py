@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from tribodyn.errors import InputError
 from tribodyn.post.figures.drawing import SweepDrawing
 from tribodyn.post.figures.sweep_branch import (
     MOST_COLORS,
@@ -160,9 +159,7 @@ CHARACTERS = 18.0
 def signals_figure(records: Sequence[SweepRecord], _at: Mapping[str, float | str]) -> Figure:
     """Draw the first signal of a data set: one case of each label over time, and spectra."""
     if len(records) > 1:
-        raise InputError(
-            "record", str(records[1].path), "a data set is drawn alone", "draw one after the other"
-        )
+        raise records[1].refused("a data set is drawn alone", "draw one after the other")
     record = records[0]
     name = str(record.attrs["sensors"]).split()[0]
     labels, done = record.listed["label"].astype(str), record["status"] == DONE

@@ -115,7 +115,7 @@ def chosen_case(record: SweepRecord, at: Mapping[str, float | str]) -> tuple[int
     mask[tuple(wanted)] = True
     mask &= record["status"] == DONE
     if not mask.any():
-        raise InputError("record", str(record.path), "no case is done there", "choose another, see --at")
+        raise record.refused("no case is done there", "choose another, see --at")
     points = record["poincare_error"]
     points = points.reshape(*mask.shape, -1)  # of all meshes
     count = np.sum(np.isfinite(points), axis=-1)

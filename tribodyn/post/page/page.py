@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from tribodyn.errors import InputError
 from tribodyn.post.cycles import first_shown, shown_cycles
 from tribodyn.post.page.data import (
     PageMap,
@@ -124,8 +123,7 @@ def title_of(record: Record | SweepRecord) -> str:
 def _record(record: Record, count: int) -> dict[str, Any]:
     """A record as the page reads it."""
     if not record.samples:
-        rule = "holds no samples to draw"
-        raise InputError("record", str(record.path), rule, "run the scenario again")
+        raise record.refused("holds no samples to draw", "run the scenario again")
     abscissa = np.asarray(record[record.axis], dtype=float)
     axis, unit = in_engineers_units(abscissa, record.units(record.axis))
     cycle = float(axis[-1] - axis[0]) / 20.0

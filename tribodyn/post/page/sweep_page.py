@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from tribodyn.errors import InputError
 from tribodyn.post.cycles import stretches
 from tribodyn.post.figures.sweep_branch import Branch, axis_label, branches
 from tribodyn.post.figures.sweep_response import panels_of
@@ -36,7 +35,7 @@ def sweep_page(
     recorded = recorded or [described(record, name) for name in record.quantities]
     curves = branches([record])
     if not curves or not len(curves[0].x):
-        raise InputError("record", str(record.path), "holds no cases to draw", "run the sweep again")
+        raise record.refused("holds no cases to draw", "run the sweep again")
     order = np.argsort(curves[0].x)
     series = [
         {

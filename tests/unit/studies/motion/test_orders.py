@@ -20,6 +20,7 @@ class RunUp(types.SimpleNamespace):
 
     names_meshes, meshes = False, ("mesh",)
     over_meshes, over_bodies, of_mesh = Record.over_meshes, Record.over_bodies, Record.of_mesh
+    refused = Record.refused
 
     def __init__(self, cycles: int = CYCLES, rise: float = 1.0):
         phase = np.arange(cycles * PER_CYCLE + 1) / PER_CYCLE
