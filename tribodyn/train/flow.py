@@ -165,6 +165,9 @@ def nominal_torques(
     least.
     """
     bodies, meshes = len(motion.bodies), len(teeth)
+    if (bodies, meshes) == (2, 1) and motion.input == motion.driver[0]:  # without rounding
+        driven, driver = (float(loads[body]) for body in (motion.driven[0], motion.driver[0]))
+        return Torques((driven,), driver + driven * float(motion.ratio[motion.driven[0]]), ())
     held = [body for body in range(bodies) if motion.ratio[body] == 0]
     balance = np.zeros((bodies, meshes + len(couplings) + 1 + len(held)))
     for mesh, (own, other) in enumerate(teeth):

@@ -40,7 +40,7 @@ def test_a_pair_is_the_same_under_either_name():
     assert one.source.torque == 15.0
     by_gear = {"gear_speed": "50 rad/s", "power": "1 kW"}
     by_output = {"output_speed": "50 rad/s", "power": "1 kW"}
-    assert case_with(by_gear).operating == case_with(by_output).operating
+    assert case_with(by_gear).pair.operating == case_with(by_output).pair.operating
     # and each record has the names of its file
     assert "gear_torque_table" in one.toml
     assert "output_torque" not in one.toml

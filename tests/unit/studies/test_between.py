@@ -17,7 +17,9 @@ def case(speed, **others):
 def test_numbers_are_in_proportion():
     slow, fast = case(100), case(300)
     for share, speed in ((0.25, 150.0), (0.5, 200.0), (1.5, 400.0)):
-        assert case_between(slow, fast, share).operating.pinion_speed == pytest.approx(speed)
+        found = case_between(slow, fast, share)
+        assert found.source.speed == pytest.approx(speed)
+        assert found.pair.operating.pinion_speed == pytest.approx(speed)
 
 
 def test_the_ends_are_the_cases_themselves():

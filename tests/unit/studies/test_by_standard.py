@@ -45,5 +45,5 @@ def test_both_gears_have_a_quality_or_the_drive_has_none(tmp_path):
     assert quality_of([5, None], [fine, None]) is None
     both = quality_of([5, 8], [fine, coarse])
     assert both == (8.0, coarse.single_pitch, coarse.profile_form, 2013)
-    assert short_case("gear-pair", tmp_path).quality is None
-    assert short_case("gear-pair", tmp_path, drive__quality=6).quality.grade == 6.0
+    assert short_case("gear-pair", tmp_path).pair.quality is None
+    assert short_case("gear-pair", tmp_path, drive__quality=6).pair.quality.grade == 6.0

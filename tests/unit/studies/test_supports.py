@@ -13,7 +13,7 @@ from tribodyn.cases.results import CheckResult
 from tribodyn.dynamics.data import in_space
 from tribodyn.errors import InputError
 from tribodyn.gears.plausibility import with_duty
-from tribodyn.gears.rating.bearings import bearing_part, bearing_remarks, opening_part, shafts_of_pair
+from tribodyn.gears.rating.bearings import bearing_part, bearing_remarks, opening_part
 from tribodyn.gears.supports import mean_loads
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
@@ -23,6 +23,7 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.standards.rolling_bearings import life_factor, reference_viscosity
 from tribodyn.studies.assessment.shown.first_page import bearings_table
 from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.train.assessable import shafts as shafts_of
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
 
 HELICAL = {"mesh.slices": 7, "friction.law": "none", "bearings": "rigid-1e9"}
@@ -189,8 +190,9 @@ def test_check_has_the_bearings():
 
 def test_loads_lives_and_losses_of_bearings():
     shafts = copy.deepcopy(SHAFTS)
-    case = scenario("helical-23-47", HELICAL | {"shaft": shafts}).pair
-    found = bearing_part(shafts_of_pair(case), case.lubricant)["bearings"]
+    box = scenario("helical-23-47", HELICAL | {"shaft": shafts})
+    case = box.pair
+    found = bearing_part(shafts_of(box), case.lubricant)["bearings"]
     assert list(found) == ["pinion-1", "pinion-2", "gear-1", "gear-2"]
     loads = mean_loads(assemble(family(case.family), case.drive), 300.0)
     axial = found["pinion-1"]["axial_load"] - found["pinion-2"]["axial_load"]
@@ -202,14 +204,14 @@ def test_loads_lives_and_losses_of_bearings():
     oil, speed = case.lubricant, 1500.0 * math.pi / 30.0
     drag = BearingDragData(66e-3, DRAG_FACTORS["tapered-roller"], 1)
     assert one["power_bearing"] > palmgren(drag, speed, oil.inlet_viscosity, oil.density).power
-    remarks = " ".join(bearing_remarks(shafts_of_pair(case), oil))
+    remarks = " ".join(bearing_remarks(shafts_of(box), oil))
     assert "Bearing gear-1: no life without dynamic_rating" in remarks
     assert "rating_life" not in found["gear-1"]
     bearing = shafts["gear"]["bearing"][0]
     bearing |= {"dynamic_rating": "30 kN", "static_rating": "16 kN", "contamination_factor": 0.5}
     bearing["fatigue_load_limit"] = "0.8 kN"
     again = scenario("helical-23-47", HELICAL | {"shaft": shafts})
-    ball = bearing_part(shafts_of_pair(again), again.lubricant)["bearings"]["gear-1"]
+    ball = bearing_part(shafts_of(again), again.pair.lubricant)["bearings"]["gear-1"]
     turning = 1500.0 * math.pi / 30.0 * 23 / 47
     ratio = oil.inlet_viscosity / oil.density / reference_viscosity(60e-3, turning)
     factor = life_factor("deep-groove-ball", ratio, 0.5 * 800.0 / ball["equivalent_load"])

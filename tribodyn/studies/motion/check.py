@@ -52,9 +52,16 @@ def check(case: Gearbox) -> CheckResult:
         ],
     }
     tables = [_mode_table(prepared, mode_set, kinds), _campbell_table(prepared, mode_set)]
+    shafts, oil = shafts_of(case), case.pair.lubricant
+    held = bearing_part(shafts, oil)
+    if held:
+        tables.insert(0, TextTable("Bearings", *bearing_rows(held["bearings"])))
     if not case.named:
         (pair,) = of_meshes
-        return pair._replace(data=pair.data | of_modes, tables=(*pair.tables, *tables))
+        remarks = (*pair.remarks, *bearing_remarks(shafts, oil))
+        return pair._replace(
+            data=pair.data | of_modes | held, tables=(*pair.tables, *tables), remarks=remarks
+        )
     names, train = [mesh.name for mesh in case.meshes], _train(prepared)
     of_sets_alone = {
         "planet_pass_frequencies": planet_pass(prepared),
@@ -63,16 +70,12 @@ def check(case: Gearbox) -> CheckResult:
     data = {
         **train,
         **of_modes,
+        **held,
         **({"mode_kinds": list(kinds)} if kinds else {}),
         **(of_sets_alone if case.sets else {}),
         "mesh_frequencies": dict(zip(names, mesh_frequencies(prepared), strict=True)),
         "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
     }
-    shafts = shafts_of(case)
-    oil = case.meshes[0].pair.lubricant
-    if held := bearing_part(shafts, oil):
-        data |= held
-        tables.insert(0, TextTable("Bearings", *bearing_rows(held["bearings"])))
     tables = [*_train_tables(prepared, train), *_set_tables(prepared), *tables]
     details = list(_once(names, [checked.tables for checked in of_meshes]))
     remarks = [*_named(names, [checked.remarks for checked in of_meshes]), *bearing_remarks(shafts, oil)]

@@ -5,13 +5,14 @@ as they would be written in TOML. Names of laws, families and solvers stand in t
 """
 
 from collections.abc import Iterator
-from fractions import Fraction
+from dataclasses import replace
+from functools import partial
 from math import nan, pi
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
-from tribodyn.dynamics.data import OperatingData
+import numpy as np
+
 from tribodyn.errors import InputError
-from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.damage_rules import broken_damage
 from tribodyn.gears.motion.settings import (
     Friction,
@@ -24,12 +25,7 @@ from tribodyn.gears.motion.settings import (
     broken_output_rules,
     broken_solver_rules,
     broken_source_rules,
-    harmonics_of,
-    moving_mesh_of,
-    output_data,
-    solver_data,
 )
-from tribodyn.gears.prepare import with_chosen_laws
 from tribodyn.gears.scenario import (
     FilmKeys,
     GearScenario,
@@ -38,41 +34,25 @@ from tribodyn.gears.scenario import (
     ShaftKeys,
     TemperatureKeys,
     broken_gear_rules,
-    gear_fields,
-    oil_fields,
 )
-from tribodyn.gears.supports import bearings_of
-from tribodyn.geometry.drive import SIDES, internal_side
-from tribodyn.input.fields import head_of
+from tribodyn.gears.supports import has_supports
+from tribodyn.geometry.drive import SIDES
 from tribodyn.input.quantity import model_file, written
 from tribodyn.input.tables.bearings import Bearings
 from tribodyn.input.tables.duty import broken_duty_rules, duty_of
-from tribodyn.input.tables.gears.drive_data import gives_backlash
-from tribodyn.input.tables.gears.single_teeth import (
-    Damages,
-    GearPlace,
-    damage_of,
-    own_teeth_of,
-    with_own_teeth,
-)
+from tribodyn.input.tables.gears.drive_data import assembled_on_path, gives_backlash
+from tribodyn.input.tables.gears.single_teeth import Damages, GearPlace
 from tribodyn.input.tables.gears.tooth_data import driving_internal
-from tribodyn.input.tables.sensors import Housing, Sensors, broken_sensor_rules, housing_of, sensors_of
-from tribodyn.input.tables.shafts import listed
-from tribodyn.studies.motion.case import (
-    HOUSING,
-    BodyData,
-    Gearbox,
-    GearData,
-    LinkData,
-    LoadData,
-    SourceData,
-    TrainMesh,
-)
+from tribodyn.input.tables.sensors import Housing, Sensors, broken_sensor_rules
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.drivetrain.duty import TrainOperating
+from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
+from tribodyn.studies.motion.train.scenario import GearTrainScenario, TrainSolver
+from tribodyn.studies.motion.train.scenario import case_of as case_of_train
+from tribodyn.train.positions import Centres
 
-#: Name of the mesh; the bodies have those of the gears.
-MESH = "mesh"
-#: The gear stands above the pinion, which turns clockwise: x is along the pitch tangent.
-UPWARD, CLOCKWISE = pi / 2.0, -1
+#: Azimuth of the gear from the pinion, and their axes: as far apart as the path of contact says.
+UPWARD, CENTRES = pi / 2.0, ((0.0, 0.0), (0.0, nan))
 
 
 class GearPairScenario(GearScenario):
@@ -101,97 +81,36 @@ Scenario = GearPairScenario
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> Gearbox:
-    """Return the case of a scenario that has passed schema and rules: a gearbox of one pair of gears."""
-    drive = scenario.drive
-    teeth = own_teeth_of(drive, scenario.mesh.tooth_sample)
-    damaged = gears_of_pair(scenario)
-    one, two = (
-        (*each, *damage_of([one for one in scenario.damage if one.gear == side], damaged[side]))
-        for each, side in zip(teeth, SIDES, strict=True)
+    """Return the case of a scenario that has passed schema and rules: a train of one stage.
+
+    Bodies have the names of the gears, however their shafts are called.
+    """
+    place = partial(_placed, held=has_supports(scenario))
+    box = case_of_train(as_train(scenario), toml, sha256, place)
+    bodies = tuple(
+        replace(body, name=side, key=f"drive.{side}", centre=centre, floating=True)
+        for body, side, centre in zip(box.bodies, SIDES, CENTRES, strict=True)
     )
-    teeth = one, two
-    duty = duty_of(scenario.operating.load, drive.pinion.teeth, drive.gear.teeth)
-    own = {"mesh": with_own_teeth(moving_mesh_of(scenario), teeth), "teeth": teeth}
-    gears = gear_fields(scenario, toml, sha256, operating=OperatingData(*duty), **own)
-    pair = with_chosen_laws(LubricatedCase(**gears, **oil_fields(scenario)))
-    return _gearbox(scenario, pair)
+    links = tuple(
+        replace(link, name=f"bearing-{side}", key=f"bearings.{side}")
+        for link, side in zip(box.links, SIDES, strict=True)
+    )
+    return replace(box, bodies=bodies, links=links, named=False)
 
 
-def _gearbox(scenario: Scenario, pair: LubricatedCase) -> Gearbox:
-    """A train of one stage: gears, bearings, drive and load by their names."""
-    operating, drive = scenario.operating, pair.drive
-    teeth = [round(float(gear.teeth)) for gear in (drive.pinion, drive.gear)]
-    ratio = Fraction(abs(teeth[0]), abs(teeth[1]))
-    rigid = operating.source == "speed" or operating.shaft_stiffness is None
-    attached = operating.drive_inertia if rigid else 0.0, operating.load_inertia
-    shafts = {shaft.gears[0]: (shaft.mass, shaft.inertia) for shaft in listed(scenario.shaft)}
-    further = [shafts.get(side, (0.0, 0.0)) for side in SIDES]
-    # both gears of a ring turn alike
-    senses = CLOCKWISE, -CLOCKWISE if internal_side(drive) is None else CLOCKWISE
-    torque, curve = operating.motor_torque, operating.output_torque_table
-    bearings = bearings_of(scenario)
-    head: dict[str, Any] = {**head_of(scenario, pair.toml, pair.sha256)}
-    return Gearbox(
-        **head,
-        gears=tuple(
-            GearData(
-                name=side,
-                key=f"drive.{side}",
-                body=number,
-                shaft=number,
-                teeth=teeth[number],
-                plane=1,
-                tooth_angle=0.0,
-                stated=pair.masses[number],
-                density=pair.materials[number].density,
-                meshes=((0, side),),
-                face_width=float((drive.pinion, drive.gear)[number].face_width),
-            )
-            for number, side in enumerate(SIDES)
-        ),
-        bodies=tuple(
-            BodyData(
-                name=side,
-                key=f"drive.{side}",
-                gears=(number,),
-                mass=further[number][0],
-                inertia=attached[number] + further[number][1],
-                ratio=(Fraction(1), ratio)[number],
-                sense=senses[number],
-                centre=((0.0, 0.0), (0.0, nan))[number],  # as far apart as its path of contact says
-                attached=attached[number],
-                floating=True,
-            )
-            for number, side in enumerate(SIDES)
-        ),
-        links=tuple(
-            LinkData.of_bearing(f"bearing-{side}", f"bearings.{side}", (number, HOUSING), held, bearing=held)
-            for number, (side, held) in enumerate(zip(SIDES, bearings, strict=True))
-        ),
-        meshes=(TrainMesh(MESH, "drive", 0, 1, (0, 1), UPWARD, Fraction(1), pair),),
-        source=SourceData.of(
-            operating,
-            0,
-            pair.operating.pinion_speed,
-            pair.operating.gear_torque * float(ratio) if torque is None else torque,
-        ),
-        loads=(
-            LoadData(
-                1,
-                pair.operating.gear_torque,
-                operating.load_damping,
-                curve.in_si() if curve else None,
-                harmonics_of(operating.output_torque_harmonics),
-            ),
-        ),
-        period=1,
-        max_period=1,
-        solver=solver_data(scenario.solver, teeth[0]),
-        output=output_data(scenario.output, scenario.solver, teeth[0], differ=any(pair.teeth)),
-        sensors=sensors_of(scenario.sensor),
-        housing=housing_of(scenario.housing),
-        named=False,
-    )
+def as_train(scenario: Scenario) -> GearTrainScenario:
+    """The scenario of the train that the pair is; its pinion is the input, its gear the output."""
+    tables = {
+        "operating": TrainOperating.model_construct(**dict(scenario.operating)),
+        "solver": TrainSolver.model_construct(**dict(scenario.solver)),
+    }
+    return GearTrainScenario.model_construct(**dict(scenario) | tables)
+
+
+def _placed(train: TrainKinematics, held: bool) -> PlacedTrain:
+    """The gear above the pinion; their teeth are put together only where shafts or matrices hold them."""
+    assemblies = (assembled_on_path(train.drives[0]),) if held else ()
+    return PlacedTrain(assemblies, Centres(np.zeros((2, 2)), (UPWARD,)), (1, 1), (0, 1))
 
 
 def gears_of_pair(scenario: Scenario) -> dict[str, GearPlace]:

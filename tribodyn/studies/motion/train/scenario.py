@@ -1,6 +1,6 @@
 """The scenario of a train, and the case that is made of it."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal, cast
 
 from pydantic import Discriminator, Field, Tag
@@ -124,10 +124,15 @@ class GearTrainScenario(SpectrumScenario):
 Scenario = GearTrainScenario
 
 
-def case_of(scenario: Any, toml: str, sha256: str) -> Gearbox:
-    """Return the case of a scenario that has passed schema and rules."""
+def case_of(
+    scenario: Any,
+    toml: str,
+    sha256: str,
+    place: Callable[[TrainKinematics], PlacedTrain] = place_train,
+) -> Gearbox:
+    """Return the case of a scenario that has passed schema and rules; `place` puts its teeth and axes."""
     train = resolve_kinematics(scenario)
-    placed = place_train(train)
+    placed = place(train)
     duty = duty_of(scenario, train)
     gears = _gears(train, placed)
     teeth = reference_teeth(train)
