@@ -145,7 +145,8 @@ def test_two_laws_of_one_name_in_one_file_have_kernels_of_their_own():
 
 
 def test_a_law_of_a_notebook_or_with_numbers_from_around_it_is_known_again():
-    """By what it does and the numbers that it takes, in whatever order these are equal."""
+    """By what it does, not by its name, and the numbers that it takes, in whatever order these are equal."""
+    assert function_layout(notebook()).identity == function_layout(falling).identity
     for make in (notebook, lambda: closure(0.03)):
         assert function_layout(make()).kept
         assert function_layout(make()).identity == function_layout(make()).identity
