@@ -40,7 +40,7 @@ def page(record: Record) -> str:
     of_teeth = {group: _curves(parts, done) for group, parts in asked.teeth.items()}
     stages = stage_table(summary)
     below = numbers_table(*stages, " meshes") if stages.rows else scatter(summary)
-    front = first_page.Front(verdict(record), holds(summary), asked_for(case), tiles(summary), below)
+    front = first_page.Front(verdict(record), holds(summary), asked_for(case, summary), tiles(summary), below)
     picture = _pictures(record, [*of_teeth.get("", ()), *motion])
     if MESHES not in summary:
         body = [by_standard(summary), reasons(summary), picture, points(summary), factors(summary)]
@@ -56,7 +56,9 @@ def page(record: Record) -> str:
         found = [(part.study, part.role.title, [done[task.name] for task in part.tasks]) for part in parts]
         body += [first_page.part_section(*one) for one in found]
     what = "Assessment of a train" if MESHES in summary else "Assessment"
-    return first_page.written(record, what, front, body, check(case).tables)
+    subject = case.subject
+    sheets = subject.study.check(subject.case, allow_large=True).every if subject else check(case).tables
+    return first_page.written(record, what, front, body, sheets)
 
 
 def _curves(parts: Sequence[Part], done: Mapping[str, TaskResult] | None) -> list[ReportCurve]:

@@ -54,7 +54,8 @@ def assumed(case: AssessmentCase, meshes: Mapping[str, Mapping[str, Any]], varie
         if own
         else f"In every mesh {factors}"
     )
-    if settings.mesh_load_factor is None and any("alike" in mesh for mesh in meshes.values()):
+    planetary = any("alike" in mesh for mesh in meshes.values())
+    if settings.mesh_load_factor is None and planetary:
         yield "K_γ of each planetary stage is that of the simulation."
     rated = [name for name, mesh in meshes.items() if "iso" in mesh]
     duties = max((len(mesh.rated.spectrum) for mesh in case.meshes.values()), default=0)
@@ -79,7 +80,7 @@ def assumed(case: AssessmentCase, meshes: Mapping[str, Mapping[str, Any]], varie
     scatter = f"; its scatter is over {settings.samples} samples of {varied}" if varied else ""
     besides = "modifications and misalignment of the scenario and its shafts"
     yield (
-        f"The simulation has accurate teeth but for {besides if own else f'{besides}, and pin errors'}"
+        f"The simulation has accurate teeth but for {besides}{', and pin errors' * planetary}"
         f"{scatter}. Its K_Hα is that of one tooth with the base pitch deviation of the standard."
     )
     if own and not rated:
@@ -93,8 +94,10 @@ def assumed(case: AssessmentCase, meshes: Mapping[str, Mapping[str, Any]], varie
             f"{', '.join(others)}."
         )
     if rated:
-        grades = dict.fromkeys(pair.quality for pair in pairs if pair.quality is not None)
-        classes = "; ".join(f"class {one.grade:g} by ISO 1328-1:{one.edition}" for one in grades)
+        grades = [pair.quality for pair in pairs if pair.quality is not None]
+        classes = "; ".join(
+            dict.fromkeys(f"class {one.grade:g} by ISO 1328-1:{one.edition}" for one in grades)
+        )
         every = "" if own else "each mesh as a pair of its own, "
         ring = "; no integral temperature of a ring" * any(_has_ring(pair) for pair in pairs)
         yield (

@@ -20,7 +20,7 @@ from tribodyn.studies.assessment.shown.first_page import range_over
 _RPM = 30.0 / math.pi
 
 
-def asked(case: AssessmentCase) -> str:
+def asked(case: AssessmentCase, summary: Mapping[str, Any]) -> str:
     """The gears of every mesh, material, oil and duty."""
     groups: dict[str, list[OiledCase]] = {"": [case.own]} if case.own else {}
     if not case.own:
@@ -36,7 +36,7 @@ def asked(case: AssessmentCase) -> str:
         "Gears": "; ".join(lines),
         "Material": " / ".join(materials),
         "Oil": first_page.oil_line(oil, float(oil.temperature), case.settings.lubrication),
-        "Duty": _duty(case),
+        "Duty": _duty(case, summary),
     }
     return first_page.asked(rows)
 
@@ -59,11 +59,13 @@ def _gears(pair: OiledCase) -> str:
 _LOADS = ("power", "input_torque", "output_torque")
 
 
-def _duty(case: AssessmentCase) -> str:
+def _duty(case: AssessmentCase, summary: Mapping[str, Any]) -> str:
     if case.own is None:
         typed = under_one_name(tomllib.loads(case.gearbox.case.toml).get("operating", {}))
         loads = [f"{name.replace('_', ' ')} {typed[name]}" for name in _LOADS if typed.get(name) is not None]
-        return ", ".join([*loads, f"input at {case.speed * _RPM:.5g} rpm"])
+        turning = f"input at {case.speed * _RPM:.5g} rpm, ratio {summary['train_ratio']:.5g}"
+        power = f"{summary['power_in_mean'] * 1e-3:.5g} kW"
+        return f"{', '.join([*loads, turning])}; with the losses simulated {power} go in"
     drive, load = case.own.drive, case.own.operating.gear_torque
     torque = load / float(drive.gear.teeth / drive.pinion.teeth)
     return (
