@@ -20,8 +20,8 @@ from tribodyn.tribology.closure import closure_of
 #: Fields of a case that its table does not depend on. Whatever is not named here is taken to matter.
 _NOT_IN_TABLE = (
     *("title", "name", "toml", "sha256"),
-    *("roughness", "mean_roughness", "asperities", "lubricant", "bearings", "operating"),
-    *("film", "friction", "temperature", "losses", "solver", "output", "quality", "supports", "teeth"),
+    *("roughness", "mean_roughness", "asperities", "lubricant", "operating"),
+    *("film", "friction", "temperature", "losses", "quality", "supports", "teeth"),
 )
 _MESH_NOT_IN_TABLE = {"damping_ratio": 0.0, "formulation": "classical", "contact_width": 0.0}
 
