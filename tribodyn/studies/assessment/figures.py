@@ -19,7 +19,7 @@ from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.standards.contact_path import POINTS
-from tribodyn.studies.assessment.report import groups_of, meshes_of
+from tribodyn.studies.assessment.report import groups_of, meshes_of, of_mesh
 
 _RPM, _DEGREES = 30.0 / math.pi, 180.0 / math.pi
 
@@ -61,7 +61,13 @@ def _curve(axes: Axes, curve: ReportCurve) -> None:
 
 def _film(axes: Axes, record: Record) -> None:
     """Specific film of the worst mesh along its path of contact, and that of the standard at its points."""
-    _film_of(axes, record, str(record.summary.get("worst_of", {}).get("specific_film_min", "")))
+    _film_of(
+        axes,
+        record,
+        str(
+            record.summary.get("worst_of", {}).get("specific_film_min", next(iter(meshes_of(record.summary))))
+        ),
+    )
 
 
 def _film_of(axes: Axes, record: Record, mesh: str) -> None:
@@ -93,7 +99,7 @@ def _losses(axes: Axes, record: Record) -> None:
     if meshes:
         losses = {
             literal(f"{group} ({len(names)})" if len(names) > 1 else group): sum(
-                float(meshes[name]["power_friction_mean"]) for name in names
+                float(of_mesh(meshes[name], "simulated", "power_friction_mean")) for name in names
             )
             for group, names in reversed(groups_of(meshes).items())
         }
@@ -206,6 +212,15 @@ def _overview(records: Sequence[Record], _view: View) -> Figure:
     return figure
 
 
+def _has_curves(record: Record) -> bool:
+    """Whether a record has values over the speed, safeties among them."""
+    return "S_B" in record
+
+
+def _has_films(record: Record) -> bool:
+    return any("point_angles" in mesh for mesh in meshes_of(record.summary).values())
+
+
 DRAWINGS = {
     "overview": Drawing(
         "pressure, contact temperature and film along the path; of a gearbox factors, efficiency, losses, "
@@ -213,14 +228,18 @@ DRAWINGS = {
         _overview,
     ),
     "specific-film": Drawing(
-        "specific film of the worst mesh along its path, simulated and by the standard", single(_film)
+        "specific film of the worst mesh along its path, simulated and by the standard",
+        single(_film),
+        _has_films,
     ),
     "losses": Drawing("loss to tooth friction by friction law, of a gearbox by mesh", single(_losses)),
     "safeties": Drawing(
         "safeties by the standards and the simulation, worst mesh of a kind", single(_safeties)
     ),
-    "load-factors": Drawing("dynamic factor and load of the planets over the speed", single(_factors)),
+    "load-factors": Drawing(
+        "dynamic factor and load of the planets over the speed", single(_factors), _has_curves
+    ),
     "safeties-over-speed": Drawing(
-        "safeties against scuffing and micropitting over the speed", single(_films_over_speed)
+        "safeties against scuffing and micropitting over the speed", single(_films_over_speed), _has_curves
     ),
 }
