@@ -11,6 +11,9 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+#: Share of the time without contact that counts.
+CONTACT_LOST = 1e-6
+
 
 class Request(NamedTuple):
     """What an assessment asks of the studies."""

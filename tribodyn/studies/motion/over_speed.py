@@ -7,13 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.cases.assessment_part import Findings, ReportCurve, Request, Task, TaskResult
+from tribodyn.cases.assessment_part import CONTACT_LOST, Findings, ReportCurve, Request, Task, TaskResult
 
 _TASK, _SAMPLES = "steady-states", "steady-states-samples"
 #: Rise of the dynamic factor over both neighbours' minimum from which a maximum counts as a resonance.
 _RISE = 0.02
-#: Share of the time without contact that counts.
-LOST = 1e-6
 #: Resonances at which every sample is looked at, and speeds over that of the linearised model: teeth that
 #: part vibrate most some percent below it.
 _RESONANCES, _AT = 3, (1.0, 0.94)
@@ -64,7 +62,7 @@ def speed_findings(
     rows = done[_TASK].rows
     speeds, factor = np.asarray(request.speeds), rows["dynamic_factor"]
     at_duty = int(np.argmin(np.abs(speeds - request.pinion_speed)))
-    lost = np.nan_to_num(rows["contact_loss_fraction"]) > LOST
+    lost = np.nan_to_num(rows["contact_loss_fraction"]) > CONTACT_LOST
     quantities: dict[str, Any] = {name: float(rows[name][at_duty]) for name in _AT_DUTY} | {
         "resonance_speeds": [float(speeds[i]) for i in maxima(factor)],
         "speeds_without_result": int(np.sum(~np.isfinite(factor))),
@@ -111,7 +109,7 @@ def _of_samples(
         if np.any(np.isfinite(factor)):
             most = int(np.nanargmax(factor))
             worst[:, sample] = factor[most], speeds[rows][most], np.nanmax(lost)
-        parted = np.nan_to_num(lost) > LOST
+        parted = np.nan_to_num(lost) > CONTACT_LOST
         begins[sample] = np.min(speeds[rows][parted]) if np.any(parted) else np.nan
     return at_duty | dict(zip(ends, worst, strict=True)) | {"contact_loss_speed_from": begins}
 

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.cases.assessment_part import CONTACT_LOST
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.gears.rating.capacity import Capacity
 from tribodyn.gears.rating.limits import least, over_samples
@@ -20,8 +21,6 @@ from tribodyn.studies.assessment.unknowns import Draw
 _NAMES = {"dynamic_factor": "K_v", "transverse_load_factor": "K_Halpha", "face_load_factor": "K_Hbeta"}
 #: Speeds of something that a sample may not have: no range is given of them.
 _PLACES = ("contact_loss_speed_from", "dynamic_factor_max_speed")
-#: Share of the time without contact that counts.
-_LOST = 1e-6
 
 
 class Conclusion(NamedTuple):
@@ -182,9 +181,9 @@ def counts(samples: SampleValues) -> dict[str, Any]:
     if not moved:
         return {}
     begins = samples.quantities["contact_loss_speed_from"]
-    number = {"samples": moved, "contact_lost": int(np.sum(np.nan_to_num(lost) > _LOST))}
+    number = {"samples": moved, "contact_lost": int(np.sum(np.nan_to_num(lost) > CONTACT_LOST))}
     number["contact_lost_at_duty"] = int(
-        np.sum(np.nan_to_num(samples.quantities["contact_loss_fraction"]) > _LOST)
+        np.sum(np.nan_to_num(samples.quantities["contact_loss_fraction"]) > CONTACT_LOST)
     )
     return number | ({"contact_loss_speed_from": float(np.nanmin(begins))} if number["contact_lost"] else {})
 
