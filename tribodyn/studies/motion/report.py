@@ -18,6 +18,8 @@ from tribodyn.studies.motion.drivetrain.mesh_groups import between, groups_of, t
 from tribodyn.studies.motion.pictures.rolling_train import rolling_train
 from tribodyn.studies.motion.planetary.results import STAGES
 
+#: Of planetary stages alone.
+OF_PLANETS = quantities("mesh_load_factor", "planet_load_factor_max")
 #: Of several meshes the worst where it is not of all together.
 REPORTED: Reported = {
     "Train": quantities("train_ratio", "common_period"),
@@ -33,7 +35,7 @@ REPORTED: Reported = {
         *("line_load_max", "axial_force_mean"),
         *("dynamic_factor", "dynamic_factor_iso", "resonance_ratio_iso", "contact_loss_fraction"),
     ),
-    "Planets": quantities("mesh_load_factor", "planet_load_factor_max"),
+    "Planets": OF_PLANETS,
     "Tribology": TRIBOLOGY,
     "Energy": ENERGY,
     "Temperature": TEMPERATURE,
@@ -53,8 +55,9 @@ OF_A_MESH: tuple[Quantity, ...] = (
     *quantities("S_B", "S_lambda"),
 )
 #: Of each planetary stage.
-OF_A_STAGE: tuple[Quantity, ...] = quantities(
-    *("mesh_load_factor", "planet_load_factor_max", "power_in_mean", "power_friction_mean", "efficiency")
+OF_A_STAGE: tuple[Quantity, ...] = (
+    *OF_PLANETS,
+    *quantities("power_in_mean", "power_friction_mean", "efficiency"),
 )
 #: What a sweep keeps: one number per case, from its steady window; of several meshes the worst.
 SWEPT = (
@@ -67,7 +70,7 @@ SWEPT = (
     ),
     *TEMPERATURE_SWEPT,
     *quantities("contact_loss_fraction", "closure_in_range_fraction", "friction_in_range_fraction"),
-    *quantities("mesh_load_factor", "planet_load_factor_max"),
+    *OF_PLANETS,
 )
 #: What a sweep prints, minimum and maximum of each.
 SWEEP_TABLE = quantities(

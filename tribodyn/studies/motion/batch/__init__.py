@@ -28,7 +28,7 @@ from tribodyn.studies.motion.batch.swept import SweepSettings, layout_of, row_by
 from tribodyn.studies.motion.case import refuse_long_period
 from tribodyn.studies.motion.estimate import cost_keys, marching_of
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.motion.report import SWEPT
+from tribodyn.studies.motion.report import OF_PLANETS, SWEPT
 from tribodyn.studies.protocol.batch import Batch, Chunk, SignalRequest
 
 #: Mesh cycles that the search for a steady state may take, and points of the section of a motion that has no
@@ -59,7 +59,8 @@ class MotionBatch:
 
     def layout(self, settings: SweepSettings) -> SweepLayout:
         """What is recorded of every case."""
-        return layout_of(settings, SWEPT, OF_MESHES)
+        swept = [each for each in SWEPT if settings.planetary or each not in OF_PLANETS]
+        return layout_of(settings, swept, OF_MESHES)
 
     def sharing(self, case: Any) -> Hashable:
         """Cases for which this is equal have the same tables."""
@@ -98,6 +99,7 @@ class MotionBatch:
             common=common,
             periods_differ=len(form.periods) > 1,
             meshes=form.meshes,
+            planetary=form.planetary,
         )
 
     def following(self, settings: SweepSettings, unstable: bool) -> SweepSettings:

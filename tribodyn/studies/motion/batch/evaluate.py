@@ -268,8 +268,8 @@ def _fill(
         rows["status"][i] = FAILED
         return
     quantities, of_meshes, trust = window_quantities(prepared, outcome.window, settings.samples)
-    for name, value in quantities.items():
-        rows[name][i] = value
+    for name in quantities.keys() & rows.keys():
+        rows[name][i] = quantities[name]
     for name, value in of_meshes.items():
         rows[name][i, mesh_places(prepared.case, settings)] = value
     if settings.periods_differ:

@@ -48,6 +48,7 @@ class SweepShape(NamedTuple):
     states: tuple[str, ...]  # names of all
     periods: tuple[int, ...] = (1,)  # mesh cycles after which all meshes are at their phases again, of each
     meshes: tuple[str, ...] = ()  # names of all, where files name them
+    planetary: bool = False  # whether one has planetary stages
 
 
 def shape_of(cases: Sequence[Gearbox]) -> SweepShape:
@@ -56,7 +57,8 @@ def shape_of(cases: Sequence[Gearbox]) -> SweepShape:
     states = tuple(dict.fromkeys(name for box in boxes for name in states_of(box)[0]))
     meshes = tuple(dict.fromkeys(mesh.name for box in boxes for mesh in box.meshes if box.named))
     periods = tuple(sorted({box.period for box in boxes}))
-    return SweepShape(max(states_of(box)[1] for box in boxes), states, periods, meshes)
+    modes = max(states_of(box)[1] for box in boxes)
+    return SweepShape(modes, states, periods, meshes, any(box.sets for box in boxes))
 
 
 def states_of(case: Gearbox) -> tuple[tuple[str, ...], int]:

@@ -95,6 +95,7 @@ class SweepSettings(NamedTuple):
     common: int = 1  # mesh cycles after which all meshes are at their phases again, of all cases the most
     periods_differ: bool = False  # whether these are not the same for all cases
     meshes: tuple[str, ...] = ()  # names of several meshes
+    planetary: bool = False  # whether a case has planetary stages
 
     def window_of(self, period: int) -> int:
         """Mesh cycles of the window of a case of a common period: whole periods where one fits."""
