@@ -53,7 +53,7 @@ PREPARED = cast(
         cycle=CYCLE,
         model=MODEL,
         case=SimpleNamespace(is_pair=True, named=False, meshes=[SimpleNamespace(pair=OILED)]),
-        pairs=[OILED],
+        warm_pairs=[OILED],
         thermal=[None],
     ),
 )
