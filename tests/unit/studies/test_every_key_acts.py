@@ -17,8 +17,8 @@ from tools.by_schema.changes import keys_of, opened
 from tools.by_schema.effects import acts, is_table, of_case, of_run, silent
 from tools.by_schema.keys import SchemaKey
 from tribodyn.errors import InputError
-from tribodyn.studies.assessment.asked import request_of
 from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.parts import request_of
 
 soak = pytest.mark.soak
 #: Pattern of a key that leaves the results of a kind as they are -> why.

@@ -21,7 +21,7 @@ from tribodyn.interface.scenario import scenario
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.standards.rolling_bearings import life_factor, reference_viscosity
-from tribodyn.studies.assessment.shown.first_page import bearings_table
+from tribodyn.studies.assessment.pages.first_page import bearings_table
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren

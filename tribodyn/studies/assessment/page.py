@@ -8,9 +8,15 @@ from typing import Any
 from tribodyn.cases.assessment_part import ReportCurve, TaskResult
 from tribodyn.post.style import inline
 from tribodyn.record.reader import MESHES, Record
-from tribodyn.studies.assessment.asked import DUTY, Part, answers, asked_of
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.figures import pictures
+from tribodyn.studies.assessment.pages import first_page
+from tribodyn.studies.assessment.pages.comparison import by_standard, factors, points, reasons, scatter
+from tribodyn.studies.assessment.pages.first_page import numbers_table
+from tribodyn.studies.assessment.pages.front import asked as asked_for
+from tribodyn.studies.assessment.pages.front import tiles
+from tribodyn.studies.assessment.pages.limit_table import holds, holds_of_mesh, room
+from tribodyn.studies.assessment.parts import DUTY, Part, answers, assessment_parts
 from tribodyn.studies.assessment.report import (
     groups_of,
     mesh_table,
@@ -20,12 +26,6 @@ from tribodyn.studies.assessment.report import (
     verdict,
 )
 from tribodyn.studies.assessment.run import check
-from tribodyn.studies.assessment.shown import first_page
-from tribodyn.studies.assessment.shown.comparison import by_standard, factors, points, reasons, scatter
-from tribodyn.studies.assessment.shown.first_page import numbers_table
-from tribodyn.studies.assessment.shown.front import asked as asked_for
-from tribodyn.studies.assessment.shown.front import tiles
-from tribodyn.studies.assessment.shown.holds import holds, holds_of_mesh, room
 from tribodyn.studies.pages import loaded_again
 from tribodyn.studies.protocol import tasks
 
@@ -34,10 +34,10 @@ def page(record: Record) -> str:
     """Write the page of an assessment's record; parts that lie beside it have their pictures on it."""
     summary = record.summary
     case: AssessmentCase = loaded_again(record).case
-    asked = asked_of(case)
-    done = tasks.kept(asked.tasks, tasks.folder_of(Path(record.path)))
-    motion = _curves(asked.motion, done)
-    of_teeth = {group: _curves(parts, done) for group, parts in asked.teeth.items()}
+    requested = assessment_parts(case)
+    done = tasks.kept(requested.tasks, tasks.folder_of(Path(record.path)))
+    motion = _curves(requested.motion, done)
+    of_teeth = {group: _curves(parts, done) for group, parts in requested.teeth.items()}
     stages = stage_table(summary)
     below = numbers_table(*stages, " meshes") if stages.rows else scatter(summary)
     front = first_page.Front(verdict(record), holds(summary), asked_for(case, summary), tiles(summary), below)
@@ -49,10 +49,10 @@ def page(record: Record) -> str:
         body = [picture, *(numbers_table(*table, " meshes") for table in every if table.rows)]
         body += [_of_mesh(record, name, of_teeth.get(group, ())) for group, name in _worst_first(summary)]
     body += [first_page.folded_sums(miner_tables(summary)), first_page.bearings_table(summary)]
-    if done and asked.runs:
+    if done and requested.runs:
         body.append(first_page.part_section(case.gearbox.study, "Motion at the duty", [done[DUTY]]))
     elif done:
-        parts = sorted([*asked.motion, *asked.teeth[""]], key=lambda part: part.role.order)
+        parts = sorted([*requested.motion, *requested.teeth[""]], key=lambda part: part.role.order)
         found = [(part.study, part.role.title, [done[task.name] for task in part.tasks]) for part in parts]
         body += [first_page.part_section(*one) for one in found]
     what = "Assessment of a train" if MESHES in summary else "Assessment"

@@ -24,20 +24,20 @@ from tribodyn.post.verdict import outside
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import MESHES
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
-from tribodyn.studies.assessment.asked import DUTY, Asked, asked_of, speeds_of
 from tribodyn.studies.assessment.case import AssessmentCase, RatedPair, layout_of
-from tribodyn.studies.assessment.concluded.conclusion import by_standard
-from tribodyn.studies.assessment.concluded.margins import LocalValues
-from tribodyn.studies.assessment.concluded.meshes import (
+from tribodyn.studies.assessment.findings import GearboxFindings, findings_of
+from tribodyn.studies.assessment.parts import DUTY, AssessmentParts, assessment_parts, speeds_of
+from tribodyn.studies.assessment.results.conclusion import by_standard
+from tribodyn.studies.assessment.results.margins import LocalValues
+from tribodyn.studies.assessment.results.meshes import (
     ConcludedMesh,
     concluded_mesh,
     worst_limits,
     worst_of,
     worst_samples,
 )
-from tribodyn.studies.assessment.concluded.over_speed import safeties_over_speed
-from tribodyn.studies.assessment.concluded.scatter import put_in
-from tribodyn.studies.assessment.found import GearboxFindings, found_of
+from tribodyn.studies.assessment.results.over_speed import safeties_over_speed
+from tribodyn.studies.assessment.results.scatter import put_in
 from tribodyn.studies.assessment.text import assumed, extrapolated
 from tribodyn.studies.drive_file import sheet_of
 from tribodyn.studies.protocol import tasks
@@ -52,9 +52,9 @@ _PARTS = {"worst", "median", "pinion"}
 
 def check(case: AssessmentCase) -> CheckResult:
     """Check a case and what it asks of the other studies; say what gears and oil it describes."""
-    asked = asked_of(case)
-    tasks.require_cases(asked.tasks)
-    names = [task.name for _, task in asked.tasks]
+    requested = assessment_parts(case)
+    tasks.require_cases(requested.tasks)
+    names = [task.name for _, task in requested.tasks]
     if case.own is not None:
         checked = _check_pair(case.own)
         return checked._replace(data={**checked.data, "tasks": names})
@@ -148,10 +148,10 @@ def assessed(
     needed cannot be run; see also `tasks.results`.
     """
     begun = perf_counter()
-    asked = asked_of(case)
-    done = tasks.results(asked.tasks, folder, progress, force=force)
-    found = found_of(case, asked, done)
-    meshes = {name: concluded_mesh(mesh, case.limits, asked.draws) for name, mesh in found.meshes.items()}
+    requested = assessment_parts(case)
+    done = tasks.results(requested.tasks, folder, progress, force=force)
+    found = findings_of(case, requested, done)
+    meshes = {name: concluded_mesh(mesh, case.limits, requested.draws) for name, mesh in found.meshes.items()}
     summaries = {name: mesh.summary for name, mesh in meshes.items()}
     gearbox = dict(summaries[""]) if case.own else _gearbox(case, found, summaries)
     summary = {
@@ -165,13 +165,13 @@ def assessed(
     scattered = [mesh for mesh in meshes.values() if mesh.samples is not None]
     if scattered:
         own = scattered[0].samples if case.own else None
-        samples = own or worst_samples(asked.draws, found.rows, [*meshes.values()])
+        samples = own or worst_samples(requested.draws, found.rows, [*meshes.values()])
         summary = put_in(summary, samples)
-    varied = asked.varied if scattered else ""
+    varied = requested.varied if scattered else ""
     summary |= {
         "assumed": numbered([*assumed(case, summaries, varied)]),
-        "extrapolated": numbered([*extrapolated(asked.tasks, done), *_outside(summaries)]),
-        **_trust(done, asked),
+        "extrapolated": numbered([*extrapolated(requested.tasks, done), *_outside(summaries)]),
+        **_trust(done, requested),
         "wall_time": perf_counter() - begun,
     }
     summary = _told(summary)
@@ -282,14 +282,14 @@ def _along_path(local: LocalValues) -> dict[str, Any]:
     }
 
 
-def _trust(done: Mapping[str, TaskResult], asked: Asked) -> dict[str, Any]:
+def _trust(done: Mapping[str, TaskResult], requested: AssessmentParts) -> dict[str, Any]:
     """Outside the model where any part is; laws extrapolated where those of a needed one are.
 
     Of a gearbox as its run at the duty.
     """
-    if asked.runs:
+    if requested.runs:
         return {name: done[DUTY].summary[name] for name in (TRUST, REASONS) if done[DUTY].summary.get(name)}
-    needed: Collection[str] = {task.name for _, task in asked.tasks if task.needed}
+    needed: Collection[str] = {task.name for _, task in requested.tasks if task.needed}
     parts = {name: result.summary for name, result in done.items() if TRUST in result.summary}
     for verdict, parts_of in ((OUTSIDE, parts), (EXTRAPOLATED, needed)):
         reasons: dict[str, Any] = {}

@@ -124,8 +124,10 @@ def _together(
         return list(cases)
     settings = batch.settings(valid, marched, "native")
     rows = batch.evaluate(Chunk(np.arange(len(cases)), tuple(cases)), settings, workers)
+    none = np.full(len(cases), np.nan)  # of what these cases do not have
     return [
-        {name: float(rows[name][i]) for name in study.swept()} | {name: rows[name][i] for name in arrays}
+        {name: float(rows.get(name, none)[i]) for name in study.swept()}
+        | {name: rows[name][i] for name in arrays}
         if status == DONE
         else str(rows["message"][i])
         for i, status in enumerate(rows["status"])

@@ -19,8 +19,8 @@ from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
-from tribodyn.studies.assessment.asked import request_of
-from tribodyn.studies.assessment.concluded.margins import local_of, point_angles
+from tribodyn.studies.assessment.parts import request_of
+from tribodyn.studies.assessment.results.margins import local_of, point_angles
 from tribodyn.studies.protocol.load import load_scenario
 
 KIND = "assessment"

@@ -13,9 +13,9 @@ from tribodyn.compliance.sharing.loaded_contact import roll_through
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.capacity import capacity_of, life_bins
 from tribodyn.gears.rating.standard import rated_duty, standard_of
-from tribodyn.studies.assessment.concluded.rated_flank import NominalLoad, nominal_load, rated_flanks
-from tribodyn.studies.assessment.concluded.reasons import bending_reasons, pitting_reasons, reasons, rests_on
-from tribodyn.studies.assessment.concluded.simulated_strength import (
+from tribodyn.studies.assessment.results.rated_flank import NominalLoad, nominal_load, rated_flanks
+from tribodyn.studies.assessment.results.reasons import bending_reasons, pitting_reasons, reasons, rests_on
+from tribodyn.studies.assessment.results.simulated_strength import (
     GivenFactors,
     _in_motion,
     given_factors,

@@ -12,7 +12,7 @@ from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.capacity import Capacity, capacity_of, life_bins
 from tribodyn.gears.rating.standard import Standard, iso_part, rated_duty, standard_of
 from tribodyn.geometry.drive import SIDES
-from tribodyn.studies.assessment.asked import faces_of, other_torques, request_of
+from tribodyn.studies.assessment.parts import faces_of, other_torques, request_of
 from tribodyn.studies.motion.train import assessable as whole
 from tribodyn.studies.protocol.load import load_scenario
 

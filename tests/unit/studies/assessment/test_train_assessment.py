@@ -14,7 +14,7 @@ from tribodyn.errors import InputError
 from tribodyn.gears.motion.tooth_loads import ToothLoads, tooth_loads
 from tribodyn.gears.prepare import assembled
 from tribodyn.record.reader import MESHES, Record
-from tribodyn.studies.assessment.asked import asked_of
+from tribodyn.studies.assessment.parts import assessment_parts
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.tasks import case_of
 
@@ -107,7 +107,7 @@ def test_a_power_is_held_as_a_torque():
     """At half the speed half the power, whatever the scenario gives; a long common period is marched."""
     case = load_scenario("wind-turbine-gearbox-assessment", {"assessment.speed_range": [0.5, 0.75]})
     train = case.gearbox.case
-    task = next(task for _, task in asked_of(case).tasks if task.name == "steady-states")
+    task = next(task for _, task in assessment_parts(case).tasks if task.name == "steady-states")
     assert task.marched == train.solver.cycles
     assert len(task.cases) == 3
     for overrides, factor in zip(task.cases, (0.5, 0.75, 1.0), strict=True):

@@ -13,7 +13,7 @@ from tests.support.short_studies import short_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.input.tables.bearings import Bearing, bearing_of
-from tribodyn.studies.assessment.asked import ranges_of_case
+from tribodyn.studies.assessment.parts import ranges_of_case
 from tribodyn.studies.assessment.unknowns import OF_PAIR, Ranges, UnknownsTable, distances, drawn, stiffened
 from tribodyn.studies.protocol.load import load_data, load_scenario
 

@@ -12,16 +12,16 @@ from tribodyn.gears.rating.capacity import Capacity, capacity_of, life_bins, req
 from tribodyn.gears.rating.spectrum import spectrum_part
 from tribodyn.gears.rating.standard import Standard, iso_part, rated_duty, standard_of
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.studies.assessment.asked import faces_of
 from tribodyn.studies.assessment.case import RatedMesh, RatedPair
-from tribodyn.studies.assessment.concluded.margins import (
+from tribodyn.studies.assessment.parts import faces_of
+from tribodyn.studies.assessment.results.margins import (
     largest_stresses,
     local_of,
     margins_and_limits,
     simulated_part,
 )
-from tribodyn.studies.assessment.concluded.reasons import compared
-from tribodyn.studies.assessment.concluded.scatter import Conclusion
+from tribodyn.studies.assessment.results.reasons import compared
+from tribodyn.studies.assessment.results.scatter import Conclusion
 from tribodyn.studies.assessment.unknowns import Draw
 
 

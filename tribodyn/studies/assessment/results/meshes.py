@@ -13,9 +13,10 @@ from tribodyn.gears.rating.standard import factors_by_name, margins_by_standard
 from tribodyn.geometry.drive import SIDES
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment.case import RatedPair
-from tribodyn.studies.assessment.concluded.conclusion import ByStandard, concluded, rating_of
-from tribodyn.studies.assessment.concluded.margins import strength_of_case
-from tribodyn.studies.assessment.concluded.scatter import (
+from tribodyn.studies.assessment.findings import MeshFindings
+from tribodyn.studies.assessment.results.conclusion import ByStandard, concluded, rating_of
+from tribodyn.studies.assessment.results.margins import strength_of_case
+from tribodyn.studies.assessment.results.scatter import (
     Conclusion,
     SampleValues,
     drawn_values,
@@ -23,7 +24,6 @@ from tribodyn.studies.assessment.concluded.scatter import (
     samples_of,
     with_ranges,
 )
-from tribodyn.studies.assessment.found import MeshFindings
 from tribodyn.studies.assessment.unknowns import Draw
 
 #: What a gearbox has of its worst mesh besides safeties.

@@ -10,7 +10,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.studies.assessment.case import RatedPair
-from tribodyn.studies.assessment.concluded.simulated_strength import (
+from tribodyn.studies.assessment.results.simulated_strength import (
     GivenFactors,
     LoadedTeeth,
     SimulatedStrength,

@@ -14,8 +14,8 @@ from tribodyn.geometry.helix import as_written
 from tribodyn.input.names import under_one_name
 from tribodyn.record.reader import MESHES
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.shown import first_page
-from tribodyn.studies.assessment.shown.first_page import range_over
+from tribodyn.studies.assessment.pages import first_page
+from tribodyn.studies.assessment.pages.first_page import range_over
 
 _RPM = 30.0 / math.pi
 

@@ -13,8 +13,8 @@ from tribodyn.gears.rating.capacity import Capacity
 from tribodyn.gears.rating.limits import least, over_samples
 from tribodyn.gears.rating.standard import Standard
 from tribodyn.quantities.catalogue import SPREAD, scatter
-from tribodyn.studies.assessment.concluded.margins import LocalValues
-from tribodyn.studies.assessment.concluded.simulated_strength import SimulatedStrength
+from tribodyn.studies.assessment.results.margins import LocalValues
+from tribodyn.studies.assessment.results.simulated_strength import SimulatedStrength
 from tribodyn.studies.assessment.unknowns import Draw
 
 #: Quantity of the simulation -> its name by the standards.

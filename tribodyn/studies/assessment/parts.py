@@ -124,7 +124,7 @@ def answers(all_parts: Sequence[Part], done: Mapping[str, TaskResult]) -> Iterat
             yield part.role.answer(part.request, results)
 
 
-class Asked(NamedTuple):
+class AssessmentParts(NamedTuple):
     """What is asked of the studies."""
 
     draws: Sequence[Draw]
@@ -135,7 +135,7 @@ class Asked(NamedTuple):
     tasks: Sequence[tuple[Study, Task]]  # all of these
 
 
-def asked_of(case: AssessmentCase) -> Asked:
+def assessment_parts(case: AssessmentCase) -> AssessmentParts:
     """The motion at the duty, with other friction laws and over the speed, and the teeth of every mesh."""
     settings, ranges, runs = case.settings, ranges_of_case(case), list[Task]()
     draws = drawn(ranges, settings.samples, settings.seed) if ranges else []
@@ -159,7 +159,7 @@ def asked_of(case: AssessmentCase) -> Asked:
     ordered = sorted(every, key=lambda part: part.role.order) if case.own else every
     of_parts = [(part.study, task) for part in ordered for task in part.tasks]
     tasks = [*((case.gearbox.study, task) for task in runs), *of_parts]
-    return Asked(draws, described(ranges) if ranges else "", runs, motion, teeth, tasks)
+    return AssessmentParts(draws, described(ranges) if ranges else "", runs, motion, teeth, tasks)
 
 
 def ranges_of_case(case: AssessmentCase) -> Ranges | None:

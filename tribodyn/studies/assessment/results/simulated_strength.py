@@ -27,7 +27,7 @@ from tribodyn.standards.bending import mean_stress_influence, pulsating_stress
 from tribodyn.standards.fatigue import Bin, damage
 from tribodyn.standards.rainflow import rainflow_repeated
 from tribodyn.studies.assessment.case import RatedPair
-from tribodyn.studies.assessment.concluded.rated_flank import (
+from tribodyn.studies.assessment.results.rated_flank import (
     NominalLoad,
     RatedFlank,
     nominal_load,

@@ -9,8 +9,8 @@ import numpy as np
 from tribodyn.cases.assessment_part import Findings, MeshAtDuty, TaskResult
 from tribodyn.gears.prepare import assembled
 from tribodyn.record.reader import MESHES, Record
-from tribodyn.studies.assessment.asked import DUTY, Asked, answers
 from tribodyn.studies.assessment.case import OVER_SPEED, AssessmentCase, RatedMesh
+from tribodyn.studies.assessment.parts import DUTY, AssessmentParts, answers
 
 STAGES = "stages"
 #: Of the run at the duty, of each mesh.
@@ -56,10 +56,12 @@ class GearboxFindings(NamedTuple):
     run: Mapping[str, Any]  # summary of the run at the duty; empty: there is none
 
 
-def found_of(case: AssessmentCase, asked: Asked, done: Mapping[str, TaskResult]) -> GearboxFindings:
+def findings_of(
+    case: AssessmentCase, requested: AssessmentParts, done: Mapping[str, TaskResult]
+) -> GearboxFindings:
     """Put together what the studies say of their results."""
-    motion = _together([*answers(asked.motion, done)])
-    teeth = {group: _together([*answers(parts, done)]) for group, parts in asked.teeth.items()}
+    motion = _together([*answers(requested.motion, done)])
+    teeth = {group: _together([*answers(parts, done)]) for group, parts in requested.teeth.items()}
     curves = dict(motion.over_speed)
     if case.own is not None:
         (mesh,) = case.meshes.values()

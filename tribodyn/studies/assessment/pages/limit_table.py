@@ -7,8 +7,8 @@ from typing import Any
 from tribodyn.gears.rating.capacity import as_life, shorter_life
 from tribodyn.gears.rating.limits import LIMITS, SAFETIES
 from tribodyn.geometry.drive import SIDES
+from tribodyn.studies.assessment.pages.first_page import Judged, holds_table, judged_cell
 from tribodyn.studies.assessment.report import groups_of, meshes_of
-from tribodyn.studies.assessment.shown.first_page import Judged, holds_table, judged_cell
 
 HEADING = "Does it hold, and how long?"
 #: Limit -> its quantity of either gear, where it has one.

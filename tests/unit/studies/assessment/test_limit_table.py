@@ -3,7 +3,7 @@
 import re
 
 import tribodyn as td
-from tribodyn.studies.assessment.shown.holds import holds
+from tribodyn.studies.assessment.pages.limit_table import holds
 
 SUMMARY = {
     "limits": {

@@ -10,7 +10,7 @@ from tribodyn.errors import SimulationError
 from tribodyn.gears.prepare import assembled
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.assessment.case import RatedPair
-from tribodyn.studies.assessment.concluded.margins import local_of, scuffing_and_micropitting
+from tribodyn.studies.assessment.results.margins import local_of, scuffing_and_micropitting
 
 #: What follows the speed as the steady states do.
 _FOLLOWS = ("dynamic_factor", "power_friction_mean", "friction_coefficient_mean")

@@ -9,7 +9,7 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards.contact_path import POINTS
-from tribodyn.studies.assessment.shown.first_page import listed, numbers_table
+from tribodyn.studies.assessment.pages.first_page import listed, numbers_table
 
 #: What is said of a range.
 _ENDS = ("p5", "p95")

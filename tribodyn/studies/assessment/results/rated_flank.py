@@ -15,7 +15,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.helix import overlap_ratio
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards.pitting import contact_ratio_factor
-from tribodyn.studies.assessment.concluded.margins import point_angles
+from tribodyn.studies.assessment.results.margins import point_angles
 
 
 class NominalLoad(NamedTuple):
