@@ -13,7 +13,7 @@ from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
-from tribodyn.studies.motion.report import SWEPT
+from tribodyn.studies.motion.report import OF_PLANETS, SWEPT
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SHORT = ("--transient", "4", *sets("output.samples_per_cycle=40"))
@@ -40,11 +40,11 @@ def test_the_record_is_a_dataset_over_the_parameters(grid: Path):
         assert (data.status == DONE).all()
         assert set(data.solution.values.ravel()) == {"transient"}
         assert data.attrs["status"] == "complete"
-        for quantity in SWEPT:
+        assert not {quantity.name for quantity in OF_PLANETS} & set(data)  # it has none
+        for quantity in set(SWEPT) - set(OF_PLANETS):
             name = quantity.name
-            # this scenario asks for no temperatures, and has no planets
-            has = quantity not in TEMPERATURE_SWEPT and "load_factor" not in name
-            assert np.isfinite(data[name]).all() == has, name
+            # this scenario asks for no temperatures
+            assert np.isfinite(data[name]).all() == (quantity not in TEMPERATURE_SWEPT), name
             assert data[name].attrs["units"]
             assert data[name].attrs["long_name"]
 

@@ -43,7 +43,7 @@ def test_the_pair_of_a_data_sheet_needs_few_keys():
 
 def test_what_the_sheet_prints_is_taken_back():
     thin = load_drive(PAIR, {"drive.pinion.thickness_allowance": "-60 um"})
-    sheet = geometry_sheet(check(family("involute"), thin.drive), gauges=thin.gauges)["pinion"]
+    sheet = thin.sheet(check(family("involute"), thin.drive))["pinion"]
     for keys in (
         {"span": "span", "span_teeth": "teeth of the span"},
         {"over_pins": "dimension over pins", "pin_diameter": "pin diameter"},
