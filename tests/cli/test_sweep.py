@@ -8,12 +8,12 @@ import pytest
 import xarray
 
 from tests.support.verbs import complaint, ended, invoke, sets
-from tribodyn.gears.case import TEMPERATURE_SWEPT
+from tribodyn.gears.case import OF_PLANETS, TEMPERATURE_SWEPT
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
-from tribodyn.studies.motion.report import OF_PLANETS, SWEPT
+from tribodyn.studies.motion.report import SWEPT
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SHORT = ("--transient", "4", *sets("output.samples_per_cycle=40"))

@@ -119,6 +119,10 @@ def test_other_kinds_of_study_are_refined_too(tmp_path: Path):
         (("--vary", f"{SPEED}=100,300,200rpm", "--refine", "5"), "at least 3 values in order"),
         (("--vary", "drive.pinion.teeth=20:26:2", "--refine", "5"), "nothing lies between"),
         (("--vary", f"{SPEED}=1:9:1rpm", "--refine", "5", "--refine-by", "dynamic_facter"), "dynamic_factor"),
+        (
+            ("--vary", f"{SPEED}=1:9:1rpm", "--refine", "5", "--refine-by", "mesh_load_factor"),
+            "no case of this",
+        ),
         (("--vary", f"{SPEED}=1:9:1rpm", "--refine-by", "efficiency"), "add --refine 40"),
         (("--vary", f"{SPEED}=1:9:1rpm", "--refine", "100000"), "too many values"),
     ],

@@ -9,6 +9,7 @@ from tests.support.compilations import compilations
 from tests.support.feeding_bearing import fed_by_a_bearing
 from tests.support.states import TURN_G, X_G, X_P, Y_G, Y_P, altered
 from tests.support.verbs import invoke, sets
+from tribodyn.gears.case import OF_PLANETS
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE as RECORDED
 from tribodyn.record.sweep_schema import FAILED
@@ -16,7 +17,7 @@ from tribodyn.solve import ensemble
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.jax import ensemble as jax_ensemble
-from tribodyn.studies.motion.report import OF_PLANETS, SWEPT
+from tribodyn.studies.motion.report import SWEPT
 
 pytestmark = pytest.mark.slow
 

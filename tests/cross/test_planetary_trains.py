@@ -10,12 +10,13 @@ from tests.support.planetary_phases import mesh_phases
 from tests.support.train_scenarios import case_of_table
 from tribodyn.dynamics.modes import modes
 from tribodyn.errors import InputError
+from tribodyn.gears.case import STAGES
 from tribodyn.geometry.assembly import half_angles
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
 from tribodyn.solve.orbit.periodic import steady_states
-from tribodyn.studies.motion.planetary.results import STAGES, kinds_of
+from tribodyn.studies.motion.planetary.results import kinds_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.run import run
 from tribodyn.train.planetary import MEMBERS, SetTeeth, excited, torques

@@ -4,10 +4,11 @@ Plain frozen dataclasses, so that the physics never meets pydantic or pint. Pair
 """
 
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
-from tribodyn.cases.results import CaseHead
+from tribodyn.cases.results import CaseHead, TextTable
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.gears.by_standard import Quality
 from tribodyn.gears.supports import GearSupports
@@ -42,6 +43,20 @@ TEMPERATURE = quantities(
 )
 #: What sweeps keep of a case that asks for temperatures or losses.
 TEMPERATURE_SWEPT = quantities("bulk_temperature", "power_load_independent", "efficiency_with_losses")
+#: Where a summary has its planetary stages; what they alone have, and what a table of them shows.
+STAGES = "stages"
+OF_PLANETS = quantities("mesh_load_factor", "planet_load_factor_max")
+OF_A_STAGE = (*OF_PLANETS, *quantities("power_in_mean", "power_friction_mean", "efficiency"))
+
+
+def stage_table(summary: Mapping[str, Any]) -> TextTable:
+    """The table of a summary's planetary stages, a column for each; without rows where there are none."""
+    stages = summary.get(STAGES) or {}
+    rows = [
+        [quantity.title, *(quantity.written(one[quantity.name]) for one in stages.values()), quantity.unit]
+        for quantity in OF_A_STAGE
+    ]
+    return TextTable("Each planetary stage", ("", *stages, ""), rows if stages else [])
 
 
 #: Of one of many cases.

@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.errors import InputError, unknown_name
+from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.grid.grid import Grid
 from tribodyn.input.vary import MOST_VALUES, is_whole
-from tribodyn.record.sweep_schema import DONE
+from tribodyn.record.sweep_schema import DONE, SweepLayout
 from tribodyn.record.sweep_writer import SweepWriter
 
 REFINE, REFINE_BY = "--refine", "--refine-by"
@@ -33,6 +33,13 @@ class Refinement(NamedTuple):
 
     most: int
     by: tuple[str, ...]
+
+    def require_recorded(self, layout: SweepLayout) -> None:
+        """Raise InputError where the cases of a sweep have none of a quantity that is watched."""
+        for name in self.by:
+            if name not in layout.variables:
+                rule = "is not recorded: no case of this sweep has it"
+                raise InputError(REFINE_BY, quoted(name), rule, "watch another quantity")
 
     def further(self, grid: Grid, first: Grid, record: SweepWriter) -> list[float]:
         """Values of the next round, SI, from what is recorded of the grid so far; none: it is fine enough."""

@@ -90,6 +90,8 @@ def run(
         return head._replace(scenario_file=scenario_file)
 
     head = head_of(grid)
+    if refinement:
+        refinement.require_recorded(head.layout)
     if not resume:
         check_target(Path(output), force, head.origin)
     _sound_somewhere(grid, settings)

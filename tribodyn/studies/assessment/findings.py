@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.cases.assessment_part import Findings, MeshAtDuty, TaskResult
+from tribodyn.gears.case import STAGES
 from tribodyn.gears.prepare import assembled
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.case import OVER_SPEED, AssessmentCase, RatedMesh
 from tribodyn.studies.assessment.parts import DUTY, AssessmentParts, answers
 
-STAGES = "stages"
 #: Of the run at the duty, of each mesh.
 _OF_MESH = (
     *("dynamic_factor", "power_in_mean", "power_friction_mean", "efficiency", "friction_coefficient_mean"),

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from tribodyn.cases.assessment_part import ReportCurve, TaskResult
+from tribodyn.gears.case import stage_table
 from tribodyn.post.style import inline
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.case import AssessmentCase
@@ -22,7 +23,6 @@ from tribodyn.studies.assessment.report import (
     mesh_table,
     meshes_of,
     miner_tables,
-    stage_table,
     verdict,
 )
 from tribodyn.studies.assessment.run import check

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from tribodyn.cases.results import TextTable
+from tribodyn.gears.case import stage_table
 from tribodyn.gears.rating.bearings import bearing_rows
 from tribodyn.gears.rating.capacity import shorter_life
 from tribodyn.gears.rating.limits import SAFETIES, on_limits
@@ -70,9 +71,6 @@ OF_A_MESH: dict[str, tuple[Quantity, ...]] = {
         *("H_v", "lambda_GF", "theta_B", "S_B", "S_intS", "S_lambda"),
     ),
 }
-OF_A_STAGE = quantities(
-    *("mesh_load_factor", "planet_load_factor_max", "power_in_mean", "power_friction_mean", "efficiency")
-)
 
 
 def meshes_of(summary: Mapping[str, Any]) -> Mapping[str, Mapping[str, Any]]:
@@ -129,16 +127,6 @@ def mesh_table(summary: Mapping[str, Any], part: str) -> TextTable:
     by = {"simulated": "simulated, stresses, temperatures and safeties", "iso": "by the standards"}[part]
     heading = f"Each mesh, {by} with K_A {max(factors, default=1.0):g}; of several planets the worst"
     return TextTable(heading, ("", *groups, ""), [row for row in rows if set(row[1:-1]) - {"–"}])
-
-
-def stage_table(summary: Mapping[str, Any]) -> TextTable:
-    """The table of planetary stages; without rows where there are none."""
-    stages = summary.get("stages", {})
-    rows = [
-        [quantity.title, *(quantity.written(one[quantity.name]) for one in stages.values()), quantity.unit]
-        for quantity in OF_A_STAGE
-    ]
-    return TextTable("Each planetary stage", ("", *stages, ""), rows if stages else [])
 
 
 def tables(record: Record) -> list[TextTable]:

@@ -4,7 +4,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from tribodyn.cases.results import TextTable
-from tribodyn.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
+from tribodyn.gears.case import (
+    ENERGY,
+    OF_PLANETS,
+    STAGES,
+    TEMPERATURE,
+    TEMPERATURE_SWEPT,
+    TRIBOLOGY,
+    stage_table,
+)
 from tribodyn.gears.motion.extremes import on_extremes
 from tribodyn.gears.sensing.signal_quantities import sensor_tables
 from tribodyn.post import verdict as of_any
@@ -16,10 +24,7 @@ from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.withheld_efficiency import reasons
 from tribodyn.studies.motion.drivetrain.mesh_groups import between, groups_of, together
 from tribodyn.studies.motion.pictures.rolling_train import rolling_train
-from tribodyn.studies.motion.planetary.results import STAGES
 
-#: Of planetary stages alone.
-OF_PLANETS = quantities("mesh_load_factor", "planet_load_factor_max")
 #: Of several meshes the worst where it is not of all together.
 REPORTED: Reported = {
     "Train": quantities("train_ratio", "common_period"),
@@ -53,11 +58,6 @@ OF_A_MESH: tuple[Quantity, ...] = (
     *quantities("power_in_mean", "power_friction_mean", "efficiency"),
     *TEMPERATURE,
     *quantities("S_B", "S_lambda"),
-)
-#: Of each planetary stage.
-OF_A_STAGE: tuple[Quantity, ...] = (
-    *OF_PLANETS,
-    *quantities("power_in_mean", "power_friction_mean", "efficiency"),
 )
 #: What a sweep keeps: one number per case, from its steady window; of several meshes the worst.
 SWEPT = (
@@ -109,17 +109,13 @@ def mechanism(record: Record) -> Mechanism | None:
 
 
 def _stages(summary: Mapping[str, Any]) -> Iterable[TextTable]:
-    """Quantities of each planetary stage, a column for each."""
-    stages = summary.get(STAGES)
-    if not isinstance(stages, Mapping) or not stages:
-        return
-    rows = [
-        [quantity.title, *(quantity.written(one[quantity.name]) for one in stages.values()), quantity.unit]
-        for quantity in OF_A_STAGE
-    ]
-    shares = (", ".join(f"{100.0 * share:.1f}" for share in one["planet_shares"]) for one in stages.values())
-    rows.insert(1, ["Shares of the planets", *shares, "%"])
-    yield TextTable("Each planetary stage", ("", *stages, ""), rows)
+    """Quantities of each planetary stage and shares of its planets, a column for each."""
+    table = stage_table(summary)
+    if table.rows:
+        every = [one["planet_shares"] for one in summary[STAGES].values()]
+        shares = (", ".join(f"{100.0 * share:.1f}" for share in one) for one in every)
+        first, *rest = table.rows
+        yield table._replace(rows=[first, ["Shares of the planets", *shares, "%"], *rest])
 
 
 def _table(

@@ -11,6 +11,7 @@ import numpy as np
 from tribodyn.cases.results import target, writer
 from tribodyn.dynamics.modes import modes
 from tribodyn.errors import SimulationError
+from tribodyn.gears.case import STAGES
 from tribodyn.gears.check import oil_data
 from tribodyn.gears.motion.march import record_motion, run_until_warm
 from tribodyn.gears.motion.running import RunStatistics
@@ -22,7 +23,7 @@ from tribodyn.record.trust import judge_tribology
 from tribodyn.record.withheld_efficiency import remarked
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.planetary.jamming import jams
-from tribodyn.studies.motion.planetary.results import STAGES, stage_quantities, worst_stage
+from tribodyn.studies.motion.planetary.results import stage_quantities, worst_stage
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.motion.record import record_of
 from tribodyn.studies.motion.sensors import listener_of

@@ -92,8 +92,8 @@ def evaluated(
     states, or so many mesh cycles that are marched, evaluated by so many threads, default: one per core;
     `arrays` are datasets of its rows that are kept, too.
     """
-    if study.batch():
-        results = _together(study, cases, workers, marched or None, arrays)
+    if batch := study.batch():
+        results = _together(study, batch, cases, workers, marched or None, arrays)
     else:
         results = [alone(study, case, number) for number, case in enumerate(cases)]
     return [
@@ -117,10 +117,15 @@ def alone(study: Study, case: Any, number: int = 0) -> dict[str, Any] | str:
 
 
 def _together(
-    study: Study, cases: Sequence[Any], workers: int | None, marched: int | None, arrays: Sequence[str]
+    study: Study,
+    batch: Batch,
+    cases: Sequence[Any],
+    workers: int | None,
+    marched: int | None,
+    arrays: Sequence[str],
 ) -> list[dict[str, Any] | str]:
-    valid, batch = [case for case in cases if not isinstance(case, str)], study.batch()
-    if not valid or batch is None:
+    valid = [case for case in cases if not isinstance(case, str)]
+    if not valid:
         return list(cases)
     settings = batch.settings(valid, marched, "native")
     rows = batch.evaluate(Chunk(np.arange(len(cases)), tuple(cases)), settings, workers)

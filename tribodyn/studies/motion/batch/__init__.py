@@ -9,6 +9,7 @@ import numpy as np
 from tribodyn.cases import cost
 from tribodyn.cases.cost import Estimate
 from tribodyn.errors import InputError
+from tribodyn.gears.case import OF_PLANETS
 from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import MAX_PERIOD
@@ -28,7 +29,7 @@ from tribodyn.studies.motion.batch.swept import SweepSettings, layout_of, row_by
 from tribodyn.studies.motion.case import refuse_long_period
 from tribodyn.studies.motion.estimate import cost_keys, marching_of
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.motion.report import OF_PLANETS, SWEPT
+from tribodyn.studies.motion.report import SWEPT
 from tribodyn.studies.protocol.batch import Batch, Chunk, SignalRequest
 
 #: Mesh cycles that the search for a steady state may take, and points of the section of a motion that has no

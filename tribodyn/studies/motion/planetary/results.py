@@ -10,9 +10,6 @@ from tribodyn.studies.motion.case import Gearbox, SetData
 from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.planetary import RING, SUN
 
-#: Of planetary stages in summaries.
-STAGES = "stages"
-
 
 def meshes_of_member(case: Gearbox, gearset: SetData, member: str) -> list[int]:
     """Meshes of the sun or the ring of a set, in the order of the planets."""
