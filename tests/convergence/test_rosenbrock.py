@@ -14,7 +14,7 @@ from tribodyn.solve.methods.rodas4 import ALPHA, GAMMA, GAMMAS, STAGES, A, C
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
-from tribodyn.train.structure import works
+from tribodyn.train.layout import works
 
 
 @pytest.fixture(scope="module")

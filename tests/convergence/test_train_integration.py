@@ -13,7 +13,7 @@ from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import TransientSettings
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.train.structure import displacements
+from tribodyn.train.layout import displacements
 
 TRAINS = ["two-stage-reducer", "idler-train", "two-pinions-bull-gear"]
 #: A motor behind a shaft that gives way, whose speed falls under load.

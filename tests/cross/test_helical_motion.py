@@ -16,7 +16,11 @@ from tribodyn.solve.transient import TransientSettings
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.train.structure import displacements, place_in_space, turn_of, velocities
+from tribodyn.train.layout import displacements, velocities
+from tribodyn.train.structure import (
+    place_in_space,
+    turn_of,
+)
 
 COULOMB = {
     "friction.law": "coulomb",

@@ -8,7 +8,7 @@ import pytest
 from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.solve.initial import accelerations, static_equilibrium
-from tribodyn.train.structure import displacements, velocities
+from tribodyn.train.layout import displacements, velocities
 
 PHASES = 8
 

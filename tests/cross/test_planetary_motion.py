@@ -26,16 +26,14 @@ from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
+from tribodyn.train.layout import displacements, velocities, work_of
 from tribodyn.train.structure import (
     DAMPING,
     IN,
     OUT,
     PARAMETRIC,
-    displacements,
     shift_of,
     turn_of,
-    velocities,
-    work_of,
 )
 
 TEETH, MODULE, ALPHA = (27, 35, 97), 3e-3, np.radians(24.6)

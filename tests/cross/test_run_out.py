@@ -13,7 +13,7 @@ from tests.support.own_teeth import errors
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
-from tribodyn.train.structure import displacements
+from tribodyn.train.layout import displacements
 
 #: Always two pairs in contact, of one stiffness.
 CONTACT_RATIO = 2.0

@@ -11,16 +11,12 @@ from tribodyn.solve.orbit.periodic import WANDERING, steady_states
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import scales_from, table_scales, tolerances_from
 from tribodyn.solve.transient import make_integrator
+from tribodyn.train.layout import displacements, velocities, work_of, work_of_mesh, works
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
     OUT,
-    displacements,
     slip_of_body,
-    velocities,
-    work_of,
-    work_of_mesh,
-    works,
 )
 
 #: A lightly damped mesh in its parametric resonance, where the load of 100 N m is lost for part of the cycle.

@@ -15,7 +15,7 @@ from tribodyn.solve.transient import TransientSettings
 from tribodyn.solve.twist import static_twist
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.train.structure import displacements
+from tribodyn.train.layout import displacements
 
 CYCLES, SAMPLES = 1, 40
 

@@ -30,6 +30,7 @@ from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales, tolerances_from
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.train.layout import displacements, velocities, work_of, works_of_meshes
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
@@ -37,10 +38,6 @@ from tribodyn.train.structure import (
     OUT,
     PARAMETRIC,
     TURN,
-    displacements,
-    velocities,
-    work_of,
-    works_of_meshes,
 )
 
 REDUCER, HUNTING = "two-stage-reducer", "two-stage-reducer-hunting"

@@ -4,7 +4,10 @@ import numpy as np
 from scipy.linalg import expm
 
 from tests.support.states import PAIR
-from tribodyn.train.structure import TURN, displacements, velocities
+from tribodyn.train.layout import displacements, velocities
+from tribodyn.train.structure import (
+    TURN,
+)
 
 STIFFNESS = 2.7e8
 #: What makes a shipped involute scenario linear in each segment.

@@ -17,9 +17,14 @@ from tests.support.train_scenarios import case_of_table
 from tribodyn.dynamics.parameters import DRIVE_SPEED, DRIVE_TORQUE, Model
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.studies.motion.prepare import prepare, tabulated
+from tribodyn.train.layout import layout_of
 from tribodyn.train.positions import frame_of, moves_of
 from tribodyn.train.schedule import schedule_of
-from tribodyn.train.structure import GROUND, Bodies, Links, layout_of
+from tribodyn.train.structure import (
+    GROUND,
+    Bodies,
+    Links,
+)
 
 SUN, RING, CARRIER, FIRST_PLANET = 0, 1, 2, 3
 

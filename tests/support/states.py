@@ -9,8 +9,14 @@ from tribodyn.dynamics.parameters import DRIVE_TORQUE, Model
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 from tribodyn.train.flow import tree
+from tribodyn.train.layout import layout_of, works
 from tribodyn.train.schedule import Schedule
-from tribodyn.train.structure import GROUND, TURN, layout_of, shift_of, turn_of, works
+from tribodyn.train.structure import (
+    GROUND,
+    TURN,
+    shift_of,
+    turn_of,
+)
 
 #: Ends of the bearings of pinion and gear, and layouts of a pair: alone, and with a motor behind a shaft.
 _BEARINGS = [(0, GROUND), (1, GROUND)]

@@ -15,7 +15,11 @@ from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, Model
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.solve.right_hand_side import contacts_of
-from tribodyn.train.structure import GROUND, TURN, displacements, layout_of, velocities
+from tribodyn.train.layout import displacements, layout_of, velocities
+from tribodyn.train.structure import (
+    GROUND,
+    TURN,
+)
 
 Array = Any
 

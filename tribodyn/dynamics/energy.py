@@ -38,6 +38,7 @@ from tribodyn.numerics.elementary import (
     truncate,
     where,
 )
+from tribodyn.train.coupling import coupling_energy
 from tribodyn.train.structure import shift_of, slip_of, speed_of
 
 # Strain energy of the tooth contacts of a mesh, and the torque with which its change in phase acts.
@@ -202,4 +203,6 @@ def stored_energy(y, model, work):
             energy = energy + 0.5 * bodies.mass[b] * y[first] * y[first]
             for i in range(first + 1, first + 3):
                 energy = energy + 0.5 * bodies.tilting[b] * y[i] * y[i]
+    if layout.coupled > 0 or layout.inertial > 0:
+        energy = energy + coupling_energy(y, model)
     return energy + link_energy(y, model)

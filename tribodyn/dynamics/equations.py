@@ -27,6 +27,7 @@ from tribodyn.dynamics.loads import add_frame_forces, carried_along, link_forces
 from tribodyn.dynamics.mesh_motion import motion_of, on_body, place_in_mesh
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.numerics.elementary import by_chain_rule, independent, law, plain
+from tribodyn.train.coupling import coupling_forces, spread_forces
 from tribodyn.train.structure import (
     AXIAL,
     DAMPING,
@@ -173,6 +174,8 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         dy[of_mesh + FRICTION] = plain(rate * friction)
         dy[of_mesh + WORK_SLIDING] = plain(rate * sliding)
     damping_power = damping_power + link_forces(y, model, dy)
+    if layout.coupled > 0:
+        damping_power = damping_power + coupling_forces(y, model, dy)
     if layout.frames > 0:
         add_frame_forces(y, model, dy)
 
@@ -192,16 +195,20 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         parametric = 0.0 * parametric
     parametric_power = parametric * reference_speed
 
+    driven_body = layout.input
+    drive_torque = zero
+    if options.drive != DRIVE_SPEED:
+        slip = slip_of_body(driven_body, y, model)
+        drive_torque = operation.drive_torque - operation.speed_regulation * slip
+        place_of_torque = half + turn_of(driven_body, layout)
+        dy[place_of_torque] = dy[place_of_torque] + drive_torque
+    if layout.inertial > 0:
+        spread_forces(y, model, dy)
     if options.drive == DRIVE_SPEED:
         drive_torque = -dy[half + layout.lag]
         acceleration = zero  # of the reference, rad/s²
         power_in = drive_torque * reference_speed
     else:
-        driven_body = layout.input
-        slip = slip_of_body(driven_body, y, model)
-        drive_torque = operation.drive_torque - operation.speed_regulation * slip
-        place_of_torque = half + turn_of(driven_body, layout)
-        dy[place_of_torque] = dy[place_of_torque] + drive_torque
         acceleration = dy[half + layout.lag] / bodies.inertia[0]
         power_in = drive_torque * speed_of(driven_body, y, model)
 
@@ -230,6 +237,9 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
             for i in range(z + 1, z + 3):
                 dy[half + i] = rate / bodies.tilting[b] * dy[half + i]
                 dy[i] = rate * y[half + i]
+    for i in range(half - layout.modes, half):
+        dy[half + i] = rate * dy[half + i]
+        dy[i] = rate * y[half + i]
     works = layout.mechanical
     dy[works + IN] = plain(rate * power_in)
     dy[works + OUT] = plain(rate * power_out)

@@ -9,6 +9,7 @@ from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.coupling import own_mass
 from tribodyn.train.flow import flow, link_row
 from tribodyn.train.links.chain import tangent_stiffness
 from tribodyn.train.structure import (
@@ -51,13 +52,14 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
     layout = model.layout
     mass, stiffness = linearised(model, cycles)
     free = np.arange(layout.half) if model.options.drive else np.delete(np.arange(layout.half), layout.lag)
-    root = 1.0 / np.sqrt(mass[free])
-    squared, vectors = np.linalg.eigh(root[:, None] * stiffness[np.ix_(free, free)] * root)
+    kept = np.ix_(free, free)
+    root = np.linalg.inv(np.linalg.cholesky(mass[kept]))
+    squared, vectors = np.linalg.eigh(root @ stiffness[kept] @ root.T)
     if model.options.drive:
         squared, vectors = squared[1:], vectors[:, 1:]
     shape = np.zeros((len(squared), layout.half))
-    shape[:, free] = (root[:, None] * vectors).T
-    energy = shape**2 * mass
+    shape[:, free] = (root.T @ vectors).T
+    energy = shape * (shape @ mass)
     owner = np.array([_body_of(place, model) for place in range(layout.half)])
     share = np.stack([np.sum(energy[:, owner == body], axis=1) for body in range(layout.bodies)], axis=1)
     return Modes(np.sqrt(np.maximum(squared, 0.0)) / (2 * np.pi), shape, share)
@@ -65,18 +67,14 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
 
 def linearised(
     model: Model, cycles: Sequence[MeshCycle]
-) -> tuple[Float[Array, " coordinate"], Float[Array, "coordinate coordinate"]]:
-    """Masses and stiffness that `modes` are of, over all coordinates and the turn of the reference."""
+) -> tuple[Float[Array, "coordinate coordinate"], Float[Array, "coordinate coordinate"]]:
+    """Mass and stiffness that `modes` are of, over all coordinates and the turn of the reference."""
     layout, bodies, links = model.layout, model.bodies, model.links
-    mass, stiffness = np.zeros(layout.half), np.zeros((layout.half, layout.half))
-    for body in range(layout.bodies):
-        mass[turn_of(body, layout)] = bodies.inertia[body]
-        if body < layout.planar:
-            mass[shift_of(body) : shift_of(body) + 2] = bodies.mass[body]
-        if body < layout.spatial:
-            first = layout.tilts + 3 * body
-            mass[first] = bodies.mass[body]
-            mass[first + 1 : first + 3] = bodies.tilting[body]
+    mass, stiffness = np.diag(own_mass(layout, bodies)), np.zeros((layout.half, layout.half))
+    extra = range(layout.half - layout.modes, layout.half)
+    mass[extra, extra] = 0.0  # all that these have is in the couplings
+    mass[layout.inertial_rows, layout.inertial_columns] += links.coupled.mass
+    stiffness[layout.coupled_rows, layout.coupled_columns] += links.coupled.stiffness
     still = model._replace(options=model.options._replace(drive=DRIVE_SPEED))
     torques = flow(still)
     for k, (first, second) in enumerate(zip(layout.first, layout.second, strict=True)):
@@ -103,8 +101,10 @@ def linearised(
 
 
 def _body_of(place: int, model: Model) -> int:
-    """Body that a coordinate belongs to."""
+    """Body that a coordinate belongs to; behind all bodies where it is no body's."""
     layout = model.layout
+    if place >= layout.half - layout.modes:
+        return layout.bodies
     if place >= layout.tilts:
         return (place - layout.tilts) // 3
     return place // 3 if place < 3 * layout.planar else place - 2 * layout.planar

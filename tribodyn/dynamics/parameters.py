@@ -3,9 +3,14 @@
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.layout import TrainLayout
 from tribodyn.train.links.chain import BY_TABLE
 from tribodyn.train.schedule import Schedule
-from tribodyn.train.structure import Bodies, GearMesh, Links, TrainLayout
+from tribodyn.train.structure import (
+    Bodies,
+    GearMesh,
+    Links,
+)
 from tribodyn.tribology.film.numbers import FilmNumbers, film_by_number
 from tribodyn.tribology.friction.coulomb import NO_FRICTION, NONE
 from tribodyn.tribology.law import (

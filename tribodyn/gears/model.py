@@ -16,9 +16,12 @@ from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.mesh.teeth.lookup import ALIKE, Teeth
 from tribodyn.mesh.teeth.table import teeth_of
 from tribodyn.numerics.curve import Table, monotone_slopes
+from tribodyn.train.layout import TrainLayout
 from tribodyn.train.positions import moves_of
 from tribodyn.train.schedule import with_teeth
-from tribodyn.train.structure import GearMesh, TrainLayout
+from tribodyn.train.structure import (
+    GearMesh,
+)
 from tribodyn.tribology.closure import Closure, laws_of
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each

@@ -18,7 +18,7 @@ from tribodyn.solve.integrator import MAX_STEPS, Ensemble, March, Status, nothin
 from tribodyn.solve.methods import AUTO, EXPLICIT, Runs, runs
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import cycles_at_once, make_integrator
-from tribodyn.train.structure import layout_of
+from tribodyn.train.layout import layout_of
 
 #: Explicit steps in one mesh cycle above which a case of a batch is taken out of the lanes and begun again by
 #: itself, with the method that `choice.choose` gives for it: the estimate costs as much as many cycles, so

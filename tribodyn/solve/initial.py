@@ -16,17 +16,16 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.step_control import largest_displacement, unbounded
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.train.flow import Flow, flow
+from tribodyn.train.layout import displacements, velocities
 from tribodyn.train.links.chain import are_linear, twist_under
 from tribodyn.train.structure import (
     GearMesh,
-    displacements,
     driven_arm,
     driver_arm,
     rolling_ratio,
     shift_of,
     turn_of,
     turned,
-    velocities,
 )
 
 _COSINE, _COMPLIANCE, _GAP, _SHARE = (

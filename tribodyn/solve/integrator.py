@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.dynamics.recorded.extremes import Extremes, no_extremes, put_extremes
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.train.structure import TrainLayout
+from tribodyn.train.layout import TrainLayout
 
 
 class Status(IntEnum):

@@ -13,8 +13,8 @@ from tribodyn.solve.integrator import IntegratedCycles, Status
 from tribodyn.solve.march.step_control import STANDSTILL, unbounded
 from tribodyn.solve.right_hand_side import engage, rhs, work_array
 from tribodyn.solve.tolerances import StepTolerances
+from tribodyn.train.layout import TrainLayout, displacements
 from tribodyn.train.schedule import intervals, sample_phases
-from tribodyn.train.structure import TrainLayout, displacements
 
 #: SciPy's class of each method.
 SOLVERS: dict[str, Any] = {"radau": Radau, "bdf": BDF, "lsoda": LSODA, "dop853": DOP853}

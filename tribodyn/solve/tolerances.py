@@ -11,7 +11,14 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
 from tribodyn.train.flow import flow
-from tribodyn.train.structure import TURN, GearMesh, displacements, rolling_ratio, shift_of, turn_of, works
+from tribodyn.train.layout import displacements, works
+from tribodyn.train.structure import (
+    TURN,
+    GearMesh,
+    rolling_ratio,
+    shift_of,
+    turn_of,
+)
 
 _COMPLIANCE = CHANNELS.index("compliance")
 _COSINE, _SINE, _GAP = CHANNELS.index("cosine"), CHANNELS.index("sine"), CHANNELS.index("gap")
@@ -109,6 +116,8 @@ def scales_from(
             scale[place], scale[half + place] = shift[body], shift_rate[body]
             scale[place + 1 : place + 3] = turn[body]
             scale[half + place + 1 : half + place + 3] = turn_rate[body]
+    first = half - layout.modes  # of no body: as the finest of those that move in the plane
+    scale[first:half], scale[half + first : 2 * half] = np.min(shift), np.min(shift_rate)
     scale[layout.lag] = turn[0] / float(model.operation.nominal_speed)
     scale[works(layout)] = SHARE_OF_WORKS * np.max(energy)
     return scale

@@ -7,7 +7,14 @@ import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.kinematics import TrainSpeeds
-from tribodyn.train.structure import TURN, TrainLayout, driven_arm, driver_arm, shift_of, turn_of
+from tribodyn.train.layout import TrainLayout
+from tribodyn.train.structure import (
+    TURN,
+    driven_arm,
+    driver_arm,
+    shift_of,
+    turn_of,
+)
 
 
 class TreeBranch(NamedTuple):

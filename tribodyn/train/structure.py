@@ -14,12 +14,11 @@ geometry with phase, and for every mesh what is lost to tooth friction and what 
 that only rotate.
 """
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.elementary import Indices, RuntimeIndices, StaticInt, law
+from tribodyn.numerics.elementary import law
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.links.chain import NO_PLAY
 from tribodyn.tribology.contact import Surfaces
@@ -55,6 +54,16 @@ class Bodies(NamedTuple):
     hoop: Float[Array, " planar"] = np.zeros(0)
 
 
+class Couplings(NamedTuple):
+    """What couples any coordinates linearly, by entries at the layout's places; see `train.coupling`."""
+
+    stiffness: Float[Array, " entry"] = np.zeros(0)
+    damping: Float[Array, " entry"] = np.zeros(0)  # with what is gyroscopic
+    force: Float[Array, " forced"] = np.zeros(0)  # constant forces
+    spread: Float[Array, " inertial"] = np.zeros(0)  # of diag(m) M⁻¹
+    mass: Float[Array, " inertial"] = np.zeros(0)  # of M less the bodies' own
+
+
 class Links(NamedTuple):
     """Springs and dampers between two bodies, or a body and the ground: bearings, shafts, couplings.
 
@@ -76,6 +85,7 @@ class Links(NamedTuple):
     #: moves that end by in x and y, m/rad
     lever: Float[Array, "link end 2"] = np.zeros((0, 2, 2))
     offset: Float[Array, "link 2"] = np.zeros((0, 2))  # how far apart in x and y the unloaded ends are, m
+    coupled: Couplings = Couplings()
 
 
 class GearMesh(NamedTuple):
@@ -110,82 +120,6 @@ class GearMesh(NamedTuple):
     driven_sense: Any = 1.0
     #: what the rotation of its carrier moves the pitch point by along the tangent, m/rad
     carrier_arm: Any = 0.0
-
-
-class TrainLayout(NamedTuple):
-    """What the train consists of: hashable, static for JAX; of a single mesh compiled into native kernels."""
-
-    spatial: int  # bodies that move in space, of those that move in the plane
-    planar: int  # bodies that move in the plane, or in space
-    bodies: int
-    meshes: int
-    links: int
-    half: int  # coordinates; state half + i is the rate of state i
-    lag: int  # place of the reference's lag, among the rates that of its slip
-    tilts: int  # place of the first z; of every body that moves in space z and tilts about x and y
-    mechanical: int  # states that the mechanics depend on; the rest are works
-    states: int
-    driver: tuple[int, ...]  # this and the next: bodies at the ends of every mesh
-    driven: tuple[int, ...]
-    carrier: tuple[int, ...]  # of every mesh the body that carries it; `GROUND`: the housing
-    first: tuple[int, ...]  # this and the next: bodies at the ends of every link; `GROUND`
-    second: tuple[int, ...]
-    pins: tuple[int, ...]  # of every link 1 where its ends have levers or an offset, else 0
-    holds: tuple[
-        int, ...
-    ]  # of every link 1 where it holds the rotation of its first end against the ground, else 0
-    frames: int  # 1 where bodies are in a frame that turns, else 0
-    input: int  # body that the drive acts on
-    output: int  # body that bears the load that varies in time
-
-
-def layout_of(
-    planar: int,
-    bodies: int,
-    meshes: Sequence[tuple[int, int]],
-    links: Sequence[tuple[int, int]],
-    drives: int,
-    loaded: int,
-    spatial: int = 0,
-    *,
-    pins: Sequence[int] = (),
-    holding: Sequence[int] = (),
-    frames: int = 0,
-    carriers: Sequence[int] = (),
-) -> TrainLayout:
-    """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output.
-
-    `pins` and `holding` are numbers of links, see `TrainLayout`; only bodies that stand still are held.
-    `carriers` are those of the meshes; none: all in the housing.
-    """
-    half = 2 * planar + bodies + 3 * spatial
-    states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
-    number, places = (StaticInt, Indices) if len(meshes) == 1 else (int, RuntimeIndices)
-    driver, driven, first, second = (
-        places([pair[end] for pair in pairs]) for pairs in (meshes, links) for end in (0, 1)
-    )
-    return TrainLayout(
-        spatial=number(spatial),
-        planar=number(planar),
-        bodies=number(bodies),
-        meshes=number(len(meshes)),
-        links=number(len(links)),
-        half=number(half),
-        lag=number(2 if planar else 0),
-        tilts=number(2 * planar + bodies),
-        mechanical=number(2 * half),
-        states=number(states),
-        driver=driver,
-        driven=driven,
-        carrier=places(carriers or [GROUND] * len(meshes)),
-        first=first,
-        second=second,
-        pins=places([int(link in pins) for link in range(len(links))]),
-        holds=places([int(link in holding) for link in range(len(links))]),
-        frames=number(frames),
-        input=number(drives),
-        output=number(loaded),
-    )
 
 
 @law
@@ -271,36 +205,6 @@ def slip_of_body(body, y, model):
     """Speed of a body less nominal, rad/s."""
     layout = model.options.layout
     return model.bodies.ratio[body] * slip_of(y, layout) + turning(body, y, layout)
-
-
-def displacements(layout: TrainLayout) -> list[int]:
-    """Places of all coordinates but the lag."""
-    return [i for i in range(layout.half) if i != layout.lag]
-
-
-def velocities(layout: TrainLayout) -> list[int]:
-    """Places of their rates."""
-    return [layout.half + i for i in displacements(layout)]
-
-
-def works(layout: TrainLayout) -> list[int]:
-    """Places of all works."""
-    return list(range(layout.mechanical, layout.states))
-
-
-def work_of(layout: TrainLayout, which: int) -> int:
-    """Place of a work of the whole train: `IN`, `OUT`, `DAMPING`, `PARAMETRIC`."""
-    return layout.mechanical + which
-
-
-def work_of_mesh(layout: TrainLayout, mesh: int, which: int) -> int:
-    """Place of a work of a mesh: `FRICTION`, `SLIDING`."""
-    return layout.mechanical + OF_MESHES + WORKS_OF_MESH * mesh + which
-
-
-def works_of_meshes(layout: TrainLayout, which: int) -> list[int]:
-    """Places of a work of all meshes."""
-    return [work_of_mesh(layout, mesh, which) for mesh in range(layout.meshes)]
 
 
 @law

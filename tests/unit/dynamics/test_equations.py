@@ -26,7 +26,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import contacts_of, engage
-from tribodyn.train.structure import velocities
+from tribodyn.train.layout import velocities
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.law import ActiveLaw
 

@@ -10,7 +10,10 @@ from tribodyn.errors import SimulationError
 from tribodyn.solve.initial import accelerations, static_deflection, static_equilibrium
 from tribodyn.solve.march.step_control import unbounded
 from tribodyn.solve.right_hand_side import contacts_of
-from tribodyn.train.structure import rotational_error, velocities
+from tribodyn.train.layout import velocities
+from tribodyn.train.structure import (
+    rotational_error,
+)
 
 STILL = {"operating.gear_torque_harmonics": []}
 SHAFT = {"operating.shaft_stiffness": "1e4 N*m/rad", "operating.drive_inertia": "0.01 kg*m**2"}

@@ -19,7 +19,7 @@ from tribodyn.solve.march.step_control import (
 )
 from tribodyn.solve.methods import dopri5 as pair
 from tribodyn.solve.methods import rodas4 as rosenbrock
-from tribodyn.train.structure import displacements
+from tribodyn.train.layout import displacements
 
 SMALL, USUAL, LIMIT = MINIMUM_STEP / 2, 1e-3, 10
 

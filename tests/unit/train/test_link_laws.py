@@ -16,7 +16,11 @@ from tribodyn.solve.march.jacobian import differentiate_links
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.run import with_link_law
-from tribodyn.train.structure import DAMPING, displacements, turned, velocities
+from tribodyn.train.layout import displacements, velocities
+from tribodyn.train.structure import (
+    DAMPING,
+    turned,
+)
 
 PLAY = {"law": "play", "play": "0.02 deg"}
 

@@ -28,7 +28,10 @@ from tribodyn.dynamics.mesh_motion import place_in_mesh
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, skippable, truncate, where
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.train.structure import TrainLayout, rotational_error_of
+from tribodyn.train.layout import TrainLayout
+from tribodyn.train.structure import (
+    rotational_error_of,
+)
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.law import ActiveLaw
 from tribodyn.tribology.surface_state import film_and_temperature

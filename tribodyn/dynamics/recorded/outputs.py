@@ -14,6 +14,7 @@ from tribodyn.dynamics.recorded.extremes import LOWEST, Extremes, highest_loaded
 from tribodyn.dynamics.recorded.faces import over_faces
 from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.train.layout import work_of, works_of_meshes
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import (
     DAMPING,
@@ -26,8 +27,6 @@ from tribodyn.train.structure import (
     shift_of,
     speed_of,
     turned,
-    work_of,
-    works_of_meshes,
 )
 from tribodyn.train.structure import FRICTION as WORK_FRICTION
 from tribodyn.tribology.contact import LocalContact

@@ -13,15 +13,13 @@ from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.geometry.drive import SIDES
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.record.trust import Judge, heat_of
+from tribodyn.train.layout import TrainLayout, work_of, works_of_meshes
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
     IN,
     OUT,
     PARAMETRIC,
-    TrainLayout,
-    work_of,
-    works_of_meshes,
 )
 
 

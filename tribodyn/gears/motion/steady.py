@@ -19,15 +19,13 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in, single_pair
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
+from tribodyn.train.layout import TrainLayout, work_of, works_of_meshes
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
     IN,
     OUT,
     SLIDING,
-    TrainLayout,
-    work_of,
-    works_of_meshes,
 )
 from tribodyn.tribology.closure import exceeded_limits, law_quantities
 from tribodyn.tribology.surface_state import fraction_in_range

@@ -13,7 +13,7 @@ from tribodyn.numerics.elementary import absolute, largest_slope, law, maximum, 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.extreme_search import ignore_segment, ignore_step
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, scratch_buffer
-from tribodyn.train.structure import TrainLayout
+from tribodyn.train.layout import TrainLayout
 
 STAGES = 12
 # fmt: off

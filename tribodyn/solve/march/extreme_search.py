@@ -41,7 +41,7 @@ from tribodyn.dynamics.recorded.extremes import (
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, opposite, where
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.structure import TrainLayout
+from tribodyn.train.layout import TrainLayout
 
 #: Rise over an extreme, as a share of it, that is not worth another evaluation.
 WORTH = 1e-7

@@ -20,6 +20,7 @@ from tribodyn.numerics.elementary import absolute, by_chain_rule, independent, l
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.link_jacobian import SHARE, differentiate_links
 from tribodyn.solve.right_hand_side import rhs
+from tribodyn.train.coupling import differentiate_couplings, spread_column
 from tribodyn.train.structure import (
     ACROSS,
     ALONG_Z,
@@ -206,6 +207,8 @@ def differentiate(place, y, f, scale, model, work, into):
         contacts += differentiate_mesh(m, place, y, scale, model, work, jacobian)
     evaluations = (contacts + layout.meshes - 1) // layout.meshes
     differentiate_links(y, scale, model, jacobian)
+    if layout.coupled > 0:
+        differentiate_couplings(y, model, works + DAMPING, jacobian)
     if layout.frames > 0:
         for b in range(layout.planar):
             x, speed = shift_of(b), bodies.frame_speed[b]
@@ -229,10 +232,12 @@ def differentiate(place, y, f, scale, model, work, into):
             jacobian[i, i] -= operation.speed_regulation
             jacobian[works + IN, i] += torque - operation.speed_regulation * speed_of(b, y, model)
     for j in range(works):
-        on_reference = jacobian[half + layout.lag, j]
         if consistent:
-            on_reference -= jacobian[works + PARAMETRIC, j]
+            jacobian[half + layout.lag, j] -= jacobian[works + PARAMETRIC, j]
             jacobian[works + PARAMETRIC, j] = 0.0
+        if layout.inertial > 0:
+            spread_column(j, model, jacobian)
+        on_reference = jacobian[half + layout.lag, j]
         if prescribed:
             jacobian[works + IN, j] -= on_reference * reference_speed
             acceleration = 0.0
@@ -256,6 +261,8 @@ def differentiate(place, y, f, scale, model, work, into):
                 jacobian[z, j] *= rate / bodies.mass[b]
                 jacobian[z + 1, j] *= rate / bodies.tilting[b]
                 jacobian[z + 2, j] *= rate / bodies.tilting[b]
+        for i in range(2 * half - layout.modes, 2 * half):
+            jacobian[i, j] *= rate
         for i in range(works, states):
             jacobian[i, j] *= rate
     for i in range(half):

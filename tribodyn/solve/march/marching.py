@@ -20,7 +20,7 @@ from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.reversal import stops
 from tribodyn.solve.right_hand_side import engage, interval_at, work_array
 from tribodyn.solve.tolerances import StepTolerances
-from tribodyn.train.structure import TrainLayout
+from tribodyn.train.layout import TrainLayout
 
 #: Rows of a method's buffer: the new state and its error; the method's own rows follow.
 STATE, ERROR, SCRATCH = 0, 1, 2

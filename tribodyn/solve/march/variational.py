@@ -34,7 +34,7 @@ from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR
 from tribodyn.solve.methods import rodas4
 from tribodyn.solve.right_hand_side import engage, interval_at, work_array
 from tribodyn.solve.tolerances import tolerances_of_many
-from tribodyn.train.structure import TrainLayout
+from tribodyn.train.layout import TrainLayout
 
 #: Floats to a cache line, on which dual numbers begin: half the time of a march that lets them cross it.
 CACHE_LINE = 8

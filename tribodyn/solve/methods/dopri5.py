@@ -12,7 +12,7 @@ from tribodyn.numerics.elementary import law, maximum, minimum
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.extreme_search import open_segment, search_step
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
-from tribodyn.train.structure import TrainLayout
+from tribodyn.train.layout import TrainLayout
 
 A = np.array(
     [

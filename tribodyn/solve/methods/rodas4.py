@@ -24,7 +24,7 @@ from tribodyn.solve.march.extreme_search import contacts_at, open_segment, searc
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
 from tribodyn.solve.right_hand_side import rhs
-from tribodyn.train.structure import TrainLayout
+from tribodyn.train.layout import TrainLayout
 
 STAGES = 6
 GAMMA = 0.25

@@ -11,7 +11,7 @@ from tribodyn.solve.march.extreme_search import open_segment, search_step
 from tribodyn.solve.march.marching import SCRATCH, Method, march_with, scratch_buffer
 from tribodyn.solve.methods import dopri5, rodas4
 from tribodyn.solve.methods.dopri5 import A
-from tribodyn.train.structure import TrainLayout
+from tribodyn.train.layout import TrainLayout
 
 #: State at the last stage less that at the one before, over the step, by the stages' rates.
 APART = A[6] - A[5]

@@ -22,7 +22,7 @@ from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import DIFFERENCE, Marched, Tangent, by_differences
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales
-from tribodyn.train.structure import TrainLayout, displacements, velocities
+from tribodyn.train.layout import TrainLayout, displacements, velocities
 
 #: Relative tolerance of a march with coarse derivatives, and of these: a step of Newton's method with them
 #: leaves a thousandth of the residual or less (measured on pairs and planetary sets), at a third of the cost.

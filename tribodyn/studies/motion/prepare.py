@@ -27,6 +27,7 @@ from tribodyn.studies.motion.assembly import (
 from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox, LoadData
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
 from tribodyn.studies.motion.thermal_iteration import at_tooth_temperatures
+from tribodyn.train.layout import TrainLayout, layout_of
 from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases, entering_teeth, nominal_phases
 from tribodyn.train.planetary import CARRIER
@@ -38,8 +39,6 @@ from tribodyn.train.structure import (
     TURN,
     Bodies,
     Links,
-    TrainLayout,
-    layout_of,
 )
 from tribodyn.tribology.closure import closure_of
 

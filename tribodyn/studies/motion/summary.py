@@ -13,7 +13,12 @@ from tribodyn.gears.prepare import contact_quantities, thermal_quantities
 from tribodyn.gears.rating.margins import margins_of
 from tribodyn.studies.motion.drivetrain.mesh_groups import ALIKE, alike_of
 from tribodyn.studies.motion.prepare import PreparedGearbox
-from tribodyn.train.structure import FRICTION, OUT, rotational_error, work_of, work_of_mesh
+from tribodyn.train.layout import work_of, work_of_mesh
+from tribodyn.train.structure import (
+    FRICTION,
+    OUT,
+    rotational_error,
+)
 
 #: Numbers that an attribute of a record holds, and that a spectrum may have.
 _LONGEST = 8000.0

@@ -8,8 +8,15 @@ from tests.support.states import LAG, TURN_G, TURN_M, X_G, X_P, Y_G, Y_P, random
 from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.solve.right_hand_side import contacts_of
+from tribodyn.train.layout import work_of, work_of_mesh
 from tribodyn.train.schedule import interval_of, of_one_mesh
-from tribodyn.train.structure import DAMPING, FRICTION, IN, OUT, PARAMETRIC, work_of, work_of_mesh
+from tribodyn.train.structure import (
+    DAMPING,
+    FRICTION,
+    IN,
+    OUT,
+    PARAMETRIC,
+)
 
 SHAFT = {
     "operating.source": "torque",

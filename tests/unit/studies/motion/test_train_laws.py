@@ -22,8 +22,12 @@ from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.studies.motion.prepare import prepare as prepare_pair
 from tribodyn.studies.motion.prepare import prepare as prepare_train
 from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.train.layout import velocities
 from tribodyn.train.schedule import phase_of
-from tribodyn.train.structure import shift_of, turn_of, velocities
+from tribodyn.train.structure import (
+    shift_of,
+    turn_of,
+)
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 

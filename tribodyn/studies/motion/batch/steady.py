@@ -18,7 +18,7 @@ from tribodyn.solve.orbit.periodic import WANDERING, SteadyMotion, refuse_time_d
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.studies.motion.batch.swept import UNKNOWN
 from tribodyn.studies.protocol.batch import NeighbourWay, NothingBetween, case_between
-from tribodyn.train.structure import TrainLayout, works
+from tribodyn.train.layout import TrainLayout, works
 
 if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch

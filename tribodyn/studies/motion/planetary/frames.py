@@ -6,8 +6,13 @@ import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
+from tribodyn.train.layout import TrainLayout
 from tribodyn.train.planetary import CARRIER
-from tribodyn.train.structure import GearMesh, TrainLayout, driven_arm, driver_arm
+from tribodyn.train.structure import (
+    GearMesh,
+    driven_arm,
+    driver_arm,
+)
 
 
 def carried_ratio(case: Gearbox, body: int, carrier: int) -> float:

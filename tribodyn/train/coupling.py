@@ -1,0 +1,199 @@
+"""What couples any coordinates of a train linearly: shafts of several gears, housings, pins in space, rings.
+
+Entries of matrices by their places in the state, which the layout keeps: force and power of an entry are
+−k q_j − c q_j' on coordinate i. A gyroscopic matrix is skew and takes no power. Where the inertia of
+coordinates is coupled, forces are spread by diag(m) M⁻¹, so that each divided by the mass that its body has
+of its own is its acceleration; coordinates of no body have the mass 1. For all compilers.
+"""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.elementary import RuntimeIndices, law
+from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.train.layout import TrainLayout
+from tribodyn.train.structure import Bodies, Couplings, shift_of, speed_of, turn_of
+
+
+class CoupledMatrices(NamedTuple):
+    """Matrices over coordinates of a train; rotations about z in the senses of their bodies."""
+
+    places: Int[Array, " coordinate"]
+    stiffness: Float[Array, "coordinate coordinate"]
+    damping: Float[Array, "coordinate coordinate"]
+    mass: Float[Array, "coordinate coordinate"]  # beside that of the bodies
+    force: Float[Array, " coordinate"]
+
+
+def coupled(
+    layout: TrainLayout,
+    parts: Sequence[CoupledMatrices],
+    bodies: Bodies,
+    prescribed: bool,
+) -> tuple[TrainLayout, Couplings]:
+    """The layout with the places of entries, and their numbers.
+
+    `prescribed` says whether the
+    rotation of the reference is. What strains that is a link's, for it has no micro-rotation.
+    """
+    half = layout.half
+    stiffness, damping, mass = np.zeros((3, half, half))
+    force = np.zeros(half)
+    for part in parts:
+        at = np.ix_(part.places, part.places)
+        stiffness[at] += part.stiffness
+        damping[at] += part.damping
+        mass[at] += part.mass
+        force[part.places] += part.force
+    assert not np.any(stiffness[layout.lag])
+    assert not np.any(damping[layout.lag])
+    rows, columns = np.nonzero((stiffness != 0.0) | (damping != 0.0))
+    forced = np.flatnonzero(force)
+    weights = own_mass(layout, bodies)
+    own = np.diag(np.where(np.arange(half) < half - layout.modes, weights, 0.0))
+    moved = np.flatnonzero(np.any(mass != 0.0, axis=1))
+    spread = _spread(mass + own, weights, moved, layout.lag if prescribed else -1)
+    inertial = np.array([(i, j) for i in moved for j in moved if spread[i, j] or mass[i, j] or i == j])
+    i, j = inertial.T if len(inertial) else np.zeros((2, 0), dtype=int)
+    kind = type(layout.half)
+    layout = layout._replace(
+        coupled=kind(int(len(rows) + len(forced) > 0)),
+        coupled_rows=_places(rows),
+        coupled_columns=_places(columns),
+        forced=_places(forced),
+        inertial=kind(int(len(i) > 0)),
+        inertial_rows=_places(i),
+        inertial_columns=_places(j),
+    )
+    numbers = Couplings(
+        stiffness[rows, columns], damping[rows, columns], force[forced], spread[i, j], mass[i, j]
+    )
+    return layout, numbers
+
+
+def own_mass(layout: TrainLayout, bodies: Bodies) -> Float[Array, " coordinate"]:
+    """Mass and inertia that the bodies have of their own, of all coordinates; 1 of those of no body."""
+    mass = np.ones(layout.half)
+    for body in range(layout.bodies):
+        mass[turn_of(body, layout)] = bodies.inertia[body]
+        if body < layout.planar:
+            mass[shift_of(body) : shift_of(body) + 2] = bodies.mass[body]
+        if body < layout.spatial:
+            first = layout.tilts + 3 * body
+            mass[first] = bodies.mass[body]
+            mass[first + 1 : first + 3] = bodies.tilting[body]
+    return mass
+
+
+def _places(numbers: Any) -> RuntimeIndices:
+    return RuntimeIndices(int(number) for number in numbers)
+
+
+def _spread(
+    mass: Float[Array, "coordinate coordinate"],
+    own: Float[Array, " coordinate"],
+    moved: Int[Array, " moved"],
+    held: int,
+) -> Float[Array, "coordinate coordinate"]:
+    """diag(m) M⁻¹; where a coordinate is `held`, in its row what accelerates the others is taken off."""
+    spread = np.zeros_like(mass)
+    free = moved[moved != held]
+    if len(free):
+        spread[np.ix_(free, free)] = own[free, None] * np.linalg.inv(mass[np.ix_(free, free)])
+    if held in moved:
+        spread[held] = -(mass[held] / own) @ spread
+        spread[held, held] = 1.0
+    return spread
+
+
+@law
+def coupling_forces(y, model, dy):
+    """Add the forces of entries to those in `dy`; returns the power that they take by damping, W."""
+    layout, parts = model.options.layout, model.links.coupled
+    half = layout.half
+    power = 0.0 * y[0]
+    for e in range(parts.stiffness.shape[0]):
+        i, j = layout.coupled_rows[e], layout.coupled_columns[e]
+        damping = parts.damping[e] * y[half + j]
+        power = power + damping * y[half + i]
+        dy[half + i] = dy[half + i] - (parts.stiffness[e] * y[j] + damping)
+    for e in range(parts.force.shape[0]):
+        i = layout.forced[e]
+        dy[half + i] = dy[half + i] + parts.force[e]
+    return power
+
+
+@law
+def spread_forces(y, model, dy):
+    """Turn the forces in `dy` into those that accelerate their coordinates' own masses alike."""
+    layout, parts = model.options.layout, model.links.coupled
+    half = layout.half
+    for e in range(parts.spread.shape[0]):
+        dy[layout.inertial_rows[e]] = 0.0 * y[0]
+    for e in range(parts.spread.shape[0]):
+        i, j = layout.inertial_rows[e], layout.inertial_columns[e]
+        dy[i] = dy[i] + parts.spread[e] * dy[half + j]
+    for e in range(parts.spread.shape[0]):
+        i = layout.inertial_rows[e]
+        dy[half + i] = dy[i]
+
+
+@law
+def rate_at(place, y, model):
+    """Rate of a coordinate; of a rotation the speed of its body, rad/s."""
+    layout = model.options.layout
+    if place < 3 * layout.planar:
+        if place % 3 == 2:
+            return speed_of(place // 3, y, model)
+    elif place < layout.tilts:
+        return speed_of(place - 2 * layout.planar, y, model)
+    return y[layout.half + place]
+
+
+@law
+def coupling_energy(y, model):
+    """Strain energy of the entries less the work of constant forces, and the kinetic one of `mass`, J."""
+    layout, parts = model.options.layout, model.links.coupled
+    energy = 0.0 * y[0]
+    for e in range(parts.stiffness.shape[0]):
+        one, other = y[layout.coupled_rows[e]], y[layout.coupled_columns[e]]
+        energy = energy + 0.5 * parts.stiffness[e] * one * other
+    for e in range(parts.force.shape[0]):
+        energy = energy - parts.force[e] * y[layout.forced[e]]
+    for e in range(parts.mass.shape[0]):
+        one = rate_at(layout.inertial_rows[e], y, model)
+        other = rate_at(layout.inertial_columns[e], y, model)
+        energy = energy + 0.5 * parts.mass[e] * one * other
+    return energy
+
+
+@law
+def differentiate_couplings(y, model, lost, jacobian):
+    """Add what the entries do to the forces of a Jacobian, and to the row `lost` of the power of damping."""
+    layout, parts = model.options.layout, model.links.coupled
+    half = layout.half
+    for e in range(parts.stiffness.shape[0]):
+        i, j = layout.coupled_rows[e], layout.coupled_columns[e]
+        jacobian[half + i, j] -= parts.stiffness[e]
+        jacobian[half + i, half + j] -= parts.damping[e]
+        jacobian[lost, half + j] += parts.damping[e] * y[half + i]
+        jacobian[lost, half + i] += parts.damping[e] * y[half + j]
+
+
+@law
+def spread_column(column, model, jacobian):
+    """`spread_forces` of one column of a Jacobian; its rows of displacements serve as scratch."""
+    layout, parts = model.options.layout, model.links.coupled
+    half = layout.half
+    for e in range(parts.spread.shape[0]):
+        jacobian[layout.inertial_rows[e], column] = 0.0
+    for e in range(parts.spread.shape[0]):
+        i, j = layout.inertial_rows[e], layout.inertial_columns[e]
+        jacobian[i, column] += parts.spread[e] * jacobian[half + j, column]
+    for e in range(parts.spread.shape[0]):
+        i = layout.inertial_rows[e]
+        jacobian[half + i, column] = jacobian[i, column]
+    for e in range(parts.spread.shape[0]):
+        jacobian[layout.inertial_rows[e], column] = 0.0
