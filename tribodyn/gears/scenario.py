@@ -173,11 +173,10 @@ def mesh_data(
 
 
 def _tilts_load_the_face(scenario: Any) -> bool:
-    """Whether the load along the face follows the tilts of the gears; internal pairs are even along it."""
+    """Whether the load along the face follows the tilts of the gears; internal spur pairs are even there."""
     drive = scenario.drive
-    if drive.has_ring:
-        return False
-    return getattr(scenario.mesh, "compliance", "fem") == "fem" or bool(drive.helix_angle)
+    by_slices = getattr(scenario.mesh, "compliance", "fem") == "fem" and not drive.has_ring
+    return by_slices or bool(drive.helix_angle)
 
 
 def broken_film_keys(scenario: Any) -> Iterator[InputError]:
@@ -212,13 +211,14 @@ def broken_stiffness_rules(mesh: Any, choices: Iterable[str] = tuple(_GIVEN)) ->
 
 
 def _broken_internal_face(scenario: Any) -> Iterator[InputError]:
-    """Refuse what varies along the face of an internal pair, whose teeth are not cut into slices."""
+    """Refuse what varies along the face of an internal spur pair, whose teeth are not cut into slices."""
+    if scenario.drive.helix_angle:
+        return
     modifications = modifications_of(scenario.drive, getattr(scenario.mesh, "misalignment", _ALIGNED))
     slices = getattr(scenario.mesh, "slices", None)
     if slices_of(slices, modifications) > 1:
-        rule = (
-            "internal pairs are even along the face: no slices, and nothing modified or misaligned along it"
-        )
+        even = "internal spur pairs are even along the face"
+        rule = f"{even}: no slices, and nothing modified or misaligned along it"
         remedy = "leave out slices, misalignment, and the crowning and end relief of both gears"
         yield InputError("mesh.slices", slices, rule, remedy)
 

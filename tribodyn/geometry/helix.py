@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radius
+from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, internal_side, reference_radius
 from tribodyn.geometry.families import Family
 from tribodyn.geometry.path import Path, PerContact
 from tribodyn.numerics.elementary import arctan2, cos, sin, sqrt, tan
@@ -87,8 +87,9 @@ def overlap_ratio(assembly: Assembly) -> Any:
 
 
 def hand_name(drive: Drive, side: Side) -> str:
-    """Hand of a gear's helix, "right" or "left": the gear's is the other than the pinion's."""
-    return "right" if (drive.helix_angle > 0) == (side == "pinion") else "left"
+    """Hand of a gear's helix, "right" or "left"; the gear's is not the pinion's, unless one is internal."""
+    as_pinion = side == "pinion" or internal_side(drive) is not None
+    return "right" if (drive.helix_angle > 0) == as_pinion else "left"
 
 
 def lead(drive: Drive, side: Any) -> Any:
@@ -96,7 +97,7 @@ def lead(drive: Drive, side: Any) -> Any:
     return (
         2.0
         * np.pi
-        * reference_radius(drive, side)
+        * abs(reference_radius(drive, side))
         * abs(cos(drive.helix_angle))
         / abs(sin(drive.helix_angle))
     )
@@ -186,7 +187,7 @@ def contact_line_lengths(assembly: Assembly, phase: Float[Array, " phase"]) -> F
 
     The phase, in pitches, counts from where a pair comes into contact in the middle of the face.
     """
-    pitch, half = float(assembly.pitch_angle), _roll_over_face(assembly) / 2.0
+    pitch, half = abs(float(assembly.pitch_angle)), _roll_over_face(assembly) / 2.0
     roll, summed = _stretched_roll(assembly)
     pairs = np.arange(-np.ceil(half / pitch) - 1, np.ceil((roll[-1] - roll[0] + half) / pitch) + 1)
     middle = roll[0] + (np.asarray(phase)[..., None] % 1.0 + pairs) * pitch
@@ -200,21 +201,26 @@ def contact_lines(assembly: Assembly) -> ContactLines:
     Of an involute, with s = p_bt/sin β_b and e the fractions of both ratios: s ε_α ε_β = b ε_α/cos β_b,
     s [ε_α ε_β − e_α e_β + max(0, e_α + e_β − 1)], s [ε_α ε_β − e_α e_β + min(e_α, e_β)].
     """
-    half = _roll_over_face(assembly) / 2.0 / float(assembly.pitch_angle)
+    pitch = abs(float(assembly.pitch_angle))
+    half = _roll_over_face(assembly) / 2.0 / pitch
     ratio = float(assembly.contact_ratio)
     # where a line reaches or leaves an end, its length has a corner: there lie the extremes of an involute
     corners = np.array([half, -half, ratio + half, ratio - half])
     lengths = contact_line_lengths(assembly, np.concatenate([corners, np.arange(_PHASES) / _PHASES]))
     _, summed = _stretched_roll(assembly)
-    mean = float(assembly.common_width * summed[-1] / assembly.pitch_angle)
+    mean = float(assembly.common_width * summed[-1] / pitch)
     return ContactLines(mean, float(lengths.min()), float(lengths.max()))
 
 
 def _stretched_roll(assembly: Assembly) -> tuple[Float[Array, " roll"], Float[Array, " roll"]]:
-    """Pinion angles along the path, rad, and the integral over them of the line's length per width."""
+    """Pinion angles along the path, rad, and the integral over them of the line's length per width.
+
+    In the sense in which the pinion turns, in which those of an internal one grow too.
+    """
     start, end = map(float, assembly.roll_limits)
     roll = np.linspace(start, end, _PATH_POINTS)
     stretch = line_stretch(pitch_slope(assembly), assembly.path, assembly.path.signed_distance(roll))
+    roll = roll * np.sign(end - start)
     steps = np.diff(roll) * (stretch[1:] + stretch[:-1]) / 2.0
     return roll, np.concatenate([[0.0], np.cumsum(steps)])
 
@@ -222,4 +228,4 @@ def _stretched_roll(assembly: Assembly) -> tuple[Float[Array, " roll"], Float[Ar
 def _roll_over_face(assembly: Assembly) -> float:
     """Pinion angle, rad, by which one end of the common face is late after the other."""
     slope = abs(float(pitch_slope(assembly)))
-    return float(assembly.common_width) * slope / float(assembly.path.pinion_pitch_radius)
+    return float(assembly.common_width) * slope / abs(float(assembly.path.pinion_pitch_radius))

@@ -176,8 +176,8 @@ def _helix_lines(assembly: Assembly, gear_torque: float) -> dict[str, Quantity]:
 def _force_lines(assembly: Assembly, gear_torque: float) -> dict[str, Quantity]:
     """Forces between involutes without friction: tangential, radial and axial; N."""
     drive = assembly.drive
-    nominal = gear_torque / float(reference_radius(drive, "gear"))
-    working = gear_torque / float(assembly.path.gear_pitch_radius)
+    nominal = gear_torque / abs(float(reference_radius(drive, "gear")))
+    working = gear_torque / abs(float(assembly.path.gear_pitch_radius))
     angle = float(assembly.path.pressure_angle(0.0))
     return {
         "tangential force on reference circle": (nominal, "N"),

@@ -94,7 +94,12 @@ def test_measured_thickness_gives_the_allowance_back(key: str, gaps: bool):
         ("pinion", {"internal": True}, "drive.pinion.internal", "make one of them external"),
         ("pinion", {"cutter_teeth": 20}, "drive.pinion.cutter_teeth", "add internal = true"),
         ("gear", {"bore_diameter": "1 m"}, "drive.gear.bore_diameter", "outer_diameter"),
-        ("drive", {"helix_angle": "10 deg"}, "drive.helix_angle", "helical internal gears"),
+        (
+            "drive",
+            {"helix_angle": "10 deg", "hand": "left", "gear": DRIVE["gear"] | {"hand": "right"}},
+            "drive.gear.hand",
+            'an internal gear has the hand of its mate; write "left"',
+        ),
     ],
 )
 def test_what_contradicts(side: str, keys: dict[str, Any], key: str, says: str):

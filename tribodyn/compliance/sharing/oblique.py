@@ -134,7 +134,8 @@ class _OneTooth:
         r = np.linspace(float(tooth.form_distance), float(tooth.tip_distance), _PROFILE)
         profile = np.stack(flank_point(tooth, r))
         steps = np.hypot(*np.diff(profile, axis=1))
-        self._profile = np.hypot(*profile), np.concatenate([[0.0], np.cumsum(steps)])
+        radii = np.sign(gear.radius[0]) * np.hypot(*profile)  # negative of an internal gear, and growing
+        self._profile = radii, np.concatenate([[0.0], np.cumsum(steps)])
         along = self.along(gear.radius)
         self.mean = same_tooth - self.surface[:, None]
         apart = np.abs(along[:, None] - along) + np.eye(len(along))

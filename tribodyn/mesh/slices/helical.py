@@ -46,7 +46,7 @@ from tribodyn.mesh.tabulate import (
     pair_compliance,
     tabulate,
 )
-from tribodyn.numerics.elementary import absolute, is_jax, namespace, within
+from tribodyn.numerics.elementary import absolute, is_jax, maximum, minimum, namespace, within
 from tribodyn.numerics.shapes import Array, Float
 
 #: Nodes over which a slice comes into contact; fewer where a table would grow beyond `MAXIMUM_NODES`.
@@ -269,14 +269,15 @@ def _slots(
         turned = start + pitch * (table.back_entry(start, pitch) - phase[..., None] + numbers) + whole / 2.0
         rolls.append(turned[..., None] + late)
     roll = xp.concatenate([part.reshape(1, nodes, -1) for part in rolls], axis=-1)
-    width = whole / count
-    low, high = within(roll - width / 2.0, start, end), within(roll + width / 2.0, start, end)
+    width = whole / count  # negative of an internal pinion, like the pitch
+    first, last = minimum(start, end), maximum(start, end)
+    low, high = within(roll - width / 2.0, first, last), within(roll + width / 2.0, first, last)
     share = (high - low) / width
     side = np.repeat([1.0, -1.0], [layout.pairs * count, len(layout.back) * count])
     limits = begin, end + whole / 2.0
     present = np.ones((1, side.size))
     touched = (low + high) / 2.0
-    offset = within(touched - roll, -width / 2.0, width / 2.0) / width  # slices, from the slice's middle
+    offset = within((touched - roll) / width, -0.5, 0.5)  # slices, from the slice's middle
     z = face_positions(1.0, count)
     place = assembly.common_width * (np.tile(z, side.size // count) - side * offset / count)
     return table.Slots(np.array([0.0, 1.0]), phase, present, side, touched, limits), share, place

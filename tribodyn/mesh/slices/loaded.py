@@ -65,7 +65,8 @@ def tabulate_loaded_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: fl
         # the phase of the mirrored world runs backwards: what is late there is early here
         sides.append(_with_helix(front, -float(assembly.drive.helix_angle))._replace(modifications=behind))
     reaches = [reach(side, gear_torque, early=mesh.early) for side in sides]
-    limits = min(start for start, _ in reaches), max(end for _, end in reaches)
+    first, last = (min, max) if reaches[0][0] < reaches[0][1] else (max, min)  # as the pinion turns
+    limits = first(start for start, _ in reaches), last(end for _, end in reaches)
     parts = parts_of_slices(assembly, front.slices, WIDTH, PER_CYCLE)
     # every second of those nodes that resolve a slice's entry: each costs as much as all of the energy method
     nodes = slice_layout(assembly, mesh, max(front.slices, front.slices * parts // 4)).nodes
@@ -145,7 +146,7 @@ def _places(
     ways = (1.0, -1.0)[: len(rolls)]
     each = [roll[..., None] - way * late for roll, way in zip(rolls, ways, strict=True)]
     middle = np.concatenate([roll.reshape(points, -1) for roll in each], axis=1)
-    low, high = (np.clip(middle + way * half_slice, *limits) for way in (-1.0, 1.0))
+    low, high = (np.clip(middle + way * half_slice, *sorted(limits)) for way in (-1.0, 1.0))
     share = np.minimum((high - low) / (2.0 * half_slice), 1.0)
     side = np.where(np.arange(middle.shape[1]) < pairs * slices, 1.0, -1.0)
     touching = np.where(np.any(share > 0.0, axis=0), 1.0, 0.0)[None]

@@ -18,7 +18,7 @@ from tribodyn.cases.assessment_part import (
 )
 from tribodyn.gears.by_standard import base_pitch_deviation, running_in_of
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, reference_radius
+from tribodyn.geometry.drive import SIDES, internal_side, reference_radius
 from tribodyn.geometry.families import family
 from tribodyn.studies import STUDIES
 from tribodyn.studies.assessment.case import AssessmentCase, RatedMesh, RatedPair
@@ -46,9 +46,11 @@ def request_of(case: RatedPair, draws: Sequence[Draw] = ()) -> Request:
     data, settings = tomllib.loads(case.toml), case.settings
     names = ("drive", "lubricant", "bearings", "shaft", "mesh", "losses")
     tables = {name: data[name] for name in names if name in data}
+    iso = {"model": "iso", "lubrication": settings.lubrication}  # of external gears
+    temperature = iso if internal_side(case.drive) is None else {"model": "oil"}
     tables |= {
         "oil_temperature": data["operating"]["oil_temperature"],
-        "temperature": data.get("temperature", {"model": "iso", "lubrication": settings.lubrication}),
+        "temperature": data.get("temperature", temperature),
         "damping_ratio": settings.damping_ratio,
     }
     lawful = case.with_laws()

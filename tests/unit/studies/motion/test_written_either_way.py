@@ -443,7 +443,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "slices": (
         {"mesh": {"compliance": "fem", "slices": 5, "damping_ratio": 0.05}},
-        "internal pairs are even along the face",
+        "internal spur pairs are even along the face",
     ),
     "formula of temperatures": ({"temperature": {"model": "iso"}}, "is of external gears"),
     "churning": (

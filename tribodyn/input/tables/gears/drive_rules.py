@@ -19,7 +19,12 @@ from tribodyn.geometry.modification import (
 from tribodyn.input.messages import outside
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear, MisalignmentTable, flank_of
 from tribodyn.input.tables.gears.quality import broken_quality_rules, helix_allowance
-from tribodyn.input.tables.gears.tooth_data import broken_tooth_rules, modules_of, shape_errors
+from tribodyn.input.tables.gears.tooth_data import (
+    broken_tooth_rules,
+    hand_of_mate,
+    modules_of,
+    shape_errors,
+)
 
 #: Slices along the face where nothing is said and anything varies along it.
 SLICES = 21
@@ -150,9 +155,8 @@ def broken_helix_rules(drive: DriveTable) -> Iterator[InputError]:
 
 def _broken_hands(drive: DriveTable) -> Iterator[InputError]:
     """Hands without a helix, and hands that contradict each other."""
-    other = {"right": "left", "left": "right"}
     hands = [
-        (f"drive.{part}", hand, hand if part != "gear.hand" else other[hand])
+        (f"drive.{part}", hand, hand if part != "gear.hand" else hand_of_mate(drive, hand))
         for part, hand in (
             ("hand", drive.hand),
             ("pinion.hand", drive.pinion.hand),
@@ -167,8 +171,11 @@ def _broken_hands(drive: DriveTable) -> Iterator[InputError]:
         return
     for key, hand, of_pinion in hands[1:]:
         if of_pinion != hands[0][2]:
-            rule = f"contradicts {hands[0][0]} = {quoted(hands[0][1])}: external gears have opposite hands"
-            yield InputError(key, quoted(hand), rule, f"write {quoted(other[hand])}, or leave it out")
+            have = "an internal gear has the hand of its mate"
+            have = have if drive.has_ring else "external gears have opposite hands"
+            rule = f"contradicts {hands[0][0]} = {quoted(hands[0][1])}: {have}"
+            right = "left" if hand == "right" else "right"
+            yield InputError(key, quoted(hand), rule, f"write {quoted(right)}, or leave it out")
 
 
 def _broken_blank(key: str, gear: Gear) -> Iterator[InputError]:

@@ -80,9 +80,6 @@ def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
     if not ring.internal:
         return
     yield from broken_internal_sizes(side, ring.teeth, mate.teeth, _cutter_teeth(ring))
-    if drive.helix_angle:
-        rule, remedy = "helical internal gears are not modelled", "leave helix_angle out"
-        yield InputError("drive.helix_angle", f"{drive.helix_angle:g} rad", rule, remedy)
 
 
 def internal_refused(drive: DriveTable) -> InputError:
@@ -127,6 +124,7 @@ THICKNESS_KEYS = (
     "pin_diameter",
 )
 _MEASURES = ("thickness_allowance", "thickness_code", "span", "over_pins")
+_OTHER_HAND: dict[Hand, Hand] = {"right": "left", "left": "right"}
 #: What each measure needs beside it.
 _WITH = {"span": "span_teeth", "over_pins": "pin_diameter"}
 _EXAMPLES = {"span_teeth": "4", "pin_diameter": '"5.25 mm"'}
@@ -146,11 +144,14 @@ def helix_of(drive: DriveTable) -> float:
 
 
 def pinion_hand(drive: DriveTable) -> Hand:
-    """Return the hand of the pinion, whose mate has the other: the first that is said, else right."""
-    hand = drive.hand or drive.pinion.hand
-    if hand is None and drive.gear.hand is not None:
-        return "left" if drive.gear.hand == "right" else "right"
-    return hand or "right"
+    """Return the hand of the pinion: the first that is said of it or of its mate, else right."""
+    of_gear = drive.gear.hand and hand_of_mate(drive, drive.gear.hand)
+    return drive.hand or drive.pinion.hand or of_gear or "right"
+
+
+def hand_of_mate(drive: DriveTable, hand: Hand) -> Hand:
+    """Return the hand of a gear whose mate has this one: the other, but with an internal gear the same."""
+    return hand if drive.has_ring else _OTHER_HAND[hand]
 
 
 def modules_of(drive: DriveTable) -> tuple[float, float]:
