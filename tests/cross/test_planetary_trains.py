@@ -291,7 +291,7 @@ def test_kinds_of_modes_have_names():
         ({"angles": ["0 deg", "102 deg", "220 deg"]}, "pitches beside the gaps"),
         ({"carrier": "arm"}, "no such"),
         ({"planets": 2, "floating": ["sun"]}, "2 planets do not hold a floating sun"),
-        ({"helix_angle": "10 deg"}, "helical planetary stages are not modelled"),
+        ({"helix_angle": "10 deg"}, "sun.hand: missing: of a helical set one gear"),
         ({"planet": "ring"}, "must be an external gear|named twice"),
         ({"radial_pin_errors": ["1 um"]}, "1 values for 3 planets"),
         ({"centre_distance": "80 mm"}, "overlap"),

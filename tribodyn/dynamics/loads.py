@@ -35,6 +35,12 @@ def load_torque(time, operation):
 
 
 @law
+def joins_in_space(k, layout):
+    """Whether a link is a matrix over x, y, z and tilts; of pins `coupling.Couplings` has all but x and y."""
+    return layout.first[k] < layout.spatial and layout.second[k] < layout.spatial and not layout.pins[k] > 0
+
+
+@law
 def apart_in_space(first, second, direction, rates, y, layout):
     """How far the ends of a link are apart in x, y, z or a tilt; `rates` is 0, or `half` for the rate."""
     apart = y[rates + place_in_space(first, direction, layout)]
@@ -80,7 +86,7 @@ def link_forces(y, model, dy):
     power = 0.0 * y[0]
     for k in range(layout.links):
         first, second = layout.first[k], layout.second[k]
-        if first < layout.spatial and second < layout.spatial:
+        if joins_in_space(k, layout):
             for row in range(IN_SPACE):
                 force, damping = 0.0 * y[0], 0.0 * y[0]
                 for direction in range(IN_SPACE):
@@ -134,7 +140,7 @@ def link_energy(y, model):
     energy = 0.0 * y[0]
     for k in range(layout.links):
         first, second = layout.first[k], layout.second[k]
-        if first < layout.spatial and second < layout.spatial:
+        if joins_in_space(k, layout):
             for row in range(IN_SPACE):
                 one = apart_in_space(first, second, row, 0, y, layout)
                 for direction in range(IN_SPACE):

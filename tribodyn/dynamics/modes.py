@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.loads import joins_in_space
 from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
@@ -79,7 +80,7 @@ def linearised(
     torques = flow(still)
     for k, (first, second) in enumerate(zip(layout.first, layout.second, strict=True)):
         ends = [body for body in (first, second) if body >= 0]
-        in_space = max(ends) < layout.spatial
+        in_space = joins_in_space(k, layout)
         if in_space:
             rows = np.zeros((IN_SPACE, layout.half))
             for sign, body in zip((1.0, -1.0), ends, strict=False):

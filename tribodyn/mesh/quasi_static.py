@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.mesh.cycle import MeshCycle, slopes
-from tribodyn.numerics.elementary import maximum, namespace, within
+from tribodyn.numerics.elementary import absolute, maximum, namespace, within
 from tribodyn.numerics.iteration import iterate
 from tribodyn.numerics.shapes import Array, Float
 
@@ -62,7 +62,7 @@ def sliding_side(cycle: MeshCycle) -> Any:
     if cycle.slices == 1:
         return xp.sign(r[:, r.shape[1] // 2, None])
     extent = cycle.share * cycle.slice_width * cycle.pitch_slope * xp.cos(cycle.pressure_angle)
-    return within(2.0 * r / maximum(extent, 1e-12 * cycle.pinion_pitch_radius), -1.0, 1.0)
+    return within(2.0 * r / maximum(extent, 1e-12 * absolute(cycle.pinion_pitch_radius)), -1.0, 1.0)
 
 
 def quasi_static(

@@ -10,7 +10,7 @@ from zlib import crc32
 
 import numpy as np
 
-from tribodyn.dynamics.loads import load_torque
+from tribodyn.dynamics.loads import joins_in_space, load_torque
 from tribodyn.dynamics.recorded.outputs import Evaluated, bearing_force
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.sensing.data import HousingData, SensorData
@@ -68,8 +68,9 @@ def force_on_bearing(link: int, direction: int, samples: Evaluated) -> Float[Arr
     model, y, layout = samples.model, samples.y, samples.model.layout
     body = layout.first[link]
     if direction == AXIAL:
-        in_space = body < layout.spatial and layout.second[link] < layout.spatial
-        return bearing_force(link, AXIAL, y, model) if in_space else np.zeros(samples.size)
+        return (
+            bearing_force(link, AXIAL, y, model) if joins_in_space(link, layout) else np.zeros(samples.size)
+        )
     forces = [np.broadcast_to(bearing_force(link, row, y, model), samples.size) for row in (0, 1)]
     return _in_housing(forces[0], forces[1], body, samples)[direction]
 

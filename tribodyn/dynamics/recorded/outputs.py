@@ -7,7 +7,12 @@ import numpy as np
 from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.energy import stored_energy
 from tribodyn.dynamics.equations import derivatives, resultants
-from tribodyn.dynamics.loads import apart_in_plane, apart_in_space, stretch_in_plane
+from tribodyn.dynamics.loads import (
+    apart_in_plane,
+    apart_in_space,
+    joins_in_space,
+    stretch_in_plane,
+)
 from tribodyn.dynamics.mesh_motion import motion_of, place_in_mesh
 from tribodyn.dynamics.parameters import Model
 from tribodyn.dynamics.recorded.extremes import LOWEST, Extremes, highest_loaded
@@ -231,7 +236,7 @@ def bearing_force(k: int, row: int, y: np.ndarray, model: Model) -> np.ndarray:
     """Force of the first body of a link on what holds it, in x or y (0, 1), N."""
     layout, links = model.layout, model.links
     first, second, half = layout.first[k], layout.second[k], layout.half
-    if first < layout.spatial and second < layout.spatial:
+    if joins_in_space(k, layout):
         moved, moving = (
             np.stack([apart_in_space(first, second, i, at, y, layout) for i in range(IN_SPACE)])
             for at in (0, half)

@@ -1,6 +1,6 @@
 """What the links do in the Jacobian of the right-hand side; laws without own slopes by differences."""
 
-from tribodyn.dynamics.loads import apart_in_space
+from tribodyn.dynamics.loads import apart_in_space, joins_in_space
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import law, maximum
 from tribodyn.train.structure import (
@@ -88,7 +88,7 @@ def differentiate_links(y, scale, model, jacobian):
     half, lost = layout.half, layout.mechanical + DAMPING
     for k in range(layout.links):
         first, second = layout.first[k], layout.second[k]
-        in_space = first < layout.spatial and second < layout.spatial
+        in_space = joins_in_space(k, layout)
         if in_space:
             for row in range(IN_SPACE):
                 for direction in range(IN_SPACE):

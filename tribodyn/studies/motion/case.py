@@ -128,6 +128,7 @@ class SetData:
     teeth: SetTeeth
     held: str  # the member that does not turn
     frame_forces: bool  # whether Coriolis and centrifugal forces are counted
+    in_space: bool = False  # whether its teeth are helical: its bodies then move in space
 
     @property
     def bodies(self) -> tuple[int, ...]:

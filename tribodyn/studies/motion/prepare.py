@@ -26,7 +26,9 @@ from tribodyn.studies.motion.assembly import (
 )
 from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox, LoadData
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
+from tribodyn.studies.motion.planetary.in_space import pins_in_space, tilts_in_frames
 from tribodyn.studies.motion.thermal_iteration import at_tooth_temperatures
+from tribodyn.train.coupling import coupled
 from tribodyn.train.layout import TrainLayout, layout_of
 from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases, entering_teeth, nominal_phases
@@ -38,6 +40,7 @@ from tribodyn.train.structure import (
     IN_SPACE,
     TURN,
     Bodies,
+    Couplings,
     Links,
 )
 from tribodyn.tribology.closure import closure_of
@@ -146,11 +149,12 @@ def _has_motor(case: Gearbox) -> bool:
 
 
 def _moves_in_space(case: Gearbox, body: int) -> bool:
-    """Whether a body that bearings hold moves in space: where anything tilts, all outside planetary sets.
+    """Whether a body that bearings hold moves in space: where anything tilts, all but those of spur sets.
 
-    And the reference, which comes before these.
+    The reference, which comes before all, even then.
     """
-    return case.tilts and (body == 0 or not any(body in gearset.bodies for gearset in case.sets))
+    in_plane = any(body in gearset.bodies for gearset in case.sets if not gearset.in_space)
+    return case.tilts and (body == 0 or not in_plane)
 
 
 def _model(
@@ -197,6 +201,11 @@ def _model(
         plain = gear_mesh(pair, each, closure, ends, frame, hand, (one, two))
         meshes.append(plain._replace(**carried_of(case, mesh, plain)))
     drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
+    parts = [
+        *pins_in_space(case, layout, new, damping, inertias),
+        *tilts_in_frames(case, order, layout, bodies),
+    ]
+    layout, couplings = coupled(layout, parts, bodies, not drive) if parts else (layout, Couplings())
     varying = _varying(case)
     first = case.meshes[0].pair
     return parameters.Model(
@@ -208,6 +217,7 @@ def _model(
             of_links,
             *_in_space(case, damping, inertias, layout),
             *pins_of(case, layout),
+            couplings,
         ),
         schedule_of(
             [np.asarray(each.table.boundary) for each in tables],
@@ -239,6 +249,8 @@ def _in_space(
     losses = stiffness.copy()
     for number, link in enumerate(case.links if layout.spatial else ()):
         body = link.ends[0]
+        if link.lever:
+            continue  # `planetary.in_space`
         of_sets = [planet for gearset in case.sets if body in gearset.bodies for planet in gearset.planets]
         faces = [case.gears[gear].face_width for one in (body, *of_sets) for gear in case.bodies[one].gears]
         width = max(faces, default=0.0)

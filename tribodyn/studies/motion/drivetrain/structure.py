@@ -28,6 +28,7 @@ from tribodyn.studies.motion.drivetrain.tables import (
 )
 from tribodyn.studies.motion.planetary.stages import (
     SetPart,
+    gears_with_hands,
     meshes_of_set,
     planet_names,
     planetary_stages,
@@ -113,8 +114,8 @@ def structure(scenario: Any) -> Structure:
     if isinstance(scenario.mesh, tuple):
         return _bare(scenario)
     stages = planetary_stages(scenario)
-    of_planets = {stage.planet for _, stage in stages}
-    tables: dict[str, Gear] = {name: gear for name, gear in scenario.gear.items() if name not in of_planets}
+    of_planets, with_hands = {stage.planet for _, stage in stages}, gears_with_hands(scenario)
+    tables: dict[str, Gear] = {name: gear for name, gear in with_hands.items() if name not in of_planets}
     if scenario.drive is not None:
         tables = dict(zip(OF_DRIVE, (scenario.drive.pinion, scenario.drive.gear), strict=True))
     shafts = list(enumerate(listed(scenario.shaft)))
@@ -145,9 +146,8 @@ def structure(scenario: Any) -> Structure:
             places[shaft.name] = springs[-1].ends
     gears = [_gear(name, _gear_key(scenario, name), places[name][0], table) for name, table in tables.items()]
     for _, stage in stages:
-        table = scenario.gear[stage.planet]
         each = zip(planet_names(stage), places[stage.planet], strict=True)
-        gears += [_gear(name, f"gear.{stage.planet}", body, table) for name, body in each]
+        gears += [_gear(name, f"gear.{stage.planet}", body, with_hands[stage.planet]) for name, body in each]
     return Structure(
         tuple(bodies),
         tuple(gears),

@@ -8,6 +8,7 @@ import numpy as np
 from tribodyn.input.tables.bearings import bearing_of
 from tribodyn.studies.motion.case import HOUSING, LinkData, SetData
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
+from tribodyn.studies.motion.planetary.in_space import along_axis, on_pin
 from tribodyn.studies.motion.planetary.stages import SetPart, pin_offset
 from tribodyn.train.planetary import CARRIER
 
@@ -20,21 +21,29 @@ def links_of_set(
 ) -> Iterator[LinkData]:
     """Pins of the planets, and what holds a member against rotation."""
     stage, new = gearset.table, train.numbers
-    carrier = new[gearset.members[CARRIER]]
+    carrier, in_space = new[gearset.members[CARRIER]], bool(stage.helix_angle)
     sense, centre = train.motion.sense[carrier], placed.places.centres
+    widths = {gear.body: float(gear.table.face_width) for gear in train.parts.gears}
     for number, body in enumerate(gearset.planets):
         bearing = bearings[body]
         if bearing is None:
             continue
         x, y = centre[new[body]] - centre[carrier]
+        data = bearing_of(bearing)
+        further = {"bearing": on_pin(data, widths[body])} if in_space else {}
         yield LinkData.of_bearing(
             f"pin-{train.parts.bodies[body].name}",
             gearset.key,
             (new[body], carrier),
-            bearing_of(bearing),
+            data,
             lever=(-sense * float(y), sense * float(x)),
             offset=pin_offset(stage, number),
+            **further,
         )
+    for body in gearset.floating if in_space else ():
+        data = along_axis(bearing_of(bearings[body]), widths[gearset.planets[0]])
+        name = f"bearing-{train.parts.bodies[body].name}"
+        yield LinkData.of_bearing(name, "bearings", (new[body], HOUSING), data, bearing=data)
     stiffness = stage.support_stiffness
     if stiffness is None:
         stiffness = USUAL_SUPPORT * _held_radius(gearset, train, placed) ** 2
@@ -66,5 +75,13 @@ def set_data(gearset: SetPart, train: TrainKinematics) -> SetData:
     members = {name: new[body] for name, body in gearset.members.items()}
     planets = tuple(new[body] for body in gearset.planets)
     return SetData(
-        stage.name, gearset.key, members, planets, stage.placed, gearset.teeth, stage.held, stage.frame_forces
+        stage.name,
+        gearset.key,
+        members,
+        planets,
+        stage.placed,
+        gearset.teeth,
+        stage.held,
+        stage.frame_forces,
+        bool(stage.helix_angle),
     )

@@ -8,6 +8,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.tables.bearings import bearing_of, broken_bearing
+from tribodyn.input.tables.gears.model_files import Hand
 from tribodyn.input.tables.shafts import listed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
@@ -94,12 +95,10 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
             ):
                 rule = f"{gear} is named twice in planetary stages"
                 yield InputError(f"{key}.{name}", quoted(gear), rule, "use a gear of its own for each")
-        if stage.helix_angle:
-            rule, remedy = "helical planetary stages are not modelled", "leave helix_angle out"
-            yield InputError(f"{key}.helix_angle", f"{stage.helix_angle:g} rad", rule, remedy)
         yield from _counts(key, stage)
         if all(name in gears for name in (stage.sun, stage.planet, stage.ring)):
             yield from _assembly(scenario, key, stage)
+            yield from _hands(scenario, stage)
         yield from _held(scenario, key, stage)
     yield from _joined_rigidly(scenario, of_sets)
     yield from _bearings(scenario, of_sets)
@@ -120,6 +119,45 @@ def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
     if len(stage.floating) == len(MEMBERS):
         rule = "no member of the set has a bearing: it has no place"
         yield InputError(f"{key}.floating", None, rule, "let one of them have a bearing")
+
+
+def hands_of_set(scenario: Any, stage: PlanetaryStage) -> dict[str, Hand | None]:
+    """Hands of sun, planets and ring by their names: planets have that of the ring, the sun has the other.
+
+    The first that the scenario gives says all of them; None: it gives none.
+    """
+    other: dict[Hand | None, Hand | None] = {None: None, "right": "left", "left": "right"}
+    given = {name: scenario.gear[name].hand for name in (stage.sun, stage.planet, stage.ring)}
+    of_sun = given[stage.sun] or other[given[stage.planet] or given[stage.ring]]
+    return {stage.sun: of_sun, stage.planet: other[of_sun], stage.ring: other[of_sun]}
+
+
+def gears_with_hands(scenario: Any) -> dict[str, Any]:
+    """Tables of all gears by their names, those of helical sets with their hands."""
+    tables = dict(scenario.gear)
+    for _, stage in planetary_stages(scenario):
+        for name, hand in hands_of_set(scenario, stage).items() if stage.helix_angle else ():
+            tables[name] = tables[name].model_copy(update={"hand": hand})
+    return tables
+
+
+def _hands(scenario: Any, stage: PlanetaryStage) -> Iterator[InputError]:
+    """Ask for one hand of a helical set, and refuse those that cross."""
+    if not stage.helix_angle:
+        return
+    for name, hand in hands_of_set(scenario, stage).items():
+        given = scenario.gear[name].hand
+        if hand is None:
+            rule = "missing: of a helical set one gear has to say the hand of its helix"
+            yield InputError(f"gear.{name}.hand", None, rule, 'add hand = "right"; the others follow')
+            return
+        if given is not None and given != hand:
+            have = "planets have the hand of the ring, and the sun has the other"
+            rule = f"crosses the hands of the stage {stage.name}: {have}"
+            yield InputError(
+                f"gear.{name}.hand", quoted(given), rule, f"write {quoted(hand)}, or leave it out"
+            )
+            return
 
 
 def _assembly(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError]:
@@ -156,9 +194,12 @@ def _bearings(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
     by_name = scenario.bearings.by_name
     for _, stage in planetary_stages(scenario):
         floating = {stage.members[name] for name in stage.floating}
-        for name in {*stage.members.values(), stage.planet} - floating:
+        moves = f"missing: {{}} of the planetary stage {stage.name} moves in x and y"
+        if stage.helix_angle:  # a member that floats is held along the axis and against tilts
+            floating, moves = set(), f"missing: teeth push {{}} of the planetary stage {stage.name} along z"
+        for name in sorted({*stage.members.values(), stage.planet} - floating):
             if not {name, "default", "gear"} & set(by_name):
-                rule = f"missing: {name} of the planetary stage {stage.name} moves in x and y"
+                rule = moves.format(name)
                 remedy = f"add [bearings.{name}], or [bearings.default]"
                 yield InputError(f"bearings.{name}", None, rule, remedy)
     for name, bearing in scenario.bearings.by_name.items():
