@@ -14,6 +14,7 @@ from tribodyn.train.coupling import own_mass
 from tribodyn.train.flow import flow, link_row
 from tribodyn.train.links.chain import tangent_stiffness
 from tribodyn.train.structure import (
+    ACROSS,
     IN_SPACE,
     MOVES,
     TOWARDS,
@@ -128,7 +129,7 @@ def _support(model: Model, m: int) -> float:
     """How much the axes of a mesh move apart per force along the line of centres, by bearings alone, m/N."""
     layout, mesh = model.layout, model.meshes[m]
     stiffness = np.asarray(model.links.stiffness)
-    total = 0.0
+    total = _support_of_couplings(model, m)
     for body in (layout.driver[m], layout.driven[m]):
         mesh_bodies = [
             k
@@ -139,6 +140,19 @@ def _support(model: Model, m: int) -> float:
         across = np.array([mesh.across_x, mesh.across_y], dtype=float)
         total += float(np.sum(across[held > 0.0] ** 2 / held[held > 0.0]))
     return total
+
+
+def _support_of_couplings(model: Model, m: int) -> float:
+    """The same of what couples many coordinates, m/N; 0 where a body of the mesh is not among them."""
+    layout, coupled = model.layout, model.links.coupled
+    places = sorted(set(layout.coupled_rows))
+    across = _directions(model, m)[ACROSS][places]
+    if not np.any(across):
+        return 0.0
+    stiffness = np.zeros((layout.half, layout.half))
+    stiffness[layout.coupled_rows, layout.coupled_columns] = coupled.stiffness
+    moved, *_ = np.linalg.lstsq(stiffness[np.ix_(places, places)], across)
+    return float(across @ moved)
 
 
 def _mean_stiffness(model: Model, m: int, cycle: MeshCycle, on_driven: float) -> Float[Array, "move move"]:

@@ -15,10 +15,11 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.geometry.modification import Misalignment, Modifications, misalignment_of_tilts
 from tribodyn.input.tables.bearings import Bearing, Bearings, bearing_of, matrix_of
+from tribodyn.input.tables.drawn_shafts import SPRINGS, BearingOfShaft, DrawnShaft
 from tribodyn.input.tables.duty import duty_of
 from tribodyn.input.tables.gears.drive_data import assembled_on_path
 from tribodyn.input.tables.gears.model_files import DriveTable
-from tribodyn.input.tables.shafts import SPRINGS, BearingOfShaft, DrawnShaft, drawn_shafts
+from tribodyn.input.tables.shafts import drawn_shafts
 from tribodyn.numerics.remembered import remembered
 from tribodyn.train.links.beam import ShaftMetal, ShaftSection
 from tribodyn.train.links.rolling_bearing import BallRow, BearingState, RollerRow

@@ -19,7 +19,7 @@ from tribodyn.dynamics.recorded.extremes import LOWEST, Extremes, highest_loaded
 from tribodyn.dynamics.recorded.faces import over_faces
 from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.train.layout import work_of, works_of_meshes
+from tribodyn.train.layout import displacements, work_of, works_of_meshes
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import (
     DAMPING,
@@ -210,7 +210,12 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         "y": over(y[shift_of(b) + 1] for b in planar),
         "moved": over(_moved(b, y, model) for b in planar),
         **{
-            f"bearing_force_{name}": over(bearing_force(k, row, y, model) for k in holding_links(model))
+            f"bearing_force_{name}": over(
+                [
+                    *(bearing_force(k, row, y, model) for k in holding_links(model)),
+                    *(reaction(k, row, y, model) for k in range(len(model.links.coupled.reaction_at_rest))),
+                ]
+            )
             for row, name in enumerate("xy")
         },
         "angle": over(ratio[b] * angle + turned(b, y, layout) for b in bodies),
@@ -245,6 +250,16 @@ def bearing_force(k: int, row: int, y: np.ndarray, model: Model) -> np.ndarray:
         return elastic + np.tensordot(np.asarray(links.damping_in_space)[k, row], moving, axes=1)
     damping = links.damping[k, row] * apart_in_plane(k, row, half, y, model)
     return links.stiffness[k, row] * stretch_in_plane(k, row, y, model) + damping
+
+
+def reaction(k: int, row: int, y: np.ndarray, model: Model) -> np.ndarray:
+    """Force of a shaft on a bearing that is among the couplings, in x, y or z (0, 1, 2), N."""
+    layout, parts = model.layout, model.links.coupled
+    places = displacements(layout)  # the reference has no micro-rotation
+    force = np.tensordot(parts.reaction[k, row, places], np.stack([y[i] for i in places]), axes=1)
+    rates = np.stack([y[layout.half + i] for i in places])
+    by_rate = np.tensordot(parts.reaction_by_rate[k, row, places], rates, axes=1)
+    return parts.reaction_at_rest[k, row] + force + by_rate
 
 
 def _moved(b: int, y: np.ndarray, model: Model) -> np.ndarray:

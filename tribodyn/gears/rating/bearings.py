@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from tribodyn.gears.case import GearCase
 from tribodyn.gears.supports import BearingUnderLoad, GearSupport
 from tribodyn.geometry.drive import SIDES
-from tribodyn.input.tables.shafts import BearingOfShaft
+from tribodyn.input.tables.drawn_shafts import BearingOfShaft
 from tribodyn.quantities.load import BEARINGS
 from tribodyn.standards.rolling_bearings import (
     STATIC_FACTOR,

@@ -1,107 +1,26 @@
 """Shafts: ``[[shaft]]``, and ``[shaft.pinion]`` and ``[shaft.gear]`` for those of a pair as drawn."""
 
-import math
 from collections.abc import Collection, Iterator
-from typing import Annotated, Any, Literal
+from itertools import pairwise
+from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
-from tribodyn.errors import InputError, broken_list, quoted, unknown_name
+from tribodyn.errors import InputError, broken_list, unknown_name
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input import units
 from tribodyn.input.fields import Inertia, PartName, TorsionalDamping, TorsionalStiffness
-from tribodyn.input.quantity import InUnit, NotNegative, Positive, Switch, Table, Text, written
-from tribodyn.input.tables.bearings import Bearings, MatrixUnits, Rows, Stiffness, broken_matrix
+from tribodyn.input.quantity import InUnit, NotNegative, Table, Text, written
+from tribodyn.input.tables.bearings import Bearings
+from tribodyn.input.tables.drawn_shafts import DrawnShaft, broken_shaft, torsional_stiffness
 from tribodyn.input.tables.laws import LinkTable, broken_link_law
-
-Size = Annotated[float, InUnit(units.positive(units.LENGTH), "30 mm")]
-Place = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
-Fit = Annotated[float, InUnit(units.DEVIATION, "10 um")]
-Rating = Annotated[float, InUnit(units.positive(units.FORCE), "30 kN")]
 
 #: Shafts of a gearbox.
 MOST_SHAFTS = 100
-#: Largest diameter of a shaft over the smallest, and over its length: stiffness in bending goes with the
-#: fourth power, of which rounding leaves 2e-6.
-MOST_STEPPED, THICKEST = 300.0, 30.0
-
-DrawnType = Literal["deep-groove-ball", "cylindrical-roller", "tapered-roller"]
-#: Keys that rolling bearings of a type need, and those that others have no use for.
-_NEEDED = {
-    "deep-groove-ball": ("elements", "element_diameter", "pitch_diameter"),
-    "cylindrical-roller": ("elements", "element_diameter", "pitch_diameter", "roller_length"),
-    "tapered-roller": (
-        *("elements", "element_diameter", "pitch_diameter", "roller_length"),
-        *("contact_angle", "thrust"),
-    ),
-}
-_UNREAD = {
-    "deep-groove-ball": ("roller_length", "contact_angle", "thrust", "preload"),
-    "cylindrical-roller": ("contact_angle", "thrust", "preload", "static_factor"),
-    "tapered-roller": ("clearance", "static_factor"),
-}
-_EXAMPLES = {
-    "elements": "9",
-    "element_diameter": '"12.7 mm"',
-    "pitch_diameter": '"65 mm"',
-    "roller_length": '"14 mm"',
-    "contact_angle": '"14 deg"',
-    "thrust": '"+z"',
-}
-#: What else is a rolling bearing's alone.
-_OF_CATALOGUE = "dynamic_rating", "static_rating", "fatigue_load_limit", "contamination_factor"
-#: Springs along x, y and z, and about x and y.
-SPRINGS = ("stiffness_x", "stiffness_y", "stiffness_axial", "stiffness_tilt")
-
-
-class SectionOfShaft(Table):
-    """A stretch of a shaft with one section; they follow each other from the end at smaller z."""
-
-    length: Size
-    diameter: Size
-    bore: Place = written("0 mm")
-
-
-class BearingOfShaft(Table):
-    """A bearing of a shaft: a rolling bearing by type and size, springs, or a matrix."""
-
-    position: Place
-    type: DrawnType | None = None
-    elements: Annotated[int, Field(strict=True, ge=3, le=1000)] | None = None
-    element_diameter: Size | None = None
-    pitch_diameter: Size | None = None
-    roller_length: Size | None = None
-    contact_angle: Annotated[float, InUnit(units.positive(units.ANGLE_KIND), "14 deg")] | None = None
-    thrust: Literal["+z", "-z"] | None = None
-    clearance: Fit = written("0 um")
-    preload: Fit = written("0 um")
-    locating: Switch = True
-    dynamic_rating: Rating | None = None
-    static_rating: Rating | None = None
-    fatigue_load_limit: Rating | None = None
-    contamination_factor: Annotated[float, Field(strict=True, gt=0, le=1)] | None = None
-    static_factor: Positive | None = None
-    stiffness_x: Stiffness | None = None
-    stiffness_y: Stiffness | None = None
-    stiffness_axial: Stiffness | None = None
-    stiffness_tilt: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = None
-    matrix: Rows = None
-    matrix_units: MatrixUnits = None
-
-
-class DrawnShaft(Table):
-    """A shaft as drawn, straight along z, and its bearings in a stiff housing."""
-
-    section: tuple[SectionOfShaft, ...] = Field(min_length=1, max_length=200)
-    gear_position: Place
-    bearing: tuple[BearingOfShaft, ...] = Field(min_length=1, max_length=20)
-    damping_ratio: NotNegative = 0.05
-    youngs_modulus: Annotated[float, InUnit(units.positive(units.PRESSURE))] = written("206 GPa")
-    poisson_ratio: Annotated[float, Field(strict=True, ge=0, lt=0.5)] = 0.3
 
 
 class Shaft(LinkTable):
-    """Gears that turn together: one rigid body, or two bodies with a torsional spring between them."""
+    """Gears that turn together: one rigid body, two bodies with a torsional spring between, or a drawing."""
 
     name: PartName
     gears: tuple[Text, ...] = Field(min_length=1)
@@ -111,6 +30,11 @@ class Shaft(LinkTable):
     damping_ratio: NotNegative = 0.0
     mass: Annotated[float, InUnit(units.not_negative(units.MASS))] = written("0 kg")
     inertia: Inertia = written("0 kg*m**2")
+
+    @property
+    def rigid(self) -> bool:
+        """Whether all that it names is one body."""
+        return self.stiffness is None and (self.drawn is None or not self.drawn.positions)
 
 
 class DrawnShafts(Table):
@@ -136,6 +60,20 @@ def listed(shafts: Any) -> tuple[Shaft, ...]:
     return shafts if isinstance(shafts, tuple) else ()
 
 
+def in_order(shaft: Shaft) -> list[str]:
+    """Names of all that a shaft drawn with positions carries, along it."""
+    positions = shaft.drawn.positions if shaft.drawn is not None else {}
+    return sorted(positions, key=lambda name: positions[name])
+
+
+def torsional_springs(shaft: Shaft) -> Iterator[tuple[str, str, float]]:
+    """Pairs of neighbours that a drawn shaft carries, and its stiffness in torsion between, N m/rad."""
+    for one, two in pairwise(in_order(shaft)):
+        assert shaft.drawn is not None
+        span = shaft.drawn.positions[one], shaft.drawn.positions[two]
+        yield one, two, torsional_stiffness(shaft.drawn, span)
+
+
 def drawn_shafts(shafts: Any) -> dict[str, tuple[str, DrawnShaft]]:
     """Gears whose shafts are drawn, with the key and the drawing; of no shafts none."""
     if isinstance(shafts, DrawnShafts):
@@ -148,31 +86,40 @@ def drawn_shafts(shafts: Any) -> dict[str, tuple[str, DrawnShaft]]:
     }
 
 
-def broken_shafts(shafts: Any, gears: Collection[str], bearings: Bearings | None) -> Iterator[InputError]:
-    """Go through what is wrong with shafts that carry some of the `gears`."""
+def broken_shafts(
+    shafts: Any, gears: Collection[str], bearings: Bearings | None, bodies: Collection[str] = ()
+) -> Iterator[InputError]:
+    """Go through what is wrong with shafts that carry some of the `gears`, and of the other `bodies`."""
     rigid: dict[str, str] = {}
     for number, shaft in enumerate(listed(shafts)):
-        yield from _broken_in_list(f"shaft.{number}", shaft, gears)
-        for name in shaft.gears if shaft.stiffness is None else ():
+        yield from _broken_in_list(f"shaft.{number}", shaft, gears, bodies)
+        carried = {*shaft.gears, *(shaft.drawn.positions if shaft.drawn is not None else ())}
+        for name in carried if shaft.stiffness is None else ():
             if rigid.setdefault(name, shaft.name) != shaft.name:
                 rule = f"{name} turns with the shaft {rigid[name]} already"
                 yield InputError(f"shaft.{number}.gears", None, rule, "write all of its gears there")
-    for gear, (key, shaft) in drawn_shafts(shafts).items():
+    for gear, (key, drawn) in drawn_shafts(shafts).items():
         if gear not in gears and isinstance(shafts, DrawnShafts):
             yield unknown_name(key, gear, gears, "gear")
-        yield from broken_shaft(key, shaft)
-        names = gear, *(one.name for one in listed(shafts) if gear in one.gears)
+        yield from broken_shaft(key, drawn)
+        shaft_of = [one for one in listed(shafts) if gear in one.gears]
+        names = gear, *(name for one in shaft_of for name in (one.name, *one.gears, *drawn.positions))
         given = bearings.by_name if bearings is not None and bearings.written_out else ()
         for name in (name for name in names if name in given):
             rule = f"gives the stiffness of the shaft of {gear} again, which [{key}] draws"
             yield InputError(f"bearings.{name}", None, rule, "leave out the one or the other")
 
 
-def _broken_in_list(key: str, shaft: Shaft, gears: Collection[str]) -> Iterator[InputError]:
+def _broken_in_list(
+    key: str, shaft: Shaft, gears: Collection[str], bodies: Collection[str]
+) -> Iterator[InputError]:
     yield from broken_list(f"{key}.gears", shaft.gears, gears, "gear")
-    if shaft.drawn is not None and len(shaft.gears) > 1:
-        rule = f"has {len(shaft.gears)} gears, and a shaft is drawn of one gear between its bearings"
-        yield InputError(f"{key}.drawn", None, rule, "give the bearings' stiffness in [bearings]")
+    if shaft.drawn is not None and shaft.drawn.positions:
+        yield from _broken_positions(key, shaft, bodies)
+    elif shaft.drawn is not None and len(shaft.gears) > 1:
+        rule = f"has {len(shaft.gears)} gears, and gear_position is the place of one"
+        example = ", ".join(f'{name} = "50 mm"' for name in shaft.gears)
+        yield InputError(f"{key}.drawn.gear_position", None, rule, f"write positions = {{ {example} }}")
     elif shaft.drawn is not None and shaft.stiffness is not None:
         rule = "draws a shaft that bends, and stiffness is that of a shaft between two gears"
         yield InputError(f"{key}.drawn", None, rule, "leave the one or the other out")
@@ -185,130 +132,26 @@ def _broken_in_list(key: str, shaft: Shaft, gears: Collection[str]) -> Iterator[
         yield InputError(f"{key}.gears", None, rule, remedy)
     if shaft.stiffness is None:
         for name in ("damping", "damping_ratio"):
-            if getattr(shaft, name):
+            if shaft.rigid and getattr(shaft, name):
                 rule, remedy = "a rigid shaft has no damping", f"add stiffness, or leave {name} out"
                 yield InputError(f"{key}.{name}", None, rule, remedy)
     yield from broken_link_law(key, shaft)
 
 
-def _shown(length: float) -> str:
-    return f"{1e3 * length:.6g} mm"
-
-
-def broken_shaft(key: str, shaft: DrawnShaft) -> Iterator[InputError]:
-    """Go through what is wrong with the shaft that a key draws."""
-    length = sum(section.length for section in shaft.section)
-    thinnest = min(range(len(shaft.section)), key=lambda number: shaft.section[number].diameter)
-    for number, section in enumerate(shaft.section):
-        others = (
-            (shaft.section[thinnest].diameter, MOST_STEPPED, f"diameter of section {thinnest + 1}"),
-            (length, THICKEST, "length of the shaft"),
-        )
-        for other, most, name in others:
-            if section.diameter > most * other:
-                times = f"{section.diameter / other:.3g} times the {name}, {_shown(other)}"
-                rule = f"is {times}, above {most:g}: too stiff beside it for its bending to be computed"
-                place = f"{key}.section.{number}.diameter"
-                yield InputError(place, _shown(section.diameter), rule, "check both, and their units")
-                break
-        if section.bore >= section.diameter:
-            rule = f"must be smaller than the diameter, {_shown(section.diameter)}"
-            yield InputError(
-                f"{key}.section.{number}.bore", _shown(section.bore), rule, "check both, and their units"
+def _broken_positions(key: str, shaft: Shaft, bodies: Collection[str]) -> Iterator[InputError]:
+    """What a shaft drawn with the places of all that it carries says wrong of them."""
+    assert shaft.drawn is not None
+    place, positions = f"{key}.drawn.positions", shaft.drawn.positions
+    for name in positions:
+        if name not in shaft.gears and name not in bodies:
+            yield unknown_name(
+                f"{place}.{name}", name, [*shaft.gears, *bodies], "gear of the shaft or [[body]]"
             )
-    places = [(f"{key}.gear_position", shaft.gear_position, "the gear would not be on it")]
-    places += [
-        (f"{key}.bearing.{number}.position", bearing.position, "the bearing would not be on it")
-        for number, bearing in enumerate(shaft.bearing)
-    ]
-    for place, position, why in places:
-        if position > length:
-            rule = f"is beyond the end of the shaft, whose sections are {_shown(length)} long: {why}"
-            remedy = f"write 0 mm to {_shown(length)}, or lengthen the sections"
-            yield InputError(place, _shown(position), rule, remedy)
-    broken = [
-        error
-        for number, bearing in enumerate(shaft.bearing)
-        for error in _broken_bearing(f"{key}.bearing.{number}", bearing)
-    ]
-    yield from broken
-    if not broken:
-        yield from _unstable(key, shaft)
-
-
-def _unstable(key: str, shaft: DrawnShaft) -> Iterator[InputError]:
-    """Refuse a shaft that its bearings do not hold whatever the load is."""
-    springs = [bearing for bearing in shaft.bearing if bearing.type is None]
-    tilts = any(bearing.matrix is not None or bearing.stiffness_tilt is not None for bearing in springs)
-    across = {
-        bearing.position
-        for bearing in shaft.bearing
-        if bearing.type is not None
-        or bearing.matrix is not None
-        or None not in (bearing.stiffness_x, bearing.stiffness_y)
-    }
-    if len(across) < (1 if tilts else 2):
-        rule = "holds the shaft across its axis at fewer than two places: it would tip over"
-        remedy = f"add a second [[{key}.bearing]], or give stiffness_tilt of one that is clamped"
-        yield InputError(f"{key}.bearing", None, rule, remedy)
-    axial = any(bearing.matrix is not None or bearing.stiffness_axial is not None for bearing in springs)
-    axial |= any(bearing.type == "tapered-roller" for bearing in shaft.bearing)
-    axial |= any(bearing.type == "deep-groove-ball" and bearing.locating for bearing in shaft.bearing)
-    if not axial:
-        rule = "none of them holds the shaft along its axis"
-        remedy = (
-            "make one a deep groove ball bearing that is locating, or two tapered ones, or add an axial "
-            f'stop: a further [[{key}.bearing]] with stiffness_axial = "1e8 N/m" alone'
-        )
-        yield InputError(f"{key}.bearing", None, rule, remedy)
-
-
-def _broken_bearing(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
-    ways = [
-        name
-        for name, there in (
-            ("type", bearing.type is not None),
-            ("matrix", bearing.matrix is not None),
-            ("stiffness", any(getattr(bearing, name) is not None for name in SPRINGS)),
-        )
-        if there
-    ]
-    if len(ways) != 1:
-        rule = f"given as {' and '.join(ways)}" if ways else "says nothing of how stiff the bearing is"
-        remedy = "give one: type with its sizes, springs such as stiffness_x, or matrix"
-        yield InputError(key, None, rule, remedy)
-        return
-    if bearing.type is None:
-        yield from _broken_spring(key, bearing)
-        return
-    for name in _NEEDED[bearing.type]:
-        if getattr(bearing, name) is None:
-            rule = f"missing: type = {quoted(bearing.type)} needs it"
-            yield InputError(f"{key}.{name}", rule=rule, remedy=f"add {name} = {_EXAMPLES[name]}")
-    for name in ("matrix_units", *_UNREAD[bearing.type]):
-        if getattr(bearing, name):
-            rule = f"has no effect with type = {quoted(bearing.type)}"
+    for name in shaft.gears:
+        if name not in positions:
+            rule, remedy = f"has no place for {name}, a gear of the shaft", f'add {name} = "50 mm"'
+            yield InputError(place, None, rule, remedy)
+    for name in ("stiffness", "mass", "inertia"):
+        if getattr(shaft, name):
+            rule = "follows from the sections of the drawn shaft"
             yield InputError(f"{key}.{name}", None, rule, f"leave {name} out")
-    if bearing.type == "tapered-roller" and not bearing.locating:
-        rule = "its rings come apart where one of them slides"
-        yield InputError(f"{key}.locating", "false", rule, "leave it out")
-    if bearing.elements and bearing.element_diameter and bearing.pitch_diameter:
-        most = math.pi / math.asin(min(bearing.element_diameter / bearing.pitch_diameter, 1.0))
-        if bearing.elements > most:
-            rule = f"no more than {math.floor(most)} of them fit side by side on the pitch circle"
-            remedy = "check elements, element_diameter and pitch_diameter"
-            yield InputError(f"{key}.elements", bearing.elements, rule, remedy)
-    if bearing.contact_angle is not None and bearing.contact_angle >= math.radians(60.0):
-        shown = f"{math.degrees(bearing.contact_angle):.6g} deg"
-        rule = "60 deg or more: a thrust bearing"
-        yield InputError(f"{key}.contact_angle", shown, rule, "write 10 to 30 deg")
-
-
-def _broken_spring(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
-    """What a spring or a matrix lacks, and what belongs to rolling bearings."""
-    yield from broken_matrix(f"{key}.matrix", bearing.matrix, bearing.matrix_units)
-    for name in (*_EXAMPLES, *_OF_CATALOGUE):
-        if getattr(bearing, name) is not None:
-            rule = "is that of a rolling bearing, and type is missing"
-            remedy = f'add type = "deep-groove-ball", or leave {name} out'
-            yield InputError(f"{key}.{name}", None, rule, remedy)

@@ -5,7 +5,7 @@ from typing import Any
 
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.tables.bearings import DEFAULT, broken_bearings
-from tribodyn.input.tables.shafts import broken_list, broken_shafts, listed
+from tribodyn.input.tables.shafts import broken_list, broken_shafts, in_order, listed
 from tribodyn.studies.motion.drivetrain.structure import OF_DRIVE
 from tribodyn.studies.motion.drivetrain.tables import GROUND, Link, PlanetaryStage
 from tribodyn.studies.motion.planetary.stages import broken_sets, planetary_stages
@@ -32,7 +32,8 @@ def broken_names(scenario: Any) -> Iterator[InputError]:
     if isinstance(scenario.mesh, tuple):
         for number, mesh in enumerate(scenario.mesh):
             yield from broken_list(f"mesh.{number}.bodies", mesh.bodies, names, "body")
-    yield from broken_shafts(scenario.shaft, gears, scenario.bearings)
+    bodies = [body.name for body in scenario.body]
+    yield from broken_shafts(scenario.shaft, gears, scenario.bearings, bodies)
     yield from _shafts(scenario)
     for number, link in enumerate(scenario.link):
         yield from _link(scenario, f"link.{number}", link, names)
@@ -90,7 +91,7 @@ def _link(scenario: Any, key: str, link: Link, names: list[str]) -> Iterator[Inp
 
 
 def _rigid_body(scenario: Any, name: str) -> str:
-    rigid = (shaft for shaft in listed(scenario.shaft) if shaft.stiffness is None)
+    rigid = (shaft for shaft in listed(scenario.shaft) if shaft.rigid)
     return next((shaft.name for shaft in rigid if name in shaft.gears), name)
 
 
@@ -116,9 +117,10 @@ def _compliant(scenario: Any, key: str, name: str) -> Iterator[InputError]:
             rule = f"is a planet, of which there are {stage.planets}"
             yield InputError(key, quoted(name), rule, "name the sun, the ring, the carrier or another body")
     for shaft in listed(scenario.shaft):
-        if shaft.name == name and shaft.stiffness is not None:
+        if shaft.name == name and not shaft.rigid:
             rule = "is a compliant shaft, which has a body at either end"
-            yield InputError(key, quoted(name), rule, f"name one of its gears: {', '.join(shaft.gears)}")
+            carried = in_order(shaft) or shaft.gears
+            yield InputError(key, quoted(name), rule, f"name one that it carries: {', '.join(carried)}")
 
 
 def _bearings(scenario: Any, names: list[str]) -> Iterator[InputError]:

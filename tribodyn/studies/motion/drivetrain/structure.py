@@ -14,11 +14,10 @@ import numpy as np
 from tribodyn.gears.motion.settings import Mesh
 from tribodyn.geometry.families import family
 from tribodyn.input.quantity import Printed
-from tribodyn.input.tables.bearings import DEFAULT, Bearing
 from tribodyn.input.tables.gears.drive_data import drive_of
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.input.tables.laws import LinkTable
-from tribodyn.input.tables.shafts import Shaft, listed
+from tribodyn.input.tables.shafts import Shaft, in_order, listed, torsional_springs
 from tribodyn.studies.motion.drivetrain.tables import (
     GROUND,
     BareMesh,
@@ -119,7 +118,7 @@ def structure(scenario: Any) -> Structure:
     if scenario.drive is not None:
         tables = dict(zip(OF_DRIVE, (scenario.drive.pinion, scenario.drive.gear), strict=True))
     shafts = list(enumerate(listed(scenario.shaft)))
-    rigid = [(number, shaft) for number, shaft in shafts if shaft.stiffness is None]
+    rigid = [(number, shaft) for number, shaft in shafts if shaft.rigid]
     bodies: list[BodyPart] = []
     places: dict[str, tuple[int, ...]] = {}
     for number, shaft in rigid:
@@ -144,6 +143,13 @@ def structure(scenario: Any) -> Structure:
                     mass=body.mass + shaft.mass / 2, inertia=body.inertia + shaft.inertia / 2
                 )
             places[shaft.name] = springs[-1].ends
+        elif not shaft.rigid:
+            for one, two, stiffness in torsional_springs(shaft):
+                ends, ratio = (places[one][0], places[two][0]), shaft.drawn.damping_ratio
+                springs.append(
+                    _torsion(f"{shaft.name}-{one}-{two}", number, ends, (stiffness, 0.0, ratio), shaft)
+                )
+            places[shaft.name] = tuple(places[name][0] for name in in_order(shaft))
     gears = [_gear(name, _gear_key(scenario, name), places[name][0], table) for name, table in tables.items()]
     for _, stage in stages:
         each = zip(planet_names(stage), places[stage.planet], strict=True)
@@ -192,15 +198,16 @@ def _stages(scenario: Any, gears: Sequence[GearPart]) -> Iterator[MeshPart]:
 
 def _spring(number: int, shaft: Shaft, places: dict[str, tuple[int, ...]]) -> LinkPart:
     ends = places[shaft.gears[0]][0], places[shaft.gears[1]][0]
-    return LinkPart(
-        shaft.name,
-        f"shaft.{number}",
-        ends,
-        (0.0, 0.0, shaft.stiffness or 0.0),
-        (0.0, 0.0, shaft.damping),
-        (0.0, 0.0, shaft.damping_ratio),
-        shaft,
-    )
+    acts = shaft.stiffness or 0.0, shaft.damping, shaft.damping_ratio
+    return _torsion(shaft.name, number, ends, acts, shaft)
+
+
+def _torsion(
+    name: str, number: int, ends: tuple[int, int], acts: tuple[float, float, float], shaft: Shaft
+) -> LinkPart:
+    """A link that twists alone: stiffness, damping and damping ratio."""
+    stiffness, damping, ratio = ((0.0, 0.0, each) for each in acts)
+    return LinkPart(name, f"shaft.{number}", ends, stiffness, damping, ratio, shaft)
 
 
 def _links(scenario: Any, places: dict[str, tuple[int, ...]]) -> Iterator[LinkPart]:
@@ -326,14 +333,3 @@ def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
     return scenario.mesh.model_copy(
         update={name: value for name, value in values.items() if value is not None}
     )
-
-
-def bearings_by_body(scenario: Any, parts: Structure) -> list[Bearing | None]:
-    """The bearings of every body: its own, else "default", else the gear's of a bearings file; None: none."""
-    by_name = scenario.bearings.by_name
-    default = by_name.get(DEFAULT, by_name.get(OF_DRIVE[1]))
-    bearings: list[Bearing | None] = [default] * len(parts.bodies)
-    for name, bearing in by_name.items():
-        for body in parts.places.get(name, ()):
-            bearings[body] = bearing
-    return bearings

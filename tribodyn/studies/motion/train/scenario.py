@@ -58,7 +58,6 @@ from tribodyn.studies.motion.drivetrain.placed_train import (
     place_train,
     resolve_kinematics,
 )
-from tribodyn.studies.motion.drivetrain.structure import bearings_by_body
 from tribodyn.studies.motion.drivetrain.tables import (
     MOST_PARTS,
     AnyStage,
@@ -69,7 +68,7 @@ from tribodyn.studies.motion.drivetrain.tables import (
 )
 from tribodyn.studies.motion.planetary.links import links_of_set, set_data
 from tribodyn.studies.motion.train.pair_view import losses_of_meshes, own_teeth, pair_view, reference_teeth
-from tribodyn.studies.motion.train.supports import supports_of_bodies, supports_of_mesh
+from tribodyn.studies.motion.train.supports import bearings_by_body, supports_of_bodies, supports_of_mesh
 from tribodyn.train.links import LINK_LAWS
 
 

@@ -18,11 +18,11 @@ from tribodyn.gears.supports import (
     mean_loads,
 )
 from tribodyn.geometry.modification import misalignment_of_tilts
-from tribodyn.input.tables.bearings import bearing_of
+from tribodyn.input.tables.bearings import DEFAULT, Bearing, bearing_of
 from tribodyn.input.tables.shafts import drawn_shafts
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
-from tribodyn.studies.motion.drivetrain.structure import bearings_by_body
+from tribodyn.studies.motion.drivetrain.structure import OF_DRIVE, Structure
 from tribodyn.train.positions import frame_of
 
 _NOTHING = (0.0,) * 5
@@ -94,3 +94,14 @@ def _turned(turn: Float[Array, "3 3"], values: Any) -> Five:
     """Three components of a vector, and the first two of one whose third is 0, in other directions."""
     one, two = turn @ np.asarray(values[:3]), turn @ np.array([*values[3:], 0.0])
     return (*map(float, one), *map(float, two[:2]))
+
+
+def bearings_by_body(scenario: Any, parts: Structure) -> list[Bearing | None]:
+    """The bearings of every body: its own, else "default", else the gear's of a bearings file; None: none."""
+    by_name = scenario.bearings.by_name
+    default = by_name.get(DEFAULT, by_name.get(OF_DRIVE[1]))
+    bearings: list[Bearing | None] = [default] * len(parts.bodies)
+    for name, bearing in by_name.items():
+        for body in parts.places.get(name, ()):
+            bearings[body] = bearing
+    return bearings
