@@ -159,7 +159,7 @@ def matrix_support(key: str, data: BearingData, load: Five) -> GearSupport:
 def drawn_support(key: str, table: DrawnShaft, load: Five) -> GearSupport:
     """What a shaft as drawn holds its gear by under a load; InputError where it does not."""
     try:
-        moved, stiffness, answers = _settled(_shaft_of(table), load)
+        moved, stiffness, answers = _settled(_supported(table), load)
     except NotHeld as error:
         rule = f"{error}, under the load of the mesh"
         remedy = (
@@ -186,25 +186,30 @@ def _settled(shaft: SupportedShaft, load: Five) -> tuple[Five, Matrix, tuple[tup
     return (
         tuple(settled_shaft.displacement.tolist()),
         tuple(map(tuple, settled_shaft.stiffness.tolist())),
-        tuple((tuple(state.force.tolist()), _element_loads(state)) for state in settled_shaft.bearings),
+        tuple((tuple(state.force.tolist()), element_loads(state)) for state in settled_shaft.bearings),
     )
 
 
-def _element_loads(state: BearingState) -> Matrix:
+def element_loads(state: BearingState) -> Matrix:
+    """Loads of the rolling elements of a bearing, of their slices where they are rollers, N."""
     loads = state.element_load[:, None] if state.slice_load is None else state.slice_load
     return tuple(map(tuple, loads.tolist()))
 
 
-def _shaft_of(table: DrawnShaft) -> SupportedShaft:
-    return SupportedShaft(
-        tuple(ShaftSection(*section.model_dump().values()) for section in table.section),
-        table.gear_position,
-        tuple(Support(bearing.position, _held(bearing)) for bearing in table.bearing),
-        ShaftMetal(table.youngs_modulus, table.poisson_ratio),
-    )
+def _supported(table: DrawnShaft) -> SupportedShaft:
+    sections, metal = shaft_of(table)
+    assert table.gear_position is not None, "refused by the rules"
+    supports = (Support(bearing.position, held_by(bearing)) for bearing in table.bearing)
+    return SupportedShaft(sections, table.gear_position, tuple(supports), metal)
 
 
-def _held(table: BearingOfShaft) -> BallRow | RollerRow | Matrix:
+def shaft_of(table: DrawnShaft) -> tuple[tuple[ShaftSection, ...], ShaftMetal]:
+    """Sections and metal of a drawing."""
+    sections = tuple(ShaftSection(*section.model_dump().values()) for section in table.section)
+    return sections, ShaftMetal(table.youngs_modulus, table.poisson_ratio)
+
+
+def held_by(table: BearingOfShaft) -> BallRow | RollerRow | Matrix:
     """A bearing as the physics takes it."""
     if table.matrix is not None:
         return matrix_of(table.matrix, table.matrix_units)

@@ -62,9 +62,8 @@ class Couplings(NamedTuple):
     force: Float[Array, " forced"] = np.zeros(0)  # constant forces
     spread: Float[Array, " inertial"] = np.zeros(0)  # of diag(m) M⁻¹
     mass: Float[Array, " inertial"] = np.zeros(0)  # of M less the bodies' own
-    #: this and the next two: forces on x, y, z of bearings that are in the entries, by coordinates and rates
+    #: this and the next: elastic forces on bearings that are in the entries, along x, y, z, by coordinates
     reaction: Float[Array, "bearing 3 coordinate"] = np.zeros((0, 3, 0))
-    reaction_by_rate: Float[Array, "bearing 3 coordinate"] = np.zeros((0, 3, 0))
     reaction_at_rest: Float[Array, "bearing 3"] = np.zeros((0, 3))
 
 

@@ -257,9 +257,7 @@ def reaction(k: int, row: int, y: np.ndarray, model: Model) -> np.ndarray:
     layout, parts = model.layout, model.links.coupled
     places = displacements(layout)  # the reference has no micro-rotation
     force = np.tensordot(parts.reaction[k, row, places], np.stack([y[i] for i in places]), axes=1)
-    rates = np.stack([y[layout.half + i] for i in places])
-    by_rate = np.tensordot(parts.reaction_by_rate[k, row, places], rates, axes=1)
-    return parts.reaction_at_rest[k, row] + force + by_rate
+    return parts.reaction_at_rest[k, row] + force
 
 
 def _moved(b: int, y: np.ndarray, model: Model) -> np.ndarray:

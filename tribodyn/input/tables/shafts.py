@@ -66,12 +66,12 @@ def in_order(shaft: Shaft) -> list[str]:
     return sorted(positions, key=lambda name: positions[name])
 
 
-def torsional_springs(shaft: Shaft) -> Iterator[tuple[str, str, float]]:
-    """Pairs of neighbours that a drawn shaft carries, and its stiffness in torsion between, N m/rad."""
+def torsional_springs(shaft: Shaft) -> Iterator[tuple[str, str, float, float]]:
+    """Neighbours that a drawn shaft carries, its stiffness in torsion between, N m/rad, and damping ratio."""
     for one, two in pairwise(in_order(shaft)):
         assert shaft.drawn is not None
         span = shaft.drawn.positions[one], shaft.drawn.positions[two]
-        yield one, two, torsional_stiffness(shaft.drawn, span)
+        yield one, two, torsional_stiffness(shaft.drawn, span), shaft.drawn.damping_ratio
 
 
 def drawn_shafts(shafts: Any) -> dict[str, tuple[str, DrawnShaft]]:

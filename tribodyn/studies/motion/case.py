@@ -13,6 +13,7 @@ from tribodyn.cases.results import CaseHead
 from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
 from tribodyn.gears.case import ROUNDED, LubricatedCase, OutputData, rounded_in
+from tribodyn.gears.drawn_system import DrawnSystem
 from tribodyn.gears.supports import GearSupport
 from tribodyn.geometry.drive import BodyMass, Side
 from tribodyn.numerics.curve import Table
@@ -192,6 +193,7 @@ class Gearbox(CaseHead):
     output: OutputData
     sets: tuple[SetData, ...] = ()
     supports: Mapping[int, GearSupport] = field(default_factory=dict)  # drawn shafts and matrices, by body
+    system: DrawnSystem | None = None  # shafts drawn with all that they carry, which then have no links
     sensors: tuple[SensorData, ...] = ()
     housing: HousingData = field(default_factory=HousingData)  # that they sit on
     #: whether its file names the meshes: then a record has a dimension over them; else there is one mesh
@@ -251,7 +253,8 @@ class Gearbox(CaseHead):
 
         Helical teeth are cut into slices, and spur teeth where a scenario says so.
         """
-        if any(link.bearing is not None and link.bearing.matrix is not None for link in self.links):
+        matrices = any(link.bearing is not None and link.bearing.matrix is not None for link in self.links)
+        if matrices or self.system is not None:
             return True
         return any(float(pair.drive.helix_angle) != 0.0 or pair.mesh.slices > 1 for pair in self.pairs)
 

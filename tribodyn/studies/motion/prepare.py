@@ -119,7 +119,8 @@ def prepare(case: Gearbox, tables: tuple[Tabulated, ...] | None = None) -> Prepa
 def _held(case: Gearbox, body: int) -> bool:
     """Whether bearings hold a body, which then moves in the plane; another one only turns."""
     springs = any(body in link.ends and min(link.stiffness[:2]) > 0.0 for link in case.links)
-    return springs or case.bodies[body].floating
+    on_shaft = case.system is not None and body in case.system.bodies
+    return springs or on_shaft or case.bodies[body].floating
 
 
 def _order(case: Gearbox) -> tuple[int, ...]:
@@ -208,6 +209,7 @@ def _model(
     layout, couplings = coupled(layout, parts, bodies, not drive) if parts else (layout, Couplings())
     varying = _varying(case)
     first = case.meshes[0].pair
+    layout, couplings = _couplings(case, layout, bodies, new, drive)
     return parameters.Model(
         tuple(meshes),
         bodies,
@@ -236,6 +238,17 @@ def _model(
         ),
         options_of(first, [each.cycle for each in tables], closures[0], layout, drive)._replace(links=chain),
     )
+
+
+def _couplings(
+    case: Gearbox, layout: TrainLayout, bodies: Bodies, new: dict[int, int], drive: int
+) -> tuple[TrainLayout, Couplings]:
+    """What couples many bodies by matrices: shafts as drawn, in their bearings and the housing."""
+    if case.system is None:
+        return layout, Couplings()
+    parts, reaction, at_rest = case.system.couplings(layout, bodies, new)
+    layout, numbers = coupled(layout, [parts], bodies, drive == parameters.DRIVE_SPEED)
+    return layout, numbers._replace(reaction=reaction, reaction_at_rest=at_rest)
 
 
 def _in_space(
@@ -302,6 +315,7 @@ def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
         holding=[number for number, link in enumerate(case.links) if link.holds],
         frames=int(bool(case.sets)),
         carriers=[new.get(mesh.carrier, GROUND) for mesh in case.meshes],
+        modes=case.system.reduced.modes if case.system is not None else 0,
     )
 
 

@@ -191,6 +191,7 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
     """The layout of a record of a gearbox, and what it holds from the start."""
     case, model = prepared.case, prepared.model
     bearings = [case.links[k].name for k in holding_links(model)]
+    bearings += case.system.bearing_names if case.system is not None else []
     numbers = [number for mesh in meshes for number in mesh_pairs(mesh.cycle)]
     pairs = tuple(range(min(numbers), max(numbers) + 1))
     scales = revolution_scale(case.output.revolutions(case.solver.cycles))

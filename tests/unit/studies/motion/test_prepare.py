@@ -150,6 +150,7 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
     }
     empty = {
         "own",
+        "coupled",
         "lever",
         "offset",
         "stiffness_in_space",

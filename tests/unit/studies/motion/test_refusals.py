@@ -173,7 +173,7 @@ REFUSED: dict[str, tuple[list[Change], str, str]] = {
     "a compliant shaft as the output": (
         [put("shaft.0.stiffness", "1e5 N*m/rad"), put("operating.output", "middle")],
         "operating.output",
-        "has a body at either end; name one of its gears: wheel-1, pinion-2",
+        "has a body at either end; name one that it carries: wheel-1, pinion-2",
     ),
     "a link without stiffness": ([put("link", [{"ends": ["wheel-1", "wheel-2"]}])], "link.0", "neither"),
     "a link of one body": (

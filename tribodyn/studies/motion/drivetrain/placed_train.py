@@ -119,7 +119,7 @@ def place_train(train: TrainKinematics) -> PlacedTrain:
     axes = _placed(train, assemblies)
     planes = _planes(parts)
     discs = [
-        Disc(gear.name, gear.key, new[gear.body], plane, _tip(train, assemblies, number))
+        Disc(gear.name, gear.key, new[gear.body], plane, tip_radius(train, assemblies, number))
         for number, (gear, plane) in enumerate(zip(parts.gears, planes, strict=True))
     ]
     for own in parts.sets:
@@ -191,7 +191,8 @@ def _placed(train: TrainKinematics, assemblies: tuple[Assembly, ...]) -> Centres
     return positions._replace(azimuths=azimuths)
 
 
-def _tip(train: TrainKinematics, assemblies: tuple[Assembly, ...], gear: int) -> float:
+def tip_radius(train: TrainKinematics, assemblies: tuple[Assembly, ...], gear: int) -> float:
+    """Radius of the tip circle of a gear, m."""
     mesh, side = train.meshes_of(gear)[0]
     return float(tip_circle_radius(assemblies[mesh].drive, side))
 

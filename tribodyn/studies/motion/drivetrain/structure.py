@@ -144,8 +144,8 @@ def structure(scenario: Any) -> Structure:
                 )
             places[shaft.name] = springs[-1].ends
         elif not shaft.rigid:
-            for one, two, stiffness in torsional_springs(shaft):
-                ends, ratio = (places[one][0], places[two][0]), shaft.drawn.damping_ratio
+            for one, two, stiffness, ratio in torsional_springs(shaft):
+                ends = places[one][0], places[two][0]
                 springs.append(
                     _torsion(f"{shaft.name}-{one}-{two}", number, ends, (stiffness, 0.0, ratio), shaft)
                 )

@@ -180,10 +180,12 @@ def duties(case: Gearbox) -> list[tuple[float, Gearbox]]:
 def shafts(case: Gearbox) -> list[TurningShaft]:
     """The drawn shafts at their speeds."""
     reference = case.source.speed / float(case.bodies[case.source.body].ratio)
+    drawn = case.system.shafts if case.system is not None else ()
+    named = {shaft.points[0][0]: shaft.name for shaft in drawn}
     return [
-        TurningShaft(case.bodies[body].name, held, float(case.bodies[body].ratio) * reference)
+        TurningShaft(named.get(body, part.name), held, float(part.ratio) * reference)
         for body, held in case.supports.items()
-        if held.bearings
+        if held.bearings and (part := case.bodies[body])
     ]
 
 

@@ -1,6 +1,6 @@
 """The scenario of a train, and the case that is made of it."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, Literal, cast
 
 from pydantic import Discriminator, Field, Tag
@@ -68,7 +68,12 @@ from tribodyn.studies.motion.drivetrain.tables import (
 )
 from tribodyn.studies.motion.planetary.links import links_of_set, set_data
 from tribodyn.studies.motion.train.pair_view import losses_of_meshes, own_teeth, pair_view, reference_teeth
-from tribodyn.studies.motion.train.supports import bearings_by_body, supports_of_bodies, supports_of_mesh
+from tribodyn.studies.motion.train.supports import (
+    bearings_by_body,
+    drawn_system,
+    supports_of_bodies,
+    supports_of_mesh,
+)
 from tribodyn.train.links import LINK_LAWS
 
 
@@ -135,15 +140,18 @@ def case_of(
     duty = duty_of(scenario, train)
     gears = _gears(train, placed)
     teeth = reference_teeth(train)
+    system = drawn_system(scenario, train, placed, duty)
     held = supports_of_bodies(scenario, train, placed, duty.torques.driven)
+    held |= system.supports() if system is not None else {}
     meshes = _meshes(scenario, train, placed, duty, (toml, sha256), held)
     head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
     return Gearbox(
         **head,
         gears=gears,
         bodies=_bodies(scenario, train, placed, duty),
-        links=_links(scenario, train, placed, held),
+        links=_links(scenario, train, placed, held, system.bodies if system is not None else ()),
         supports=held,
+        system=system,
         meshes=meshes,
         source=_source(scenario, train, duty),
         loads=duty.loads,
@@ -222,14 +230,18 @@ def _bodies(
 
 
 def _links(
-    scenario: Any, train: TrainKinematics, placed: PlacedTrain, held: Mapping[int, GearSupport]
+    scenario: Any,
+    train: TrainKinematics,
+    placed: PlacedTrain,
+    held: Mapping[int, GearSupport],
+    on_shafts: Sequence[int],
 ) -> tuple[LinkData, ...]:
     new, links = train.numbers, []
     bearings = bearings_by_body(scenario, train.parts)
     without = {body for gearset in train.parts.sets for body in (*gearset.planets, *gearset.floating)}
     for number, body in enumerate(train.motion.bodies):
         bearing = bearings[body]
-        if (bearing is not None or number in held) and body not in without:
+        if (bearing is not None or number in held) and body not in without and number not in on_shafts:
             data = held[number].data if number in held else bearing_of(cast(Bearing, bearing))
             name = f"bearing-{train.parts.bodies[body].name}"
             links.append(LinkData.of_bearing(name, "bearings", (number, HOUSING), data, bearing=data))

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.gears.drawn_system import DrawnSystem, ShaftData, check_room_of_shafts, starts
 from tribodyn.gears.supports import (
     Five,
     GearSupport,
@@ -19,9 +20,10 @@ from tribodyn.gears.supports import (
 )
 from tribodyn.geometry.modification import misalignment_of_tilts
 from tribodyn.input.tables.bearings import DEFAULT, Bearing, bearing_of
-from tribodyn.input.tables.shafts import drawn_shafts
+from tribodyn.input.tables.shafts import drawn_shafts, listed
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
+from tribodyn.studies.motion.drivetrain.duty import TrainDuty
+from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics, tip_radius
 from tribodyn.studies.motion.drivetrain.structure import OF_DRIVE, Structure
 from tribodyn.train.positions import frame_of
 
@@ -39,6 +41,7 @@ def supports_of_bodies(
     drawn = {
         train.numbers[train.parts.body(gear)]: support
         for gear, support in drawn_shafts(scenario.shaft).items()
+        if not support[1].positions
     }
     matrices = {
         number: (f"bearings.{train.parts.bodies[body].name}.matrix", bearing_of(bearing))
@@ -51,6 +54,48 @@ def supports_of_bodies(
     loads = _loads(train, placed, torques)
     held = {body: matrix_support(*support, loads[body]) for body, support in matrices.items()}
     return held | {body: drawn_support(*support, loads[body]) for body, support in drawn.items()}
+
+
+def drawn_system(
+    scenario: Any, train: TrainKinematics, placed: PlacedTrain, duty: TrainDuty
+) -> DrawnSystem | None:
+    """The shafts that are drawn with the places of all that they carry, under the mean loads; None: none.
+
+    Raises InputError where a shaft penetrates a gear of another.
+    """
+    parts, motion, new = train.parts, train.motion, train.numbers
+    drawn = [
+        (f"shaft.{number}.drawn", shaft.name, shaft.drawn)
+        for number, shaft in enumerate(listed(scenario.shaft))
+        if shaft.drawn is not None and shaft.drawn.positions
+    ]
+    if not drawn:
+        return None
+    carried = [
+        {new[parts.body(name)]: place for name, place in drawing.positions.items()} for _, _, drawing in drawn
+    ]
+    begin = starts(carried, list(zip(motion.driver, motion.driven, strict=True)))
+    speed = duty.speed / float(motion.ratio[motion.input])
+    shafts = []
+    for (key, name, drawing), bodies, start in zip(drawn, carried, begin, strict=True):
+        first = next(iter(bodies))
+        x, y = placed.places.centres[first]
+        turning = motion.sense[first], float(motion.ratio[first]) * speed
+        points = tuple(bodies.items())
+        shafts.append(ShaftData(name, key, drawing, points, (float(x), float(y)), start, *turning))
+    gears = [
+        (
+            gear.name,
+            new[gear.body],
+            tip_radius(train, placed.assemblies, number),
+            float(gear.table.face_width),
+        )
+        for number, gear in enumerate(parts.gears)
+    ]
+    check_room_of_shafts(shafts, gears, placed.places.centres)
+    loads = _loads(train, placed, duty.torques.driven)
+    on_points = tuple(tuple(loads[body].tolist()) for shaft in shafts for body, _ in shaft.points)
+    return DrawnSystem(tuple(shafts), on_points)
 
 
 def supports_of_mesh(

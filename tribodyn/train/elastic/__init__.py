@@ -1,0 +1,1 @@
+"""Shafts, bearings and housing: what gives under the loads of the meshes."""
