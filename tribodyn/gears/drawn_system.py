@@ -17,7 +17,7 @@ from tribodyn.errors import InputError
 from tribodyn.gears.supports import BearingUnderLoad, GearSupport, element_loads, held_by, shaft_of
 from tribodyn.input.tables.drawn_shafts import DrawnShaft
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.coupling import CoupledMatrices, own_mass
+from tribodyn.train.coupling import CoupledMatrices, coupled, own_mass
 from tribodyn.train.elastic.beam_matrices import SIX
 from tribodyn.train.elastic.system import (
     PlacedBearing,
@@ -31,7 +31,15 @@ from tribodyn.train.elastic.system import (
 )
 from tribodyn.train.layout import TrainLayout
 from tribodyn.train.links.shaft import NotHeld
-from tribodyn.train.structure import IN_SPACE, TILT_X, TILT_Y, Bodies, place_in_space, turn_of
+from tribodyn.train.structure import (
+    IN_SPACE,
+    TILT_X,
+    TILT_Y,
+    Bodies,
+    Couplings,
+    place_in_space,
+    turn_of,
+)
 
 #: Elements of a shaft at least where its own modes are looked for.
 ELEMENTS = 24
@@ -176,6 +184,22 @@ class DrawnSystem:
         reaction[:, :, places[turns]] = 0.0
         parts = CoupledMatrices(places, stiffness, damping, left.mass * both, force)
         return parts, reaction, left.reaction_at_rest[:, :3]
+
+
+def coupled_by(
+    system: DrawnSystem | None,
+    further: Sequence[CoupledMatrices],
+    layout: TrainLayout,
+    bodies: Bodies,
+    new: Mapping[int, int],
+    prescribed: bool,
+) -> tuple[TrainLayout, Couplings]:
+    """The layout and numbers of what couples the bodies of a model; arguments as of `coupling.coupled`."""
+    if system is None:
+        return coupled(layout, further, bodies, prescribed) if further else (layout, Couplings())
+    parts, reaction, at_rest = system.couplings(layout, bodies, new)
+    layout, numbers = coupled(layout, [parts, *further], bodies, prescribed)
+    return layout, numbers._replace(reaction=reaction, reaction_at_rest=at_rest)
 
 
 def modal_damping(

@@ -9,6 +9,7 @@ import numpy as np
 from tribodyn.dynamics import parameters
 from tribodyn.errors import InputError
 from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.drawn_system import coupled_by
 from tribodyn.gears.model import gear_mesh, helix_sign, options_of, varying_load, with_own_teeth
 from tribodyn.gears.prepare import Thermal
 from tribodyn.gears.tabulated import Tabulated, tables
@@ -28,7 +29,6 @@ from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox, LoadData
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
 from tribodyn.studies.motion.planetary.in_space import pins_in_space, tilts_in_frames
 from tribodyn.studies.motion.thermal_iteration import at_tooth_temperatures
-from tribodyn.train.coupling import coupled
 from tribodyn.train.layout import TrainLayout, layout_of
 from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases, entering_teeth, nominal_phases
@@ -40,7 +40,6 @@ from tribodyn.train.structure import (
     IN_SPACE,
     TURN,
     Bodies,
-    Couplings,
     Links,
 )
 from tribodyn.tribology.closure import closure_of
@@ -206,10 +205,9 @@ def _model(
         *pins_in_space(case, layout, new, damping, inertias),
         *tilts_in_frames(case, order, layout, bodies),
     ]
-    layout, couplings = coupled(layout, parts, bodies, not drive) if parts else (layout, Couplings())
+    layout, couplings = coupled_by(case.system, parts, layout, bodies, new, not drive)
     varying = _varying(case)
     first = case.meshes[0].pair
-    layout, couplings = _couplings(case, layout, bodies, new, drive)
     return parameters.Model(
         tuple(meshes),
         bodies,
@@ -238,17 +236,6 @@ def _model(
         ),
         options_of(first, [each.cycle for each in tables], closures[0], layout, drive)._replace(links=chain),
     )
-
-
-def _couplings(
-    case: Gearbox, layout: TrainLayout, bodies: Bodies, new: dict[int, int], drive: int
-) -> tuple[TrainLayout, Couplings]:
-    """What couples many bodies by matrices: shafts as drawn, in their bearings and the housing."""
-    if case.system is None:
-        return layout, Couplings()
-    parts, reaction, at_rest = case.system.couplings(layout, bodies, new)
-    layout, numbers = coupled(layout, [parts], bodies, drive == parameters.DRIVE_SPEED)
-    return layout, numbers._replace(reaction=reaction, reaction_at_rest=at_rest)
 
 
 def _in_space(

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import jax
 import numpy as np
 import pytest
 
@@ -50,7 +51,8 @@ def test_equal_keys_mean_equal_tables(key: str):
     for ours, theirs in zip(same.model.meshes[0].table, made.model.meshes[0].table, strict=True):
         np.testing.assert_array_equal(ours, theirs)
     for part in ("bodies", "links", "schedule", "operation"):
-        for ours, theirs in zip(getattr(same.model, part), getattr(made.model, part), strict=True):
+        both = (jax.tree.leaves(getattr(each.model, part)) for each in (same, made))
+        for ours, theirs in zip(*both, strict=True):
             np.testing.assert_array_equal(ours, theirs)
 
 
