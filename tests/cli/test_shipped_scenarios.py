@@ -43,6 +43,8 @@ QUICK_SEARCHES = ("design-cycloid-23-47", "design-shift-23-47")
 ALIKE = {
     "assessment-helical-24-95",
     "crc-23-47-300",
+    "dtu-10mw-gearbox",
+    "dtu-10mw-gearbox-assessment",
     "efficiency-helical-24-95",
     "efficiency-involute-18-36",
     "ehl-crc-23-47",
