@@ -90,9 +90,10 @@ class DrawnSystem:
         try:
             return settled(structure, self.loads)
         except NotHeld as error:
-            rule = f"{error}, under the loads of the meshes"
+            keys = [shaft.key for shaft in self.shafts for _ in shaft.points]
+            rule = f"{error}, under the load of the mesh"
             remedy = "give a load, less clearance, or bearings that hold it; thrust of tapered ones both ways"
-            raise InputError(self.shafts[0].key, None, rule, remedy) from error
+            raise InputError(keys[error.point], None, rule, remedy) from error
         except np.linalg.LinAlgError as error:
             rule = "sections and bearings differ so much in stiffness that no equilibrium can be computed"
             remedy = "check the units of lengths, diameters and stiffnesses"
@@ -139,10 +140,17 @@ class DrawnSystem:
                     tuple(map(tuple, ((own + own.T) / 2.0).tolist())), shaft.drawing.damping_ratio
                 )
                 moved = tuple(state.points[number][:IN_SPACE].tolist())
-                found[body] = GearSupport(data, moved, (0.0,) * IN_SPACE, () if first else on_bearings)
+                found[body] = GearSupport(data, moved, () if first else on_bearings)
                 number += 1
             bearing += len(drawn)
         return found
+
+    def inertia_of(self, body: int) -> float:
+        """Polar inertia of a shaft that turns with a body, kg m²; 0 where it keeps its own modes."""
+        if self.reduced.modes or body not in self.bodies:
+            return 0.0
+        turns = range(SIX - 1, SIX * len(self.bodies), SIX)
+        return float(np.sum(self.reduced.mass[turns[self.bodies.index(body)], turns]))
 
     def couplings(
         self, layout: TrainLayout, bodies: Bodies, new: Mapping[int, int]
@@ -182,7 +190,10 @@ class DrawnSystem:
         reaction = np.zeros((len(left.reaction), 3, layout.half))
         reaction[:, :, places] = left.reaction[:, :3] * signs
         reaction[:, :, places[turns]] = 0.0
-        parts = CoupledMatrices(places, stiffness, damping, left.mass * both, force)
+        mass = left.mass * both
+        if not left.modes:  # see `inertia_of`
+            mass[turns], mass[:, turns] = 0.0, 0.0
+        parts = CoupledMatrices(places, stiffness, damping, mass, force)
         return parts, reaction, left.reaction_at_rest[:, :3]
 
 

@@ -151,21 +151,26 @@ def mesh_data(
     """Return what a scenario says of its mesh, by finite elements where it names no compliance.
 
     Its table [mesh] may lack any key. `every_tooth` is for studies that know teeth that differ, `tilting` for
-    those whose helical gears tilt on their bearings by themselves; to `error`, a pair's transmission error
-    over roll angle (rad, m), a sample of deviations adds; `own` are fields of `MeshData` that are not plain
-    keys of the table. Drawn shafts add their misalignment to that of the scenario.
+    those whose gears tilt on their bearings by themselves, where the face is cut into slices; to `error`, a
+    pair's transmission error over roll angle (rad, m), a sample of deviations adds; `own` are fields of
+    `MeshData` that are not plain keys of the table. Drawn shafts add their misalignment to that of the
+    scenario.
     """
     drive, mesh = scenario.drive, scenario.mesh
     modifications = modifications_of(drive, getattr(mesh, "misalignment", _ALIGNED))
-    if _tilts_load_the_face(scenario):
-        own_tilts = tilting and bool(drive.helix_angle)
-        modifications = displaced(modifications, supports_of(scenario), own_tilts=own_tilts)
     sample, slices = getattr(mesh, "deviation_sample", None), getattr(mesh, "slices", None)
+    helical = bool(drive.helix_angle) and getattr(mesh, "compliance", "fem") == "fem"
+    if _tilts_load_the_face(scenario):
+        moved = displaced(modifications, supports_of(scenario))
+        cut = slices_of(slices, moved, helical)
+        if tilting and cut > 1:  # by which gears that tilt load the face
+            slices = cut
+        else:
+            modifications = moved
     if getattr(mesh, "compliance", "fem") == "fem":
         modifications = with_sample(drive, modifications, sample, every_tooth=every_tooth, slices=slices)
     else:
         error = error_with_sample(drive, error, sample)
-    helical = bool(drive.helix_angle) and getattr(mesh, "compliance", "fem") == "fem"
     given = {field.name for field in fields(MeshData)} & set(type(mesh).model_fields)
     values = {"compliance": "fem", "damping_ratio": 0.0} | {name: getattr(mesh, name) for name in given}
     values |= {"modifications": modifications, "slices": slices_of(slices, modifications, helical)}

@@ -35,6 +35,7 @@ from tribodyn.train.links.shaft import (
 
 #: Forces along x, y, z (N) and moments about x and y (N m), or displacements (m, rad).
 Five = tuple[float, ...]
+_STILL: Five = (0.0,) * 5
 
 
 class BearingUnderLoad(NamedTuple):
@@ -52,7 +53,6 @@ class GearSupport(NamedTuple):
 
     data: BearingData  # with the matrix about this load
     displacement: Five  # of the gear under it
-    rest: Five  # of that what the matrix alone does not give, since bearings stiffen
     bearings: tuple[BearingUnderLoad, ...] = ()
 
 
@@ -88,7 +88,9 @@ def supports_of(scenario: Any) -> GearSupports:
         elif (matrix := matrices[side]) is not None:
             supports[side] = matrix_support(f"bearings.{side}.matrix", bearing_of(matrix), load)
     angle = float(assembly.path.pressure_angle(0.0))
-    stand = misalignment_of_tilts((_of(one, "displacement")[3:] for one in supports.values()), angle)
+    stand = misalignment_of_tilts(
+        ((one.displacement if one else _STILL)[3:] for one in supports.values()), angle
+    )
     return GearSupports(supports["pinion"], supports["gear"], stand, angle)
 
 
@@ -121,23 +123,14 @@ def mean_loads(assembly: Assembly, gear_torque: float) -> tuple[Five, Five]:
     return mesh_loads(abs(gear_torque / radii[1]) * (1.0 if gear_torque >= 0.0 else -1.0), radii, *slopes)
 
 
-def displaced(modifications: Modifications, held: GearSupports, *, own_tilts: bool) -> Modifications:
-    """Flanks whose gears stand as their shafts displace them.
-
-    `own_tilts`: the gears tilt on the matrices by themselves, and what is left is what those do not give.
-    """
+def displaced(modifications: Modifications, held: GearSupports) -> Modifications:
+    """Flanks whose gears stand as their shafts displace them."""
     further = held.misalignment
-    if own_tilts:
-        further = misalignment_of_tilts((_of(one, "rest")[3:] for one in held[:2]), held.pressure_angle)
     if not any(further):
         return modifications
     stand = modifications.misalignment
     both = Misalignment(stand.in_plane + further.in_plane, stand.out_of_plane + further.out_of_plane)
     return modifications._replace(misalignment=both)
-
-
-def _of(held: GearSupport | None, what: str) -> Five:
-    return (0.0,) * 5 if held is None else getattr(held, what)
 
 
 def _with_matrix(bearings: Any, side: str) -> Bearing | None:
@@ -153,7 +146,7 @@ def matrix_support(key: str, data: BearingData, load: Five) -> GearSupport:
     except NotHeld as error:
         remedy = "give it stiffness there, of helical gears also along z"
         raise InputError(key, None, str(error), remedy) from None
-    return GearSupport(data, tuple(moved.tolist()), (0.0,) * 5)
+    return GearSupport(data, tuple(moved.tolist()))
 
 
 def drawn_support(key: str, table: DrawnShaft, load: Five) -> GearSupport:
@@ -170,14 +163,12 @@ def drawn_support(key: str, table: DrawnShaft, load: Five) -> GearSupport:
         rule = "its sections and bearings differ so much in stiffness that no equilibrium can be computed"
         remedy = "check the units of lengths, diameters and stiffnesses"
         raise InputError(key, None, rule, remedy) from error
-    matrix = np.array(stiffness)
-    rest = np.array(moved) - np.linalg.solve(matrix, load)
     bearings = tuple(
         BearingUnderLoad(bearing.position, bearing, *answer)
         for bearing, answer in zip(table.bearing, answers, strict=True)
     )
     data = BearingData.of_matrix(stiffness, table.damping_ratio)
-    return GearSupport(data, moved, tuple(rest.tolist()), bearings)
+    return GearSupport(data, moved, bearings)
 
 
 @remembered(64)

@@ -101,6 +101,10 @@ class DrawnShaft(Table):
     density: Annotated[float, InUnit(units.positive(units.DENSITY))] = written("7850 kg/m**3")
     modes_up_to: Frequency | None = None
 
+    def placed(self, gear: str) -> dict[str, float]:
+        """Places of all that it carries, by name; `gear` is the one whose place is `gear_position`, m."""
+        return self.positions if self.gear_position is None else {gear: self.gear_position}
+
 
 def torsional_stiffness(shaft: DrawnShaft, span: tuple[float, float]) -> float:
     """Stiffness in torsion of a shaft between two places along it (m), N m/rad: sections in series."""

@@ -114,15 +114,16 @@ def _broken_in_list(
     key: str, shaft: Shaft, gears: Collection[str], bodies: Collection[str]
 ) -> Iterator[InputError]:
     yield from broken_list(f"{key}.gears", shaft.gears, gears, "gear")
+    for name in ("stiffness", "mass", "inertia") if shaft.drawn is not None else ():
+        if getattr(shaft, name):
+            rule = "follows from the sections of the drawn shaft"
+            yield InputError(f"{key}.{name}", None, rule, f"leave {name} out")
     if shaft.drawn is not None and shaft.drawn.positions:
         yield from _broken_positions(key, shaft, bodies)
     elif shaft.drawn is not None and len(shaft.gears) > 1:
         rule = f"has {len(shaft.gears)} gears, and gear_position is the place of one"
         example = ", ".join(f'{name} = "50 mm"' for name in shaft.gears)
         yield InputError(f"{key}.drawn.gear_position", None, rule, f"write positions = {{ {example} }}")
-    elif shaft.drawn is not None and shaft.stiffness is not None:
-        rule = "draws a shaft that bends, and stiffness is that of a shaft between two gears"
-        yield InputError(f"{key}.drawn", None, rule, "leave the one or the other out")
     elif shaft.drawn is None and len(shaft.gears) == 1:
         rule, remedy = "names one gear alone", "name the gears that turn together, or draw the shaft"
         yield InputError(f"{key}.gears", None, rule, remedy)
@@ -151,7 +152,3 @@ def _broken_positions(key: str, shaft: Shaft, bodies: Collection[str]) -> Iterat
         if name not in positions:
             rule, remedy = f"has no place for {name}, a gear of the shaft", f'add {name} = "50 mm"'
             yield InputError(place, None, rule, remedy)
-    for name in ("stiffness", "mass", "inertia"):
-        if getattr(shaft, name):
-            rule = "follows from the sections of the drawn shaft"
-            yield InputError(f"{key}.{name}", None, rule, f"leave {name} out")

@@ -49,8 +49,9 @@ def assemblies(case: Gearbox) -> tuple[Assembly, ...]:
 def body_inertias(case: Gearbox, pairs: Sequence[Assembly]) -> tuple[BodyInertia, ...]:
     """Mass and inertia of every body; those of a gear that gives none follow from its outline and bore."""
     inertias = []
-    for body in case.bodies:
+    for number, body in enumerate(case.bodies):
         mass, inertia, tilting = body.mass, body.inertia, (body.inertia - body.attached) / 2.0
+        inertia += case.system.inertia_of(number) if case.system is not None else 0.0
         for gear in (case.gears[number] for number in body.gears):
             mass_of_gear, turned = gear.stated.mass, gear.stated.inertia
             if mass_of_gear is None or turned is None:

@@ -233,7 +233,7 @@ def settled(structure: SystemMatrices, loads: Sequence[Sequence[float]]) -> Sett
     values, vectors = np.linalg.eigh(tangent)
     if values[0] <= LOOSE * values[-1] or np.max(np.abs(here)) > structure.length:
         loose = vectors[:, 0] if values[0] <= LOOSE * values[-1] else (here / scale)[free]
-        raise NotHeld(_free_motion(structure, free, loose))
+        raise _not_held(structure, free, loose)
     if not np.linalg.norm(seen[1]) <= 1e3 * wanted:  # NaN neither
         raise NotHeld("the equilibrium of shafts and bearings is not found")
     return Settled(
@@ -241,13 +241,15 @@ def settled(structure: SystemMatrices, loads: Sequence[Sequence[float]]) -> Sett
     )
 
 
-def _free_motion(structure: SystemMatrices, free: np.ndarray, motion: np.ndarray) -> str:
-    """What a motion that nothing holds is, by its largest share at a point."""
-    names = ("along x", "along y", "along its axis", "against tilts about x", "against tilts about y", "")
-    of_points = [first + direction for first in structure.points for direction in range(DIRECTIONS)]
-    shares = {place: abs(float(value)) for place, value in zip(free, motion, strict=True)}
-    place = max(of_points, key=lambda one: shares[one])
-    return f"nothing holds it {names[(place - structure.points[0]) % SIX]}"
+def _not_held(structure: SystemMatrices, free: np.ndarray, motion: np.ndarray) -> NotHeld:
+    """What a motion that nothing holds is, by its largest share at a point, whose number it has."""
+    names = ("along x", "along y", "along its axis", "against tilts about x", "against tilts about y")
+    shares = {int(place): abs(float(value)) for place, value in zip(free, motion, strict=True)}
+    moves = [(point, i) for point in range(len(structure.points)) for i in range(DIRECTIONS)]
+    point, direction = max(moves, key=lambda move: shares[structure.points[move[0]] + move[1]])
+    error = NotHeld(f"nothing holds it {names[direction]}")
+    error.point = point
+    return error
 
 
 def reduced(state: Settled, modes_up_to: float = 0.0) -> Reduced:

@@ -49,6 +49,8 @@ class UnderLoad(NamedTuple):
 class NotHeld(ValueError):
     """No equilibrium: the bearings do not hold the gear in a direction; the text says in which."""
 
+    point = 0  # number of what is not held, of several
+
 
 def _state(held: BallRow | RollerRow | Matrix, moved: Float[Array, "5"]) -> BearingState:
     if isinstance(held, BallRow | RollerRow):

@@ -91,10 +91,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Gearbox:
         replace(body, name=side, key=f"drive.{side}", centre=centre, floating=True)
         for body, side, centre in zip(box.bodies, SIDES, CENTRES, strict=True)
     )
-    links = tuple(
-        replace(link, name=f"bearing-{side}", key=f"bearings.{side}")
-        for link, side in zip(box.links, SIDES, strict=True)
-    )
+    sides = [(link, SIDES[link.ends[0]]) for link in box.links]
+    links = tuple(replace(link, name=f"bearing-{side}", key=f"bearings.{side}") for link, side in sides)
     return replace(box, bodies=bodies, links=links, named=False)
 
 
@@ -110,7 +108,10 @@ def as_train(scenario: Scenario) -> GearTrainScenario:
 def _placed(train: TrainKinematics, held: bool) -> PlacedTrain:
     """The gear above the pinion; their teeth are put together only where shafts or matrices hold them."""
     assemblies = (assembled_on_path(train.drives[0]),) if held else ()
-    return PlacedTrain(assemblies, Centres(np.zeros((2, 2)), (UPWARD,)), (1, 1), (0, 1))
+    centres = np.zeros((2, 2))
+    for path in (assembly.path for assembly in assemblies):
+        centres[1, 1] = path.pinion_pitch_radius + path.gear_pitch_radius
+    return PlacedTrain(assemblies, Centres(centres, (UPWARD,)), (1, 1), (0, 1))
 
 
 def gears_of_pair(scenario: Scenario) -> dict[str, GearPlace]:

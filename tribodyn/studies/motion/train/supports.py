@@ -14,7 +14,6 @@ from tribodyn.gears.supports import (
     Five,
     GearSupport,
     GearSupports,
-    drawn_support,
     matrix_support,
     mean_loads,
 )
@@ -33,46 +32,40 @@ _NOTHING = (0.0,) * 5
 def supports_of_bodies(
     scenario: Any, train: TrainKinematics, placed: PlacedTrain, torques: tuple[float, ...]
 ) -> dict[int, GearSupport]:
-    """What holds bodies whose shafts are drawn or whose bearings are matrices, by their numbers.
+    """What holds bodies whose bearings are matrices, by their numbers.
 
     In x, y, z of the train; `torques` are those on the driven gears of all meshes, N m. Raises InputError
-    where a shaft is not held under the load of its gears.
+    where a body is not held under the load of its gears.
     """
-    drawn = {
-        train.numbers[train.parts.body(gear)]: support
-        for gear, support in drawn_shafts(scenario.shaft).items()
-        if not support[1].positions
-    }
     matrices = {
         number: (f"bearings.{train.parts.bodies[body].name}.matrix", bearing_of(bearing))
         for number, body in enumerate(train.motion.bodies)
         if (bearing := bearings_by_body(scenario, train.parts)[body]) is not None
         and bearing.matrix is not None
     }
-    if not drawn and not matrices:
+    if not matrices:
         return {}
     loads = _loads(train, placed, torques)
-    held = {body: matrix_support(*support, loads[body]) for body, support in matrices.items()}
-    return held | {body: drawn_support(*support, loads[body]) for body, support in drawn.items()}
+    return {body: matrix_support(*support, loads[body]) for body, support in matrices.items()}
 
 
 def drawn_system(
     scenario: Any, train: TrainKinematics, placed: PlacedTrain, duty: TrainDuty
 ) -> DrawnSystem | None:
-    """The shafts that are drawn with the places of all that they carry, under the mean loads; None: none.
+    """The shafts that are drawn, under the mean loads; None: none.
 
     Raises InputError where a shaft penetrates a gear of another.
     """
     parts, motion, new = train.parts, train.motion, train.numbers
+    names = {shaft.gears[0]: shaft.name for shaft in listed(scenario.shaft)}
     drawn = [
-        (f"shaft.{number}.drawn", shaft.name, shaft.drawn)
-        for number, shaft in enumerate(listed(scenario.shaft))
-        if shaft.drawn is not None and shaft.drawn.positions
+        (key, names.get(gear, gear), drawing) for gear, (key, drawing) in drawn_shafts(scenario.shaft).items()
     ]
     if not drawn:
         return None
     carried = [
-        {new[parts.body(name)]: place for name, place in drawing.positions.items()} for _, _, drawing in drawn
+        {new[parts.body(name)]: place for name, place in drawing.placed(gear).items()}
+        for gear, (_, drawing) in drawn_shafts(scenario.shaft).items()
     ]
     begin = starts(carried, list(zip(motion.driver, motion.driven, strict=True)))
     speed = duty.speed / float(motion.ratio[motion.input])
@@ -107,12 +100,8 @@ def supports_of_mesh(
     turn = _view(train, placed, mesh)
     ends = [held.get(body) for body in (train.motion.driver[mesh], train.motion.driven[mesh])]
     moved = [_turned(turn, _NOTHING if one is None else one.displacement) for one in ends]
-    rest = [_turned(turn, _NOTHING if one is None else one.rest) for one in ends]
     angle = float(placed.assemblies[mesh].path.pressure_angle(0.0))
-    seen = [
-        one and one._replace(displacement=moved[end], rest=rest[end], bearings=())
-        for end, one in enumerate(ends)
-    ]
+    seen = [one and one._replace(displacement=moved[end], bearings=()) for end, one in enumerate(ends)]
     return GearSupports(seen[0], seen[1], misalignment_of_tilts((one[3:] for one in moved), angle), angle)
 
 
