@@ -1,7 +1,7 @@
 """Reduction of a finite-element model to its bearing seats, with modes of fixed seats behind them.
 
-R. R. Craig & M. C. C. Bampton, AIAA J. 6 (1968) 1313. Of a seat the motion is that of a rigid ring, u_b = W u:
-either the nodes of its bore move with it, or it is their mean and loads them alike. u = Ψ u_b + Φ q with
+R. R. Craig & M. C. C. Bampton, AIAA J. 6 (1968) 1313. A seat moves as a rigid ring, u_b = W u: either
+the nodes of its bore move with it, or it is their mean and loads them alike. u = Ψ u_b + Φ q with
 
     K Ψ + Wᵀ Λ = 0, W Ψ = 1;    K φ + Wᵀ λ = ω² M φ, W φ = 0
 """
@@ -14,7 +14,8 @@ import scipy.sparse as sparse
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.train.elastic.superelement import SIX, rigid_motions
+from tribodyn.train.elastic.beam_matrices import SIX
+from tribodyn.train.elastic.superelement import rigid_motions
 
 #: Modes that are looked for at first; twice as many again, until one is above the highest frequency.
 _FIRST_MODES = 12
@@ -49,7 +50,9 @@ def averaged(
     rows = np.linalg.solve(normal, np.einsum("n,nij->jni", weight, motions).reshape(SIX, -1))
     columns = np.tile(dofs[nodes].ravel(), SIX)
     count = int(dofs.max()) + 1
-    return sparse.csr_matrix((rows.ravel(), (np.repeat(np.arange(SIX), rows.shape[1]), columns)), (SIX, count))
+    return sparse.csr_matrix(
+        (rows.ravel(), (np.repeat(np.arange(SIX), rows.shape[1]), columns)), (SIX, count)
+    )
 
 
 def with_rigid_bores(

@@ -12,10 +12,10 @@ from scipy.linalg import eigh
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.elastic.beam_matrices import SIX
 
 #: Directions of a seat.
 DIRECTIONS = ("x", "y", "z", "tilt_x", "tilt_y", "turn")
-SIX = len(DIRECTIONS)
 #: Of the square root of the product of their diagonals: difference of two elements that must be equal, and a
 #: negative eigenvalue that is rounding; eigenvalue of a mass that still is one. Punched files have 7 digits.
 ROUNDING, MASSLESS = 1e-6, 1e-12
@@ -121,7 +121,9 @@ def sound(element: SuperElement, key: str = "housing.matrices") -> tuple[SuperEl
     gaps = [k for k in range(1, SIX + 1) if np.max(np.abs(lowest[:k])) <= RIGID**2 * lowest[k]]
     rigid = gaps[-1] if gaps else 0
     if rigid not in (0, SIX):
-        rule = f"stiffness has {rigid} rigid motion{'s' if rigid > 1 else ''}, and a structure has six or none"
+        rule = (
+            f"stiffness has {rigid} rigid motion{'s' if rigid > 1 else ''}, and a structure has six or none"
+        )
         raise InputError(key, None, rule, "free it wholly, or hold it, and reduce it again")
     elastic = float(np.sqrt(lowest[rigid]) / (2.0 * np.pi))
     mass = np.nan
@@ -139,8 +141,8 @@ def _symmetric(element: SuperElement, key: str) -> SuperElement:
         if matrix.shape != (count, count):
             shown = " by ".join(map(str, matrix.shape))
             rule = (
-                f"{name} is {shown}, and {len(element.seats)} seats of six directions with {element.modes} modes "
-                f"have {count} coordinates"
+                f"{name} is {shown}, and {len(element.seats)} seats of six directions with "
+                f"{element.modes} modes have {count} coordinates"
             )
             raise InputError(key, None, rule, "check the seats and the number of modes")
         if not np.all(np.isfinite(matrix)):
@@ -169,7 +171,9 @@ def _semidefinite(
         where = name_of(int(np.argmax(np.abs(shape[:, 0]))), element)
         lack = "has no inertia" if least[0] > -ROUNDING else "is negative"
         lack = lack if name == "mass" else "gives energy away"
-        rule = f"{name} is not positive {'' if name == 'mass' else 'semi-'}definite: a motion of {where} {lack}"
+        rule = (
+            f"{name} is not positive {'' if name == 'mass' else 'semi-'}definite: a motion of {where} {lack}"
+        )
         raise InputError(key, None, rule, "check signs and units, and that the mass is a consistent one")
     return (matrix + matrix.T) / 2.0
 
