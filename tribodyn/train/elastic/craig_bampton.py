@@ -23,7 +23,7 @@ _FIRST_MODES = 12
 MOST_MODES = 300
 
 
-class Reduced(NamedTuple):
+class ReducedModel(NamedTuple):
     """A reduced model: seats' six directions first, then modes in the order of their frequencies."""
 
     mass: Float[Array, "coordinate coordinate"]
@@ -77,7 +77,7 @@ def with_rigid_bores(
     return sparse.hstack(parts).tocsc()
 
 
-def reduced(stiffness: Any, mass: Any, seats: Any, highest: float, modes: int | None = None) -> Reduced:
+def reduced(stiffness: Any, mass: Any, seats: Any, highest: float, modes: int | None = None) -> ReducedModel:
     """Reduce sparse matrices to seats, with the modes of fixed seats up to a frequency.
 
     Parameters
@@ -101,7 +101,7 @@ def reduced(stiffness: Any, mass: Any, seats: Any, highest: float, modes: int | 
     whole = small[0]
     whole[:held, held:] = whole[held:, :held] = 0.0  # but for rounding
     whole[held:, held:] = np.diag((2.0 * np.pi * frequency) ** 2)
-    return Reduced((small[1] + small[1].T) / 2.0, (whole + whole.T) / 2.0, basis, frequency)
+    return ReducedModel((small[1] + small[1].T) / 2.0, (whole + whole.T) / 2.0, basis, frequency)
 
 
 def _fixed_modes(
