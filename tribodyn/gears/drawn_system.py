@@ -82,6 +82,12 @@ class DrawnSystem:
             for number in range(1, len(shaft.drawing.bearing) + 1)
         ]
 
+    @property
+    def linear(self) -> bool:
+        """Whether no bearing is stiffer under another load."""
+        drawn = (bearing for shaft in self.shafts for bearing in shaft.drawing.bearing)
+        return all(bearing.matrix is not None or bearing.type is None for bearing in drawn)
+
     @cached_property
     def settled(self) -> Settled:
         """Where the mean loads bring it; InputError where they are not held."""

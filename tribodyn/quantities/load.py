@@ -275,5 +275,24 @@ TILTS = (
         "The same by mesh.misalignment, which adds to it."
     ),
 )
+#: Of a mesh of a train on drawn shafts, in static equilibrium; z is that of the keys of its gears.
+ALONG_FACE = (
+    Quantity("deflected_misalignment", "Misalignment under load", "µm", ".3g").defined_as(
+        "By how much the tilts of both gears open the flanks from one end of the common face to the other in "
+        "the plane of action, in static equilibrium of the gearbox; positive where the end at larger z opens."
+    ),
+    Quantity("load_centre", "Centre of the load", "mm", ".3g").defined_as(
+        "z at which the load along the face acts in the mean over the mesh cycle."
+    ),
+    Quantity("face_place", "Places along the face", "mm", ".4g", listed=True).defined_as(
+        "z of the middles of the slices, from the middle of the face."
+    ),
+    Quantity("face_line_load", "Line load along the face", "N/mm", ".4g", listed=True).defined_as(
+        "Of all pairs in contact together, per width of the face, mean over the mesh cycle, at these places."
+    ),
+    Quantity("face_pressure", "Maximum pressure along the face", "MPa", ".4g", listed=True).defined_as(
+        "Over the path of contact, at these places: the contact pattern."
+    ),
+)
 #: Of shafts and their bearings under the mean load of the mesh.
-OF_SHAFTS = (*BEARINGS, *TILTS)
+OF_SHAFTS = (*BEARINGS, *TILTS, *ALONG_FACE)

@@ -80,15 +80,17 @@ def static_deflection(mesh: GearMesh, torque: float) -> float:
     return abs(torque) / (abs(float(mesh.driven_radius)) * cosine) / stiffness
 
 
-def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> Float[Array, " state"]:
+def static_equilibrium(
+    model: Model, phase: float = 0.0, interval: int = 0, near: Float[Array, " state"] | None = None
+) -> Float[Array, " state"]:
     """State at which nothing accelerates relative to the reference, at one phase.
 
     Solved by damped Newton steps on the equations of motion themselves, friction included, for translations
     and micro-rotations; all relative velocities are zero. Load and drive press the driving flanks together,
     or the back flanks where there are any. Where they press neither, in all meshes, every position within the
     backlash is in equilibrium: returned is the one in which the driving flanks begin to touch, the limit of a
-    vanishing load. Raises SimulationError where there is none, e.g. because the load does not press the
-    flanks together.
+    vanishing load. Steps begin at the state `near` it, if known. Raises SimulationError where there is none,
+    e.g. because the load does not press the flanks together.
     """
     layout, operation = model.layout, model.operation
     time = phase * float(operation.pitch_angle) / float(operation.nominal_speed)
@@ -128,7 +130,8 @@ def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> F
     scale = _scales(model, deflection)[unknown]
     tolerance = 1e-6 * float(np.linalg.norm(residual(values))) + 1e-30
     loose = not are_linear(model.links.own)
-    root = _root(residual, values, scale, tolerance, loose)
+    root = None if near is None else _root(residual, near[unknown], scale, tolerance, loose)
+    root = _root(residual, values, scale, tolerance, loose) if root is None else root
     if root is None:  # damping of a moving error holds the flanks all but apart, or deep in each other
         for share in np.linspace(0.0, 1.0, DAMPING_STEPS).tolist():
             meshes = tuple(mesh._replace(damping=share * mesh.damping) for mesh in model.meshes)

@@ -9,6 +9,7 @@ from tribodyn.gears.supports import BearingUnderLoad, GearSupport
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.tables.drawn_shafts import BearingOfShaft
 from tribodyn.quantities.load import BEARINGS
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards.rolling_bearings import (
     STATIC_FACTOR,
     basic_life,
@@ -141,14 +142,16 @@ def bearing_part(shafts: Sequence[TurningShaft], oil: LubricantData | None = Non
     return {"bearings": bearings} if bearings else {}
 
 
-def bearing_rows(rated: Mapping[str, Mapping[str, float]]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    """Heading and rows of a table of bearings, as `bearing_part` has them; "–": not determined."""
-    shown = [one for one in BEARINGS if any(one.name in numbers for numbers in rated.values())]
+def bearing_rows(
+    rated: Mapping[str, Mapping[str, Any]], quantities: Sequence[Quantity] = BEARINGS
+) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Heading and rows of a table of bearings, as `bearing_part` has them, or others; "–": not determined."""
+    shown = [one for one in quantities if any(one.name in numbers for numbers in rated.values())]
     rows = [
         (name, *(one.written(numbers[one.name]) if one.name in numbers else "–" for one in shown))
         for name, numbers in rated.items()
     ]
-    return ("", *(f"{one.symbol or one.label} ({one.unit})" for one in shown)), rows
+    return ("", *(f"{one.symbol or one.label}{f' ({one.unit})' if one.unit else ''}" for one in shown)), rows
 
 
 def bearing_remarks(shafts: Sequence[TurningShaft], oil: LubricantData | None = None) -> list[str]:

@@ -16,6 +16,7 @@ from tribodyn.gears.rating.bearings import (
     bearing_remarks,
     bearing_rows,
 )
+from tribodyn.quantities.catalogue import quantities
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
 from tribodyn.studies.motion.frequencies import (
@@ -29,8 +30,11 @@ from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
+from tribodyn.studies.motion.train.face_loads import Spread, along_face, of_deflected
 from tribodyn.train.flow import flow
 
+#: Quantities of a mesh's loads along its face.
+FACE = quantities("deflected_misalignment", "face_load_factor", "load_centre")
 #: Share of a mode's energy below which a body is left out of a table.
 LITTLE = 0.005
 #: Harmonics of the meshes whose crossing with a mode is said.
@@ -42,9 +46,11 @@ def check(case: Gearbox) -> CheckResult:
     """Check a case, tabulate its meshes, and say what gearbox it describes."""
     prepared = prepare(case)
     listener_of(prepared)
+    spread = of_deflected(prepared)
+    prepared = prepared if spread is None else spread.prepared
     mode_set = modes(prepared.model, [one.cycle for one in prepared.tables])
     kinds = kinds_of(prepared, mode_set)
-    of_meshes = [_of_mesh(prepared, m) for m in range(len(case.meshes))]
+    of_meshes = [_of_mesh(prepared, m, spread) for m in range(len(case.meshes))]
     of_modes = {
         "natural_frequencies": mode_set.frequency.tolist(),
         "mode_shares": [
@@ -76,7 +82,10 @@ def check(case: Gearbox) -> CheckResult:
         "mesh_frequencies": dict(zip(names, mesh_frequencies(prepared), strict=True)),
         "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
     }
-    tables = [*_train_tables(prepared, train), *_set_tables(prepared), *tables]
+    faces = {name: of for name, of in data["meshes"].items() if FACE[0].name in of}
+    title = "Loads along the faces, in static equilibrium"
+    along = [TextTable(title, *bearing_rows(faces, FACE))] if faces else []
+    tables = [*_train_tables(prepared, train), *_set_tables(prepared), *along, *tables]
     details = list(_once(names, [checked.tables for checked in of_meshes]))
     remarks = [*_named(names, [checked.remarks for checked in of_meshes]), *bearing_remarks(shafts, oil)]
     sentences = _named(names, [checked.warnings for checked in of_meshes])
@@ -110,7 +119,7 @@ def _once(names: list[str], tables: Sequence[Sequence[TextTable]]) -> Iterator[T
         yield table._replace(title=f"{table.title}, mesh {together(of)}")
 
 
-def _of_mesh(prepared: PreparedGearbox, m: int) -> CheckResult:
+def _of_mesh(prepared: PreparedGearbox, m: int, spread: Spread | None) -> CheckResult:
     pair, tabulated = prepared.warm_pairs[m], prepared.tables[m]
     thermal = prepared.thermal[m]
     gears = PreparedGears(
@@ -119,7 +128,9 @@ def _of_mesh(prepared: PreparedGearbox, m: int) -> CheckResult:
     masses = None if prepared.case.named else tabulated.masses
     ends = {prepared.case.meshes[m].driver, prepared.case.meshes[m].driven}
     bearings = [link.bearing for link in prepared.case.links if link.bearing and link.ends[0] in ends]
-    return with_duty(check_gears(gears, prepared.model.closure(m), masses), prepared.case.pairs[m], bearings)
+    checked = check_gears(gears, prepared.model.closure(m), masses)
+    checked = checked._replace(data=checked.data | along_face(spread, m))
+    return with_duty(checked, prepared.case.pairs[m], bearings)
 
 
 def _speeds(prepared: PreparedGearbox) -> np.ndarray:
