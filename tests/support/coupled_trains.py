@@ -41,6 +41,17 @@ def with_couplings(model: Model, parts: list[CoupledMatrices], modes: int = 0) -
     return model._replace(links=links, options=model.options._replace(layout=layout))
 
 
+def pushed_by_mesh(model: Model, rows: np.ndarray) -> Model:
+    """The model whose last mesh pushes the coordinates of no body too, by rows along and across."""
+    layout, last = model.layout, model.layout.meshes - 1
+    places = type(layout.rim_first)
+    count = [rows.shape[1] * (m == last) for m in range(layout.meshes)]
+    first = [(layout.half - layout.modes) * (m == last) for m in range(layout.meshes)]
+    layout = layout._replace(rim_first=places(first), rim_count=places(count))
+    meshes = tuple(mesh._replace(rim=rows) for mesh in model.meshes)
+    return model._replace(meshes=meshes, options=model.options._replace(layout=layout))
+
+
 def _of_links(model: Model) -> list[CoupledMatrices]:
     layout, links, parts = model.layout, model.links, []
     for k, (first, second) in enumerate(zip(layout.first, layout.second, strict=True)):

@@ -43,6 +43,9 @@ def random_state(rng: np.random.Generator, model: Model, speed: float = 10.0) ->
         z = layout.tilts + 3 * body
         y[z : z + 3] = rng.uniform(-1.0, 1.0, 3) * [8e-6, 2e-4, 2e-4]
         y[layout.half + z : layout.half + z + 3] = rng.uniform(-1.0, 1.0, 3) * [0.05, 1.0, 1.0]
+    modes = layout.half - layout.modes
+    y[modes : layout.half] = rng.uniform(-8e-6, 8e-6, layout.modes)
+    y[layout.half + modes : layout.mechanical] = rng.uniform(-0.05, 0.05, layout.modes)
     y[layout.lag] = rng.uniform(-1e-6, 1e-6)
     y[layout.half + layout.lag] = rng.uniform(-0.05, 0.05) * speed
     for body, nearer, m, _ in tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0)):

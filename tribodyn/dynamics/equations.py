@@ -29,6 +29,7 @@ from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.numerics.elementary import by_chain_rule, independent, law, plain
 from tribodyn.train.coupling import coupling_forces, spread_forces
 from tribodyn.train.structure import (
+    ACROSS,
     AXIAL,
     DAMPING,
     FRICTION,
@@ -37,6 +38,7 @@ from tribodyn.train.structure import (
     OF_MESHES,
     OUT,
     PARAMETRIC,
+    TOWARDS,
     WORKS_OF_MESH,
     place_in_space,
     rolling_ratio,
@@ -164,6 +166,10 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
             if driven < layout.spatial:
                 b = half + place_in_space(driven, direction, layout)
                 dy[b] = dy[b] + on_body(1, direction, along, across, axial, bend_along, bend_across, mesh)
+        if layout.modes > 0:
+            for e in range(layout.rim_count[m]):
+                a = half + layout.rim_first[m] + e
+                dy[a] = dy[a] + (mesh.rim[TOWARDS, e] * along + mesh.rim[ACROSS, e] * across)
         a, b = half + turn_of(driver, layout), half + turn_of(driven, layout)
         dy[a] = dy[a] - mesh.driver_sense * resisting
         dy[b] = dy[b] + mesh.driven_sense * driving

@@ -77,6 +77,11 @@ def motion_of(m, y, model):
         across = across + tilted(ACROSS, m, 0, y, model)
         along_rate = along_rate + tilted(TOWARDS, m, layout.half, y, model)
         across_rate = across_rate + tilted(ACROSS, m, layout.half, y, model)
+    if layout.modes > 0:
+        along = along + by_rim(TOWARDS, m, 0, y, model)
+        across = across + by_rim(ACROSS, m, 0, y, model)
+        along_rate = along_rate + by_rim(TOWARDS, m, layout.half, y, model)
+        across_rate = across_rate + by_rim(ACROSS, m, layout.half, y, model)
     return Motion(
         turn + along,
         across,
@@ -107,6 +112,16 @@ def tilted(which, m, first, y, model):
         if layout.driven[m] < layout.spatial:
             place = first + place_in_space(layout.driven[m], direction, layout)
             total = total + mesh.moves[1, which, direction] * y[place]
+    return total
+
+
+@law
+def by_rim(which, m, first, y, model):
+    """`TOWARDS` or `ACROSS` by the coordinates of a rim, m; `first` is 0, or `half` for the rate."""
+    layout, mesh = model.options.layout, model.meshes[m]
+    total = 0.0 * y[0]
+    for e in range(layout.rim_count[m]):
+        total = total + mesh.rim[which, e] * y[first + layout.rim_first[m] + e]
     return total
 
 

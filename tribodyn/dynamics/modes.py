@@ -122,6 +122,8 @@ def _directions(model: Model, m: int) -> Float[Array, "move coordinate"]:
         places = [place_in_space(body, direction, layout) for direction in range(moving)]
         rows[:, places] = np.asarray(mesh.moves)[end, :, :moving]
         rows[TOWARDS, turn_of(body, layout)] = float(turn)
+    first, count = layout.rim_first[m], layout.rim_count[m]
+    rows[: ACROSS + 1, first : first + count] = np.asarray(mesh.rim)[:, :count]
     return rows
 
 

@@ -33,6 +33,10 @@ class TrainLayout(NamedTuple):
     input: int  # body that the drive acts on
     output: int  # body that bears the load that varies in time
     modes: int = 0  # coordinates that are no body's, behind those of the bodies
+    #: this and the next: of every mesh the place of the first coordinate of the rim that it pushes, their
+    #: number; places of none are 0
+    rim_first: tuple[int, ...] = RuntimeIndices(())
+    rim_count: tuple[int, ...] = RuntimeIndices(())
     #: coupled: 1 where coordinates are coupled by `coupling.Couplings`; the next two: their places by entry
     coupled: int = 0
     coupled_rows: tuple[int, ...] = RuntimeIndices(())
@@ -91,6 +95,8 @@ def layout_of(
         input=number(drives),
         output=number(loaded),
         modes=number(modes),
+        rim_first=places([0] * len(meshes)),
+        rim_count=places([0] * len(meshes)),
         coupled=number(0),
         inertial=number(0),
     )

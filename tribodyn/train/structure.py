@@ -123,6 +123,8 @@ class GearMesh(NamedTuple):
     driven_sense: Any = 1.0
     #: what the rotation of its carrier moves the pitch point by along the tangent, m/rad
     carrier_arm: Any = 0.0
+    #: what the layout's rim coordinates of the mesh move it by, along and across; as long in all meshes
+    rim: Float[Array, "2 coordinate"] = np.zeros((2, 0))
 
 
 @law

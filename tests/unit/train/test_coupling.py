@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.support.coupled_trains import random_structure, reducer_in_space, with_couplings
+from tests.support.coupled_trains import pushed_by_mesh, random_structure, reducer_in_space, with_couplings
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.support.states import random_place, random_state, recorded
 from tribodyn.dynamics.equations import derivatives
@@ -23,7 +23,8 @@ MODES = 3
 def coupled_train(request):
     model = reducer_in_space(**DRIVES[request.param])
     rng = np.random.default_rng(3)
-    return with_couplings(model, [random_structure(model, MODES, rng)], MODES)
+    model = with_couplings(model, [random_structure(model, MODES, rng)], MODES)
+    return pushed_by_mesh(model, rng.uniform(-1.0, 1.0, (2, MODES)))
 
 
 def rates(model, y, place):

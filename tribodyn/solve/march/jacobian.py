@@ -125,6 +125,7 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
     length = SHARE * scale[turn_2] * radius
     velocity = min(SHARE * scale[half + turn_2] * radius, SHARE_OF_REVERSAL / reversals)
     in_space = layout.spatial > 0
+    rims = layout.rim_count[m] if layout.modes > 0 else 0
     count = 0
     for which in range(NUMBERS):
         if which == DRIVER_RATE and driver == 0:
@@ -146,10 +147,15 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
         friction, sliding = (after[7] - before[7]) / by, (after[8] - before[8]) / by
         damping, parametric = (after[9] - before[9]) / by, ratio * (after[10] - before[10]) / by
         first = 0 if which < RATES else half
-        # columns: x, y, z and tilts of the driver and of the driven body, their rotations
-        for k in range(2 * IN_SPACE + 2):
+        # columns: x, y, z and tilts of the driver and of the driven body, their rotations, those of a rim
+        for k in range(2 * IN_SPACE + 2 + rims):
             direction, end = k % IN_SPACE, k // IN_SPACE
-            if k >= 2 * IN_SPACE:
+            if k >= 2 * IN_SPACE + 2:
+                if not relative or move > ACROSS:
+                    continue
+                j = first + layout.rim_first[m] + k - 2 * IN_SPACE - 2
+                share = mesh.rim[move, k - 2 * IN_SPACE - 2]
+            elif k >= 2 * IN_SPACE:
                 turns_driver = k == 2 * IN_SPACE
                 if turns_driver and driver == 0:
                     continue  # the reference has no micro-rotation
@@ -176,6 +182,9 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
                 if body < (layout.planar if direction < AXIAL else layout.spatial):
                     force = on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh)
                     jacobian[half + place_in_space(body, direction, layout), j] += share * force
+            for e in range(rims):
+                force = mesh.rim[TOWARDS, e] * along + mesh.rim[ACROSS, e] * across
+                jacobian[half + layout.rim_first[m] + e, j] += share * force
             jacobian[half + turn_1, j] -= share * mesh.driver_sense * resisting
             jacobian[half + turn_2, j] += share * mesh.driven_sense * driving
             jacobian[works + DAMPING, j] += share * damping

@@ -1,0 +1,130 @@
+"""A rim that bends in its plane: Fourier amplitudes of a curved beam, in a frame that the rim turns in.
+
+At the angle θ the centre line moves by u outwards and by v along the circle, the section turns by φ, all
+counter-clockwise. Of every order n ≥ 2 there are two families, as cos nθ and as sin nθ:
+
+    u = a cos nθ + a' sin nθ,   v = b sin nθ − b' cos nθ,   φ = c sin nθ − c' cos nθ.
+
+With the radius R + η of a fibre, hoop strain and shear are (v_θ + u + η φ_θ)/(R + η) and
+(u_θ − v + R φ)/(R + η): extension, bending with the shift of the neutral line (Winkler), shear of a
+Timoshenko beam (S. S. Rao & V. Sundararajan, J. Appl. Mech. 36 (1969) 620). φ follows u and v as at rest, its
+inertia with them. Of order 0 the rotation, and of order 1 the shift, are those of the body; what else these
+have, that the rim widens and stretches, is left out.
+
+N pins of the stiffness k each, evenly spaced, hold orders below N/2 as a fit of the stiffness N k does,
+wherever they stand: Σ cos nψ_k cos mψ_k = N/2 for n = m and else 0, as long as n + m < N. So they do not vary
+the matrices of a frame that turns against them. How the rim sags between two pins are higher orders.
+
+Material that passes the frame with the speed s moves by D = ∂_t + s ∂_θ: M q'' + 2 s M J q' + s² M J² q, J
+being ∂_θ of the amplitudes. What a rim's own rotation against the housing adds, as its hoop tension, is left
+out: it counts as the square of that speed over a natural frequency of the rim.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Float
+
+#: Shear coefficient of a rectangle.
+SHEAR = 5.0 / 6.0
+#: The first order that is not the body's.
+FIRST_ORDER = 2
+#: Amplitudes of every order: u, v of one family, and of the other.
+PER_ORDER = 4
+
+
+class Rim(NamedTuple):
+    """A ring of rectangular section: 2 % from plane stress up to a thickness of 0.15 of its radius."""
+
+    inside: float  # radius, m
+    outside: float  # radius, m
+    width: float  # m
+    youngs_modulus: float  # Pa
+    poisson_ratio: float
+    density: float  # kg/m³
+
+    @property
+    def radius(self) -> float:
+        """Radius of the centre line, m."""
+        return (self.inside + self.outside) / 2.0
+
+    @property
+    def thickness(self) -> float:
+        """In radial direction, m."""
+        return self.outside - self.inside
+
+
+class RimMatrices(NamedTuple):
+    """Over the amplitudes (a, b, a', b') of the orders 2, 3, …; m, so that all entries are kg, N s/m, N/m."""
+
+    mass: Float[Array, "amplitude amplitude"]
+    gyroscopic: Float[Array, "amplitude amplitude"]  # skew: takes no power
+    stiffness: Float[Array, "amplitude amplitude"]
+
+
+def rim_matrices(
+    rim: Rim, orders: int, held: tuple[float, float] = (0.0, 0.0), passing: float = 0.0
+) -> RimMatrices:
+    """Matrices of the orders 2 … `orders`.
+
+    `held` is the stiffness of the whole fit, or of all pins together, at the outside of the rim, radial and
+    tangential, N/m; `passing` the speed of the rim against the frame, rad/s counter-clockwise.
+    """
+    parts = [_of_order(rim, n, held) for n in range(FIRST_ORDER, orders + 1)]
+    size = PER_ORDER * len(parts)
+    mass, gyroscopic, stiffness = np.zeros((3, size, size))
+    for number, (inertia, elastic, _) in enumerate(parts):
+        n = FIRST_ORDER + number
+        at = slice(PER_ORDER * number, PER_ORDER * (number + 1))
+        twice = np.kron(np.eye(2), inertia)
+        turned = n * np.kron(np.array([[0.0, 1.0], [-1.0, 0.0]]), inertia)
+        mass[at, at] = twice
+        gyroscopic[at, at] = 2.0 * passing * turned
+        stiffness[at, at] = np.kron(np.eye(2), elastic) - (passing * n) ** 2 * twice
+    return RimMatrices(mass, gyroscopic, stiffness)
+
+
+def rows_at(
+    rim: Rim, orders: int, angle: float, radius: float, held: tuple[float, float] = (0.0, 0.0)
+) -> Float[Array, "2 amplitude"]:
+    """How the amplitudes move a point of the rim outwards and along the circle, counter-clockwise.
+
+    It stands at an angle (rad) in the frame of the amplitudes, and at a radius (m), by which the rotation of
+    its section moves it too. The transpose gives the forces on the amplitudes from those at the point.
+    """
+    rows = np.zeros((2, PER_ORDER * (orders + 1 - FIRST_ORDER)))
+    for n in range(FIRST_ORDER, orders + 1):
+        _, _, turned = _of_order(rim, n, held)
+        along = np.array([0.0, 1.0]) + (radius - rim.radius) * turned
+        cosine, sine = np.cos(n * angle), np.sin(n * angle)
+        first = PER_ORDER * (n - FIRST_ORDER)
+        rows[0, first], rows[0, first + 2] = cosine, sine
+        rows[1, first : first + 2], rows[1, first + 2 : first + 4] = sine * along, -cosine * along
+    return rows
+
+
+def _of_order(
+    rim: Rim, n: int, held: tuple[float, float]
+) -> tuple[Float[Array, "2 2"], Float[Array, "2 2"], Float[Array, " 2"]]:
+    """Mass and stiffness of u, v of a family, and what they make of φ at rest, 1/m."""
+    radius, height, width = rim.radius, rim.thickness, rim.width
+    modulus, shear_modulus = rim.youngs_modulus, rim.youngs_modulus / (2.0 * (1.0 + rim.poisson_ratio))
+    stretch = width * np.log(rim.outside / rim.inside)  # ∫ dA/(R + η), and of η and η² below
+    first = width * height - radius * stretch
+    hoop, bend = np.array([1.0, n, 0.0]), np.array([0.0, 0.0, n])
+    mixed = np.outer(hoop, bend)
+    stiffness = modulus * (
+        stretch * np.outer(hoop, hoop) + first * (mixed + mixed.T) - radius * first * np.outer(bend, bend)
+    )
+    shear = np.array([-n, -1.0, radius])
+    stiffness += SHEAR * shear_modulus * width * height / radius * np.outer(shear, shear)
+    edge = np.array([0.0, 1.0, height / 2.0])
+    stiffness[0, 0] += held[0] / (2.0 * np.pi)
+    stiffness += held[1] / (2.0 * np.pi) * np.outer(edge, edge)
+    static, rotary = rim.density * width * height, rim.density * width * height**3 / 12.0
+    mass = np.diag([static * radius, static * radius, rotary * radius])
+    mass[1, 2] = mass[2, 1] = rotary
+    turned = -stiffness[2, :2] / stiffness[2, 2]
+    to_all = np.vstack([np.eye(2), turned])
+    return np.pi * to_all.T @ mass @ to_all, np.pi * to_all.T @ stiffness @ to_all, turned
