@@ -116,32 +116,45 @@ def test_every_body_is_in_balance_in_space(ends: tuple[str, str]):
     assert model.layout.coupled > 0
 
 
-def test_axial_forces_on_a_planet_cancel_and_their_moment_tilts_it():
+@pytest.mark.parametrize(
+    ("ends", "on_sun"),
+    [(("sun", "carrier"), 600.0 / (1.0 + 84.0 / 24.0)), (("carrier", "sun"), 600.0)],
+    ids=["reduces", "overdrive"],
+)
+def test_axial_forces_on_a_planet_cancel_and_their_moment_tilts_it(ends: tuple[str, str], on_sun: float):
     """F_a on the sun's side, -F_a on the ring's: F_a (r_w,sun + r_w,ring) on the pin's bearing.
 
     At the radii where the middles of the paths of contact are: contacts alike on either side of these.
     """
     stiff = {**BEARING, "stiffness_tilt": "1e12 N*m/rad"}
-    prepared = made(IN_PHASE, 3, bearings={"default": stiff})
+    prepared = made(IN_PHASE, 3, ends=ends, bearings={"default": stiff})
     model, case = prepared.model, prepared.case
     planet = prepared.order.index(case.sets[0].planets[0])
-    arm = 0.0
+    arm, pitch_arm = 0.0, 0.0
     for m, mesh in enumerate(model.meshes):
-        ends = model.layout.driver[m], model.layout.driven[m]
-        if planet in ends:
-            assembly, drives = prepared.tables[m].assembly, planet == ends[0]
+        both = model.layout.driver[m], model.layout.driven[m]
+        if planet in both:
+            assembly, drives = prepared.tables[m].assembly, planet == both[0]
             radius = float(mesh.driver_radius if drives else mesh.driven_radius)
             middle = (assembly.r_start + assembly.r_end) / 2.0 * np.sin(assembly.path.pressure_angle(0.0))
             arm += radius + (middle if drives else -middle)
-    torque = 600.0 / (1.0 + 84.0 / 24.0) / 3.0  # of the sun, on one planet
-    # F_t tan β_w, with tan β_w/r_w that of the reference circle
-    axial = torque / float(abs(model.meshes[0].driver_radius)) * float(model.meshes[0].table.pitch_slope)
+            pitch_arm += radius
+    sun = prepared.order.index(case.sets[0].members["sun"])
+    m = next(m for m in range(6) if sun in (model.layout.driver[m], model.layout.driven[m]))
+    mesh = model.meshes[m]
+    radius = float(mesh.driver_radius if sun == model.layout.driver[m] else mesh.driven_radius)
+    # F_t tan β_w of one planet
+    axial = on_sun / 3.0 / radius * float(mesh.table.pitch_slope)
     phases = (np.arange(8) + 0.5) / 8
     each = [loads_on(prepared, planet, *at_rest(prepared, phase)) for phase in phases]
     force, moment = (np.mean([one[part] for one in each], axis=0) for part in (0, 1))
     assert abs(force[2]) < 1e-6 * axial
     # the first planet is on the x axis: what its forces along z turn it about is y
     assert abs(moment[1]) == pytest.approx(axial * arm, rel=5e-3)
+    # the contact analysis has the planet tilted by the loads at its pitch points, the same way
+    tilts = case.supports[case.sets[0].planets[0]].displacement[3:]
+    assert 1e12 * tilts[1] == pytest.approx(np.sign(moment[1]) * axial * pitch_arm, rel=1e-9)
+    assert abs(tilts[0]) < 1e-9 * abs(tilts[1])
 
 
 def test_hands_the_other_way_round_mirror_the_set():

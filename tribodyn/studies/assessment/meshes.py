@@ -11,6 +11,7 @@ import tomli_w
 from tribodyn.cases.assessment_part import MeshAtDuty
 from tribodyn.errors import InputError
 from tribodyn.gears.case import OiledCase
+from tribodyn.geometry.modification import Misalignment
 from tribodyn.input.resolve import resolve_table
 from tribodyn.studies.assessment.case import AssessmentCase, RatedMesh
 from tribodyn.studies.assessment.pair_file import KIND, AssessmentMesh, AssessmentScenario, rated_pair
@@ -54,7 +55,7 @@ def _pair_of(
             "pinion_speed": f"{speed * ratio!r} rad/s",
             "gear_torque": f"{torque * ratio!r} N*m",
         },
-        "mesh": {} if min(teeth) < 0.0 else _face(mesh, tables["mesh"]),
+        "mesh": _face(mesh, tables["mesh"], ratio != 1.0),
     }
     data, *_ = resolve_table(data, Path(f"{mesh.name}.toml"), {}, lambda _: AssessmentScenario)
     toml = tomli_w.dumps(data)
@@ -70,9 +71,17 @@ def _pair_of(
     return RatedMesh(mesh, replace(pressed, **{**own, **kept}, spectrum=tuple(spectrum)), pressed)
 
 
-def _face(mesh: MeshAtDuty, table: Mapping[str, Any]) -> dict[str, Any]:
-    """Slices of the face, and how the axes stand, drawn shafts and matrices included."""
-    stand = mesh.pair.supports.misalignment
+def _face(mesh: MeshAtDuty, table: Mapping[str, Any], mirrored: bool) -> dict[str, Any]:
+    """Slices of the face, and how the axes stand, drawn shafts, matrices and planets on pins included.
+
+    Of spur pairs with a ring nothing. A mesh whose ring drives is rated as if the planet did on the same
+    flanks, `mirrored`: seen from the other end of the face.
+    """
+    drive, stand = mesh.pair.drive, mesh.pair.supports.misalignment
+    if min(float(drive.pinion.teeth), float(drive.gear.teeth)) < 0.0 and not drive.helix_angle:
+        return {}
+    if mirrored:
+        stand = Misalignment(-stand.in_plane, -stand.out_of_plane)
     found = {name: table[name] for name in ("slices", "misalignment") if name in table}
     if any(stand):
         given = AssessmentMesh.model_validate(found).misalignment

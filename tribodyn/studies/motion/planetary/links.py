@@ -23,14 +23,13 @@ def links_of_set(
     stage, new = gearset.table, train.numbers
     carrier, in_space = new[gearset.members[CARRIER]], bool(stage.helix_angle)
     sense, centre = train.motion.sense[carrier], placed.places.centres
-    widths = {gear.body: float(gear.table.face_width) for gear in train.parts.gears}
     for number, body in enumerate(gearset.planets):
         bearing = bearings[body]
         if bearing is None:
             continue
         x, y = centre[new[body]] - centre[carrier]
         data = bearing_of(bearing)
-        further = {"bearing": on_pin(data, widths[body])} if in_space else {}
+        further = {"bearing": on_pin(data, gearset.face_width)} if in_space else {}
         yield LinkData.of_bearing(
             f"pin-{train.parts.bodies[body].name}",
             gearset.key,
@@ -41,7 +40,7 @@ def links_of_set(
             **further,
         )
     for body in gearset.floating if in_space else ():
-        data = along_axis(bearing_of(bearings[body]), widths[gearset.planets[0]])
+        data = along_axis(bearing_of(bearings[body]), gearset.face_width)
         name = f"bearing-{train.parts.bodies[body].name}"
         yield LinkData.of_bearing(name, "bearings", (new[body], HOUSING), data, bearing=data)
     stiffness = stage.support_stiffness

@@ -23,6 +23,7 @@ class SetPart(NamedTuple):
     members: dict[str, int]  # bodies of sun, ring and carrier
     planets: tuple[int, ...]  # bodies
     teeth: SetTeeth
+    face_width: float  # of the planets, m
 
     @property
     def held(self) -> int:
@@ -55,7 +56,8 @@ def teeth_of_set(scenario: Any, stage: PlanetaryStage) -> SetTeeth:
 def set_of(scenario: Any, key: str, stage: PlanetaryStage, places: dict[str, tuple[int, ...]]) -> SetPart:
     """The set of a stage; `places` are the bodies of names."""
     members = {name: places[gear_name][0] for name, gear_name in stage.members.items()}
-    return SetPart(key, stage, members, places[stage.planet], teeth_of_set(scenario, stage))
+    width = float(scenario.gear[stage.planet].face_width)
+    return SetPart(key, stage, members, places[stage.planet], teeth_of_set(scenario, stage), width)
 
 
 def meshes_of_set(stage: PlanetaryStage) -> Iterator[tuple[str, str, str, float]]:

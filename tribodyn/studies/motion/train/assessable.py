@@ -135,6 +135,8 @@ def pair_tables(case: Gearbox, mesh: TrainMesh, table: Mapping[str, Any]) -> dic
         gear = table.get("gear", {}).get(case.gears[number].key.removeprefix("gear."), {})
         drive[side] = {name: value for name, value in gear.items() if name in Gear.model_fields}
     distance = mesh.pair.drive.centre_distance
+    if "planet" in stage and mesh.pair.drive.helix_angle:
+        drive["hand"] = "right" if mesh.pair.drive.helix_angle > 0.0 else "left"
     if (
         "planet" in stage and "centre_distance" not in stage and distance is not None
     ):  # the sun's, at the ring

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.dynamics.data import BearingData, in_space
 from tribodyn.gears.drawn_system import DrawnSystem, ShaftData, check_room_of_shafts, starts
 from tribodyn.gears.supports import (
     Five,
@@ -24,6 +25,7 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.duty import TrainDuty
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics, tip_radius
 from tribodyn.studies.motion.drivetrain.structure import OF_DRIVE, Structure
+from tribodyn.studies.motion.planetary.in_space import on_pin
 from tribodyn.train.positions import frame_of
 
 _NOTHING = (0.0,) * 5
@@ -32,7 +34,7 @@ _NOTHING = (0.0,) * 5
 def supports_of_bodies(
     scenario: Any, train: TrainKinematics, placed: PlacedTrain, torques: tuple[float, ...]
 ) -> dict[int, GearSupport]:
-    """What holds bodies whose bearings are matrices, by their numbers.
+    """What holds bodies whose bearings are matrices, or that tilt on pins, by their numbers.
 
     In x, y, z of the train; `torques` are those on the driven gears of all meshes, N m. Raises InputError
     where a body is not held under the load of its gears.
@@ -43,10 +45,24 @@ def supports_of_bodies(
         if (bearing := bearings_by_body(scenario, train.parts)[body]) is not None
         and bearing.matrix is not None
     }
-    if not matrices:
+    pinned = {
+        train.numbers[planet]: on_pin(bearing_of(bearing), gearset.face_width)
+        for gearset in train.parts.sets
+        if gearset.table.helix_angle
+        for planet in gearset.planets
+        if (bearing := bearings_by_body(scenario, train.parts)[planet]) is not None
+    }
+    if not matrices and not pinned:
         return {}
     loads = _loads(train, placed, torques)
-    return {body: matrix_support(*support, loads[body]) for body, support in matrices.items()}
+    held = {body: _on_pin(data, loads[body]) for body, data in pinned.items()}
+    return held | {body: matrix_support(*support, loads[body]) for body, support in matrices.items()}
+
+
+def _on_pin(data: BearingData, load: Float[Array, "5"]) -> GearSupport:
+    """A planet of a helical set on its pin: what its teeth tilt it by."""
+    stiffness, _ = in_space(data, 0.0)
+    return GearSupport(data, tuple((load / np.array(stiffness)).tolist()), _NOTHING)
 
 
 def drawn_system(
@@ -118,15 +134,17 @@ def _loads(train: TrainKinematics, placed: PlacedTrain, torques: tuple[float, ..
 
 
 def _view(train: TrainKinematics, placed: PlacedTrain, mesh: int) -> Float[Array, "3 3"]:
-    """Directions of a mesh's pair of gears in those of the train, its rows: a rotation."""
+    """Directions of a mesh's pair of gears in those of the train, its rows; mirrored where a ring drives."""
     sense = train.motion.sense[train.motion.driver[mesh]]
-    along, across = frame_of(placed.places.azimuths[mesh], sense)
+    inwards = 1 if placed.assemblies[mesh].path.pinion_pitch_radius > 0.0 else -1
+    along, across = frame_of(placed.places.azimuths[mesh], sense * inwards)
     return np.array([[*along, 0.0], [*across, 0.0], [0.0, 0.0, -float(sense)]])
 
 
 def _turned(turn: Float[Array, "3 3"], values: Any) -> Five:
-    """Three components of a vector, and the first two of one whose third is 0, in other directions."""
-    one, two = turn @ np.asarray(values[:3]), turn @ np.array([*values[3:], 0.0])
+    """Three components of a vector, and the first two of a rotation whose third is 0, in other directions."""
+    mirrored = np.sign(np.linalg.det(turn))
+    one, two = turn @ np.asarray(values[:3]), mirrored * (turn @ np.array([*values[3:], 0.0]))
     return (*map(float, one), *map(float, two[:2]))
 
 
