@@ -146,7 +146,8 @@ def _places(
     ways = (1.0, -1.0)[: len(rolls)]
     each = [roll[..., None] - way * late for roll, way in zip(rolls, ways, strict=True)]
     middle = np.concatenate([roll.reshape(points, -1) for roll in each], axis=1)
-    low, high = (np.clip(middle + way * half_slice, *sorted(limits)) for way in (-1.0, 1.0))
+    first, last = min(limits), max(limits)
+    low, high = (np.clip(middle + way * half_slice, first, last) for way in (-1.0, 1.0))
     share = np.minimum((high - low) / (2.0 * half_slice), 1.0)
     side = np.where(np.arange(middle.shape[1]) < pairs * slices, 1.0, -1.0)
     touching = np.where(np.any(share > 0.0, axis=0), 1.0, 0.0)[None]

@@ -17,7 +17,7 @@ from tribodyn.geometry.modification import (
     vary_along_lead,
 )
 from tribodyn.input.messages import outside
-from tribodyn.input.tables.gears.model_files import DriveTable, Gear, MisalignmentTable, flank_of
+from tribodyn.input.tables.gears.model_files import DriveTable, Gear, Hand, MisalignmentTable, flank_of
 from tribodyn.input.tables.gears.quality import broken_quality_rules, helix_allowance
 from tribodyn.input.tables.gears.tooth_data import (
     broken_tooth_rules,
@@ -155,13 +155,14 @@ def broken_helix_rules(drive: DriveTable) -> Iterator[InputError]:
 
 def _broken_hands(drive: DriveTable) -> Iterator[InputError]:
     """Hands without a helix, and hands that contradict each other."""
+    of_parts: dict[str, Hand | None] = {
+        "hand": drive.hand,
+        "pinion.hand": drive.pinion.hand,
+        "gear.hand": drive.gear.hand,
+    }
     hands = [
         (f"drive.{part}", hand, hand if part != "gear.hand" else hand_of_mate(drive, hand))
-        for part, hand in (
-            ("hand", drive.hand),
-            ("pinion.hand", drive.pinion.hand),
-            ("gear.hand", drive.gear.hand),
-        )
+        for part, hand in of_parts.items()
         if hand is not None
     ]
     if hands and not drive.helix_angle:

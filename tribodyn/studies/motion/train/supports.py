@@ -67,7 +67,7 @@ def _on_pin(data: BearingData, load: Float[Array, "5"], teeth: Float[Array, "2 2
     """A planet of a helical set on its pin: what its teeth tilt it by, against which they lie too."""
     stiffness = np.array(in_space(data, 0.0)[0])
     tilts = np.linalg.solve(np.diag(stiffness[3:]) + teeth, load[3:])
-    return GearSupport(data, (*(load[:3] / stiffness[:3]).tolist(), *tilts.tolist()), _NOTHING)
+    return GearSupport(data, (*(load[:3] / stiffness[:3]).tolist(), *tilts.tolist()))
 
 
 def _resisting(train: TrainKinematics, placed: PlacedTrain, body: int) -> Float[Array, "2 2"]:
