@@ -5,9 +5,8 @@ operating point under the mean loads of the meshes.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from scipy.linalg import eigh
@@ -19,6 +18,7 @@ from tribodyn.input.tables.drawn_shafts import DrawnShaft
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.coupling import CoupledMatrices, coupled, own_mass
 from tribodyn.train.elastic.beam_matrices import SIX
+from tribodyn.train.elastic.superelement import SuperElement
 from tribodyn.train.elastic.system import (
     PlacedBearing,
     PlacedShaft,
@@ -66,7 +66,10 @@ class DrawnSystem:
     shafts: tuple[ShaftData, ...]
     #: of every point, shaft by shaft: forces along x, y, z (N), moments about x and y (N m)
     loads: tuple[tuple[float, ...], ...]
-    housing: Any = None  # `train.elastic.superelement.SuperElement`; None: a stiff one
+    #: None: a stiff one; compared by its bytes, `digest`
+    housing: SuperElement | None = field(default=None, compare=False)
+    digest: bytes = b""
+    housing_modes_up_to: float = 0.0  # rad/s
 
     @property
     def bodies(self) -> tuple[int, ...]:
@@ -91,8 +94,7 @@ class DrawnSystem:
     @cached_property
     def settled(self) -> Settled:
         """Where the mean loads bring it; InputError where they are not held."""
-        modes = any(shaft.drawing.modes_up_to for shaft in self.shafts)
-        structure = structure_of(self._physical, ELEMENTS if modes else 1)
+        structure = structure_of(self._physical, ELEMENTS if self._modes_up_to else 1)
         try:
             return settled(structure, self.loads)
         except NotHeld as error:
@@ -108,8 +110,34 @@ class DrawnSystem:
     @cached_property
     def reduced(self) -> Reduced:
         """What is left of it to the bodies, about that."""
-        limits = [shaft.drawing.modes_up_to or 0.0 for shaft in self.shafts]
-        return reduced(self.settled, max(limits) / (2.0 * np.pi))
+        return reduced(self.settled, self._modes_up_to / (2.0 * np.pi))
+
+    @property
+    def _modes_up_to(self) -> float:
+        of_shafts = [shaft.drawing.modes_up_to or 0.0 for shaft in self.shafts]
+        return max(*of_shafts, self.housing_modes_up_to)
+
+    def _shares_of_shafts(self) -> Float[Array, " mode"]:
+        """Kinetic energy of the shafts in the modes that are kept, over that of all: the rest is damped."""
+        structure, left = self.settled.structure, self.reduced
+        shapes = left.recovery[:, SIX * len(self.bodies) :]
+        momentum = structure.mass @ shapes
+        shafts = SIX * len(structure.turns)
+        own = np.einsum("im,im->m", shapes[:shafts], momentum[:shafts])
+        return own / np.einsum("im,im->m", shapes, momentum)
+
+    def motion_of(
+        self, place: str, layout: TrainLayout, new: Mapping[int, int]
+    ) -> Float[Array, "3 coordinate"]:
+        """Displacement of a seat or point of the housing in x, y, z by the coordinates of a model."""
+        assert self.housing is not None
+        rows = np.zeros((3, layout.half))
+        whole = self.housing.motion_of(place) @ self.reduced.recovery[-self.housing.coordinates :]
+        numbers = [new[body] for body in self.bodies]
+        places = np.array(places_of(numbers, layout, self.reduced.modes))
+        rows[:, places] = whole
+        rows[:, places[SIX - 1 : SIX * len(numbers) : SIX]] = 0.0  # bearings let shafts turn
+        return rows
 
     @property
     def _physical(self) -> ShaftSystem:
@@ -184,7 +212,7 @@ class DrawnSystem:
         own = own_mass(layout, bodies)[places]
         own[SIX * len(numbers) :] = 0.0
         ratios = np.repeat([shaft.drawing.damping_ratio for shaft in self.shafts for _ in shaft.points], SIX)
-        ratios = np.append(ratios, np.full(left.modes, np.mean(ratios)))
+        ratios = np.append(ratios, np.mean(ratios) * self._shares_of_shafts())
         free = np.setdiff1d(np.arange(len(places)), turns)
         damping[np.ix_(free, free)] += modal_damping(
             (left.mass + np.diag(own))[np.ix_(free, free)],

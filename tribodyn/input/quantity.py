@@ -102,6 +102,7 @@ class Reference:
         as_list: bool = False,
         record: RecordReader | None = None,
         as_tables: tuple[str, ...] = (),
+        reader: RecordReader | None = None,
     ) -> None:
         self.what = what  # what the name stands for
         self.folder = folder  # of `models/`, whose files may be named; empty for CSV files
@@ -109,6 +110,7 @@ class Reference:
         self.as_list = as_list  # whether the one column of a CSV file stands for a list of quantities
         #: columns, for example, of a CSV file each row of which is a table of a list; (): of another kind
         self.as_tables = as_tables
+        self.reader = reader  # reads files of another format whole
         self.record = record  # reads the columns of files that end in .h5
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:

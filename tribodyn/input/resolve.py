@@ -179,15 +179,22 @@ def _put_content(scenario: _References, key: Key) -> None:
     else:
         file = referring.parent / name
         if not sources.is_file(file):
+            if mark.reader is not None:
+                rule = f"no such file: {printable_path(file)}"
+                raise InputError(dotted, quoted(name), rule, f"give a {mark.what}")
             columns = ",".join(f"{column} [unit]" for column in mark.columns or mark.as_tables)
             remedy = f"give a CSV file that begins with {columns}{', or a record' if mark.record else ''}"
             raise InputError(dotted, quoted(name), f"no such file: {printable_path(file)}", remedy)
-        if mark.record is not None and file.suffix == ".h5":
+        if mark.reader is not None:
+            curve = mark.reader(file, dotted)
+        elif mark.record is not None and file.suffix == ".h5":
             curve = mark.record(file, dotted)
         else:
             curve = sources.read_curve(file, dotted, mark.columns, mark.as_tables)
         if mark.as_tables:
             holder[key[-1]] = _tables(curve)
+        elif mark.reader is not None:
+            holder[key[-1]] = curve
         else:
             column = curve[mark.columns[0]]
             holder[key[-1]] = _quantities(column) if mark.as_list else curve

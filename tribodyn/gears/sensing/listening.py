@@ -32,6 +32,9 @@ from tribodyn.train.structure import rotational_error, turned
 
 #: What is sampled: the kind of sensor that has it, its place, its direction, angle at a ring and window.
 _Channel = tuple[str, str, int, float, str]
+#: Velocity of a point of a housing by matrices; and what is sampled as a velocity and given as its slope.
+STRUCTURE = "structure"
+_SLOPES = ("acceleration", STRUCTURE)
 
 
 class Listener:
@@ -44,7 +47,7 @@ class Listener:
             wanted = self._channels.setdefault((one.sensor.rate, one.sensor.filter), [])
             wanted += [channel for channel in self._needed(one) if channel not in wanted]
         self._samplers = {
-            key: Sampler(key[0], [kind == "acceleration" for kind, *_ in channels], filtered=key[1] != "none")
+            key: Sampler(key[0], [kind in _SLOPES for kind, *_ in channels], filtered=key[1] != "none")
             for key, channels in self._channels.items()
         }
 
@@ -65,6 +68,8 @@ class Listener:
 
     def _needed(self, one: Placed) -> list[_Channel]:
         sensor = one.sensor
+        if one.at in self._sensible.structure and sensor.kind == "housing":
+            return [(STRUCTURE, one.at, DIRECTIONS[sensor.direction], 0.0, "")]
         if sensor.kind != "housing":
             return [(sensor.kind, one.at, DIRECTIONS[sensor.direction], sensor.angle, sensor.window)]
         return [
@@ -95,6 +100,9 @@ class Listener:
         match kind:
             case "acceleration":
                 return velocity(parts.bodies[at], direction, samples)
+            case "structure":
+                half = samples.model.layout.half
+                return parts.structure[at][direction] @ samples.y[half : 2 * half]
             case "force":
                 return force_on_bearing(parts.bearings[at], direction, samples)
             case "encoder":
@@ -130,7 +138,8 @@ class Listener:
         key = (sensor.rate, sensor.filter)
         time, angle, values = self._samplers[key].sampled()
         columns = [self._channels[key].index(channel) for channel in self._needed(one)]
-        if sensor.kind != "housing":
+        by_matrices = sensor.kind == "housing" and one.at in self._sensible.structure
+        if sensor.kind != "housing" or by_matrices:
             clean = values[:, columns[0]]
         elif columns and len(values):
             inputs = self._housing.inputs(one.at)
@@ -138,7 +147,7 @@ class Listener:
         else:
             clean = np.zeros(len(values))
         settings = {"at": one.at, "filter": sensor.filter, "seed": sensor.seed}
-        if kind.directed:
+        if kind.directed or by_matrices:
             settings["direction"] = sensor.direction
         if sensor.kind == "ring":
             settings |= {"angle": sensor.angle, "window": sensor.window}
@@ -176,7 +185,7 @@ def _padded(values: Float[Array, " sample"], size: int) -> Float[Array, " sample
 #: begin anew behind each, do not depend on the cases beside it; short, because all states between are held.
 BLOCK = 48
 #: Kinds of sensors that need nothing but the states: not the forces of the teeth, nor what drives.
-_OF_STATES = ("acceleration", "force", "encoder", "transmission-error", "housing")
+_OF_STATES = ("acceleration", "force", "encoder", "transmission-error", STRUCTURE)
 
 
 class Heard(NamedTuple):

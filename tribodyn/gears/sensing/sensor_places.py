@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.sensing.data import DIRECTIONS, KINDS, HousingData, SensorData
 from tribodyn.signals.lines import MESH, SignalLine
 from tribodyn.signals.resampling import PASSED, REACH
@@ -37,6 +38,8 @@ class Sensible:
     lines: tuple[SignalLine, ...]  # orders per turn of body 0
     reference: str  # name of body 0
     rings: Mapping[str, RingPlaces] = field(default_factory=dict)  # by stage
+    #: of a housing by matrices: what moves its points and seats in x, y, z, (3, coordinate)
+    structure: Mapping[str, Float[Array, "3 coordinate"]] = field(default_factory=dict)
 
 
 class Placed(NamedTuple):
@@ -77,7 +80,7 @@ def _places_of(sensor: SensorData, housing: HousingData, sensible: Sensible) -> 
         case "force":
             return sensible.bearings
         case "housing":
-            return housing.points
+            return dict.fromkeys([*sensible.structure, *housing.points])
         case "ring":
             return sensible.rings
         case "transmission-error":

@@ -13,6 +13,7 @@ from tribodyn.input.quantity import (
     Column,
     CurveTable,
     InUnit,
+    NotNegative,
     Number,
     Positive,
     Table,
@@ -20,6 +21,7 @@ from tribodyn.input.quantity import (
     csv_file,
     written,
 )
+from tribodyn.input.tables.housing_matrices import Matrices, SeatNames, SeatPlaces, Units
 from tribodyn.input.units import Kind, NotAQuantity, to_si
 from tribodyn.sensing.data import KINDS, HousingData, HousingMode, HousingTransfer, SensorData
 
@@ -88,8 +90,15 @@ class Transfer(Table):
 
 
 class Housing(Table):
-    """Paths from the bearings to points of the housing, which does not act back on the gears."""
+    """A housing by matrices, which acts back; or paths from bearings to its points, which do not."""
 
+    matrices: Matrices | None = None
+    units: Units | None = None
+    seats: SeatNames = ()
+    places: SeatPlaces = written({})
+    held: SeatNames = ()
+    damping_ratio: NotNegative = 0.02
+    modes_up_to: Frequency = written("2 kHz")
     mode: tuple[Mode, ...] = Field((), max_length=MOST_MODES)
     transfer: tuple[Transfer, ...] = Field((), max_length=MOST_MODES)
 
@@ -125,14 +134,18 @@ def broken_sensor_rules(sensors: Sequence[Sensor], housing: Housing | None) -> I
             rule = "missing: bits divide the range between −full_scale and full_scale"
             example = _LEVELS[KINDS[sensor.kind].units].example
             yield InputError(f"{key}.full_scale", None, rule, f'add full_scale = "{example}"')
-        if sensor.kind == "housing" and (housing is None or not (housing.mode or housing.transfer)):
+        if sensor.kind == "housing" and (housing is None or not _has_points(housing)):
             rule = "missing: a sensor is on the housing"
-            yield InputError("housing", None, rule, "add [[housing.mode]] or [[housing.transfer]]")
+            yield InputError("housing", None, rule, "add matrices, [[housing.mode]] or [[housing.transfer]]")
     for number, mode in enumerate(housing.mode if housing else ()):
         for name, shape in mode.shape.items():
             if not 1 <= len(shape) <= 3:
                 rule = f"has {len(shape)} numbers; a bearing moves in x, y and z"
                 yield InputError(f"housing.mode.{number}.shape.{name}", None, rule, "give x and y")
+
+
+def _has_points(housing: Housing) -> bool:
+    return bool(housing.mode or housing.transfer or housing.matrices)
 
 
 def sensors_of(sensors: Sequence[Sensor]) -> tuple[SensorData, ...]:

@@ -33,6 +33,9 @@ def sensible(prepared: PreparedGearbox) -> Sensible:
         )
         for gearset in case.sets
     }
+    system = case.system
+    housing = None if system is None else system.housing
+    points = () if housing is None else (*housing.points, *housing.seats)
     return Sensible(
         bodies={name: number for number, name in enumerate(names)},
         bearings={names[layout.first[k]]: k for k in holding_links(model) if layout.second[k] < 0},
@@ -41,6 +44,7 @@ def sensible(prepared: PreparedGearbox) -> Sensible:
         lines=lines_of(prepared),
         reference=names[0],
         rings=rings,
+        structure={point: system.motion_of(point, layout, numbers) for point in points} if system else {},
     )
 
 

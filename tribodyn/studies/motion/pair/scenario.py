@@ -134,6 +134,9 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_solver_rules(scenario.solver)
     yield from broken_output_rules(scenario.output, scenario.solver, scenario.drive.pinion.teeth)
     yield from broken_sensor_rules(scenario.sensor, scenario.housing)
+    if scenario.housing is not None and scenario.housing.matrices is not None:
+        rule = "holds the bearings of shafts in [[shaft]] of a train"
+        yield InputError("housing.matrices", None, rule, "write a gear-train, or give [[housing.mode]]")
 
 
 def _load(scenario: Scenario) -> Iterator[InputError]:

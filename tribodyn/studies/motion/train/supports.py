@@ -5,11 +5,13 @@ one's, the driver turning clockwise. Where it turns counter-clockwise, seen from
 """
 
 from collections.abc import Mapping
+from hashlib import sha256
 from typing import Any
 
 import numpy as np
 
 from tribodyn.dynamics.data import BearingData, in_space
+from tribodyn.errors import InputError, unknown_name
 from tribodyn.gears.drawn_system import DrawnSystem, ShaftData, check_room_of_shafts, starts
 from tribodyn.gears.supports import (
     Five,
@@ -20,6 +22,8 @@ from tribodyn.gears.supports import (
 )
 from tribodyn.geometry.modification import misalignment_of_tilts
 from tribodyn.input.tables.bearings import DEFAULT, Bearing, bearing_of
+from tribodyn.input.tables.drawn_shafts import DrawnShaft
+from tribodyn.input.tables.housing_matrices import element_of
 from tribodyn.input.tables.shafts import drawn_shafts, listed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.duty import TrainDuty
@@ -99,7 +103,9 @@ def drawn_system(
         (key, names.get(gear, gear), drawing) for gear, (key, drawing) in drawn_shafts(scenario.shaft).items()
     ]
     if not drawn:
+        _require_seats(scenario, [])
         return None
+    _require_seats(scenario, [(key, drawing) for key, _, drawing in drawn])
     carried = [
         {new[parts.body(name)]: place for name, place in drawing.placed(gear).items()}
         for gear, (_, drawing) in drawn_shafts(scenario.shaft).items()
@@ -125,7 +131,35 @@ def drawn_system(
     check_room_of_shafts(shafts, gears, placed.places.centres)
     loads = _loads(train, placed, duty.torques.driven)
     on_points = tuple(tuple(loads[body].tolist()) for shaft in shafts for body, _ in shaft.points)
-    return DrawnSystem(tuple(shafts), on_points)
+    if scenario.housing is None or scenario.housing.matrices is None:
+        return DrawnSystem(tuple(shafts), on_points)
+    housing = element_of(scenario.housing)
+    for shaft in shafts:
+        for number, bearing in enumerate(shaft.drawing.bearing):
+            if bearing.seat is not None and bearing.seat not in housing.seats:
+                key = f"{shaft.key}.bearing.{number}.seat"
+                raise unknown_name(key, bearing.seat, housing.seats, "seat of the housing")
+    numbers = housing.mass, housing.stiffness, housing.damping, housing.recovery
+    digest = sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in numbers)).digest()
+    return DrawnSystem(tuple(shafts), on_points, housing, digest, scenario.housing.modes_up_to)
+
+
+def _require_seats(scenario: Any, drawn: list[tuple[str, DrawnShaft]]) -> None:
+    """Raise InputError for seats without a housing by matrices, and for such a housing without seats."""
+    seats = [
+        f"{key}.bearing.{number}.seat"
+        for key, drawing in drawn
+        for number, bearing in enumerate(drawing.bearing)
+        if bearing.seat is not None
+    ]
+    there = scenario.housing is not None and scenario.housing.matrices is not None
+    if seats and not there:
+        rule = "is a seat of a housing that is not given"
+        raise InputError(seats[0], None, rule, 'add [housing] with matrices = "housing.h5", or leave it out')
+    if there and not seats:
+        rule = "no bearing sits in it"
+        remedy = 'add seat = "A" to a [[shaft.drawn.bearing]], or leave the matrices out'
+        raise InputError("housing.matrices", None, rule, remedy)
 
 
 def supports_of_mesh(
