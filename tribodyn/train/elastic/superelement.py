@@ -21,11 +21,13 @@ DIRECTIONS = ("x", "y", "z", "tilt_x", "tilt_y", "turn")
 ROUNDING, MASSLESS = 1e-6, 1e-12
 #: Frequency of a rigid motion over the lowest elastic one: of printed digits, which are then mended.
 RIGID = 1e-3
+#: Square of a frequency over that of the highest one: 0 but for rounding.
+ROUNDED_OFF = 1e-12
 #: Difference of the mass in x, y and z, over the mass.
 SAME_MASS = 1e-3
 #: Lowest elastic frequency times the distance of the seats, m/s: longitudinal waves in steel have 5100. Mass
 #: over the cube of that distance, kg/m³: of housings 100 and more.
-FASTEST, LIGHTEST = 6000.0, 1.0
+FASTEST, LIGHTEST, HEAVIEST = 6000.0, 1.0, 1e8
 
 
 class Radiation(NamedTuple):
@@ -214,8 +216,9 @@ def _plausible(element: SuperElement, mass: float, lowest: float, key: str) -> N
     remedy = 'check units: of a file in millimetres, tonnes and newtons they are "mm, t, s"'
     if np.isfinite(lowest) and lowest * size > FASTEST:
         raise InputError(key, None, f"{found}: waves would travel faster than in any metal", remedy)
-    if mass < LIGHTEST * size**3:
-        raise InputError(key, None, f"{mass:.4g} kg with seats {size:.4g} m apart: lighter than foam", remedy)
+    weight = "lighter than foam" if mass < LIGHTEST * size**3 else "heavier than lead"
+    if np.isfinite(mass) and not LIGHTEST <= mass / size**3 <= HEAVIEST:
+        raise InputError(key, None, f"{mass:.4g} kg with seats {size:.4g} m apart: {weight}", remedy)
 
 
 def modal_damping(
@@ -229,5 +232,6 @@ def modal_damping(
     """
     squares, modes = eigh(stiffness, mass)
     moved = mass @ modes
+    squares[squares < ROUNDED_OFF * squares[-1]] = 0.0
     damping = (moved * (2.0 * ratio * np.sqrt(np.maximum(squares, 0.0)))) @ moved.T
     return (damping + damping.T) / 2.0
