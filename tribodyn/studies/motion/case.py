@@ -118,6 +118,15 @@ class TrainMesh:
 
 
 @dataclass(frozen=True)
+class RimData:
+    """What a scenario says of a ring whose rim bends."""
+
+    orders: int  # waves around the rim, from 2
+    held: tuple[float, float]  # stiffness of all pins together or of the fit, radial and tangential, N/m
+    damping_ratio: float  # of every mode of the rim alone
+
+
+@dataclass(frozen=True)
 class SetData:
     """A planetary set by its bodies."""
 
@@ -130,6 +139,7 @@ class SetData:
     held: str  # the member that does not turn
     frame_forces: bool  # whether Coriolis and centrifugal forces are counted
     in_space: bool = False  # whether its teeth are helical: its bodies then move in space
+    rim: RimData | None = None  # of the ring; None: it does not bend
 
     @property
     def bodies(self) -> tuple[int, ...]:

@@ -28,6 +28,7 @@ from tribodyn.studies.motion.assembly import (
 from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox, LoadData
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
 from tribodyn.studies.motion.planetary.in_space import pins_in_space, tilts_in_frames
+from tribodyn.studies.motion.planetary.rims import pushing_rims, rim_coordinates, rims_of, with_rims
 from tribodyn.studies.motion.thermal_iteration import at_tooth_temperatures
 from tribodyn.train.layout import TrainLayout, layout_of
 from tribodyn.train.links.chain import chain_of
@@ -204,12 +205,13 @@ def _model(
     parts = [
         *pins_in_space(case, layout, new, damping, inertias),
         *tilts_in_frames(case, order, layout, bodies),
+        *rims_of(case, tables, layout),
     ]
     layout, couplings = coupled_by(case.system, parts, layout, bodies, new, not drive)
     varying = _varying(case)
     first = case.meshes[0].pair
     return parameters.Model(
-        tuple(meshes),
+        pushing_rims(case, tables, meshes),
         bodies,
         Links(
             np.array(stiffness).reshape(-1, 3),
@@ -290,7 +292,7 @@ def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
     if shaft:
         ends.append((count, source))
     meshes = [(new[mesh.driver], new[mesh.driven]) for mesh in case.meshes]
-    return layout_of(
+    layout = layout_of(
         planar,
         count + shaft,
         meshes,
@@ -302,8 +304,9 @@ def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
         holding=[number for number, link in enumerate(case.links) if link.holds],
         frames=int(bool(case.sets)),
         carriers=[new.get(mesh.carrier, GROUND) for mesh in case.meshes],
-        modes=case.system.reduced.modes if case.system is not None else 0,
+        modes=(case.system.reduced.modes if case.system is not None else 0) + rim_coordinates(case),
     )
+    return with_rims(case, layout)
 
 
 def geometry_of(prepared: PreparedGearbox) -> dict[str, np.ndarray]:

@@ -1,15 +1,16 @@
 """A rim that bends in its plane: Fourier amplitudes of a curved beam, in a frame that the rim turns in.
 
-At the angle θ the centre line moves by u outwards and by v along the circle, the section turns by φ, all
-counter-clockwise. Of every order n ≥ 2 there are two families, as cos nθ and as sin nθ:
+At the angle θ the rim moves by u outwards, its outside by v along the circle, and the section turns by φ,
+all counter-clockwise. Of every order n ≥ 2 there are two families, as cos nθ and as sin nθ:
 
     u = a cos nθ + a' sin nθ,   v = b sin nθ − b' cos nθ,   φ = c sin nθ − c' cos nθ.
 
-With the radius R + η of a fibre, hoop strain and shear are (v_θ + u + η φ_θ)/(R + η) and
-(u_θ − v + R φ)/(R + η): extension, bending with the shift of the neutral line (Winkler), shear of a
-Timoshenko beam (S. S. Rao & V. Sundararajan, J. Appl. Mech. 36 (1969) 620). φ follows u and v as at rest, its
-inertia with them. Of order 0 the rotation, and of order 1 the shift, are those of the body; what else these
-have, that the rim widens and stretches, is left out.
+With v_c = v − φ h/2 of the centre line and the radius R + η of a fibre, hoop strain and shear are
+(v_cθ + u + η φ_θ)/(R + η) and (u_θ − v_c + R φ)/(R + η): extension, bending with the shift of the neutral
+line (Winkler), shear of a Timoshenko beam (Rao & Sundararajan, J. Appl. Mech. 36 (1969) 620). φ follows u and
+v as at rest, its inertia with them; what a load inside turns the section by while the outside is held is left
+to the mesh, which has the rim's deflection in such a fit. Of order 0 the rotation, and of order 1 the shift,
+are those of the body; what else these have, that the rim widens and stretches, is left out.
 
 N pins of the stiffness k each, evenly spaced, hold orders below N/2 as a fit of the stiffness N k does,
 wherever they stand: Σ cos nψ_k cos mψ_k = N/2 for n = m and else 0, as long as n + m < N. So they do not vary
@@ -85,9 +86,7 @@ def rim_matrices(
     return RimMatrices(mass, gyroscopic, stiffness)
 
 
-def rows_at(
-    rim: Rim, orders: int, angle: float, radius: float, held: tuple[float, float] = (0.0, 0.0)
-) -> Float[Array, "2 amplitude"]:
+def rows_at(rim: Rim, orders: int, angle: float, radius: float) -> Float[Array, "2 amplitude"]:
     """How the amplitudes move a point of the rim outwards and along the circle, counter-clockwise.
 
     It stands at an angle (rad) in the frame of the amplitudes, and at a radius (m), by which the rotation of
@@ -95,8 +94,8 @@ def rows_at(
     """
     rows = np.zeros((2, PER_ORDER * (orders + 1 - FIRST_ORDER)))
     for n in range(FIRST_ORDER, orders + 1):
-        _, _, turned = _of_order(rim, n, held)
-        along = np.array([0.0, 1.0]) + (radius - rim.radius) * turned
+        _, _, turned = _of_order(rim, n, (0.0, 0.0))
+        along = np.array([0.0, 1.0]) + (radius - rim.outside) * turned
         cosine, sine = np.cos(n * angle), np.sin(n * angle)
         first = PER_ORDER * (n - FIRST_ORDER)
         rows[0, first], rows[0, first + 2] = cosine, sine
@@ -119,12 +118,13 @@ def _of_order(
     )
     shear = np.array([-n, -1.0, radius])
     stiffness += SHEAR * shear_modulus * width * height / radius * np.outer(shear, shear)
-    edge = np.array([0.0, 1.0, height / 2.0])
-    stiffness[0, 0] += held[0] / (2.0 * np.pi)
-    stiffness += held[1] / (2.0 * np.pi) * np.outer(edge, edge)
     static, rotary = rim.density * width * height, rim.density * width * height**3 / 12.0
     mass = np.diag([static * radius, static * radius, rotary * radius])
     mass[1, 2] = mass[2, 1] = rotary
+    of_outside = np.eye(3)
+    of_outside[1, 2] = -height / 2.0
+    mass, stiffness = (of_outside.T @ of @ of_outside for of in (mass, stiffness))
+    stiffness[[0, 1], [0, 1]] += np.divide(held, 2.0 * np.pi)
     turned = -stiffness[2, :2] / stiffness[2, 2]
     to_all = np.vstack([np.eye(2), turned])
     return np.pi * to_all.T @ mass @ to_all, np.pi * to_all.T @ stiffness @ to_all, turned

@@ -37,6 +37,7 @@ from tribodyn.input.tables.gears.model_files import (
     Rack,
 )
 from tribodyn.input.tables.laws import LinkTable
+from tribodyn.train.elastic.pin import Pin, pin_stiffness
 from tribodyn.train.planetary import CARRIER, RING, SUN
 
 #: Stages, bodies, links, meshes and loads, each: as many as any train has.
@@ -86,6 +87,38 @@ class Stage(StageTeeth):
     azimuth: Azimuth | None = None
 
 
+class RingRim(Table):
+    """Rim of a ring that bends, on pins, in an elastic fit, or free."""
+
+    orders: Annotated[int, Field(strict=True, ge=2, le=24)] = 6
+    pins: Annotated[int, Field(strict=True, ge=5, le=360)] | None = None
+    stiffness: Stiffness | None = None
+    tangential_stiffness: SpringStiffness | None = None
+    damping_ratio: NotNegative = 0.02
+
+
+class PlanetPin(Table):
+    """Pins of planets that bend: as drawn, or their stiffness."""
+
+    mounting: Literal["cantilever", "straddle"] = "straddle"
+    diameter: Length | None = None
+    length: Length | None = None
+    bore: Annotated[float, InUnit(units.not_negative(units.LENGTH), "10 mm")] = written("0 mm")
+    youngs_modulus: Annotated[float, InUnit(units.positive(units.PRESSURE))] = written("206 GPa")
+    poisson_ratio: Annotated[float, Field(strict=True, ge=0.0, lt=0.5)] = 0.3
+    stiffness: Stiffness | None = None
+
+    @property
+    def rigidity(self) -> float:
+        """Force over displacement at the planet's middle, N/m."""
+        if self.stiffness is not None:
+            return self.stiffness
+        assert self.diameter is not None
+        assert self.length is not None
+        size = self.diameter, self.length, self.bore
+        return pin_stiffness(Pin(self.mounting, *size, self.youngs_modulus, self.poisson_ratio))
+
+
 class PlanetaryStage(StageTeeth):
     """Sun, planets and ring on one axis, and the carrier of the planets; one member of the set is held."""
 
@@ -106,6 +139,8 @@ class PlanetaryStage(StageTeeth):
     sun_stiffness: Stiffness | None = None
     ring_stiffness: Stiffness | None = None
     frame_forces: bool = True
+    ring_rim: RingRim | None = None
+    pin: PlanetPin | None = None
 
     @property
     def members(self) -> dict[str, str]:

@@ -1,13 +1,16 @@
 """Links of planetary sets: pins of the planets, and what holds a member against rotation."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from tribodyn.dynamics.data import BearingData
 from tribodyn.input.tables.bearings import bearing_of
-from tribodyn.studies.motion.case import HOUSING, LinkData, SetData
+from tribodyn.studies.motion.case import HOUSING, LinkData, RimData, SetData
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
+from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
 from tribodyn.studies.motion.planetary.in_space import along_axis, on_pin
 from tribodyn.studies.motion.planetary.stages import SetPart, pin_offset
 from tribodyn.train.planetary import CARRIER
@@ -29,6 +32,8 @@ def links_of_set(
             continue
         x, y = centre[new[body]] - centre[carrier]
         data = bearing_of(bearing)
+        if stage.pin is not None:
+            data = behind(data, stage.pin.rigidity)
         further = {"bearing": on_pin(data, gearset.face_width)} if in_space else {}
         yield LinkData.of_bearing(
             f"pin-{train.parts.bodies[body].name}",
@@ -57,6 +62,24 @@ def links_of_set(
     )
 
 
+def behind(data: BearingData, stiffness: float) -> BearingData:
+    """A bearing in series with a pin of a stiffness, N/m, in x and y."""
+    x, y = (
+        each * stiffness / (each + stiffness) if each else 0.0
+        for each in (data.stiffness_x, data.stiffness_y)
+    )
+    return replace(data, stiffness_x=x, stiffness_y=y)
+
+
+def _rim(stage: PlanetaryStage) -> RimData | None:
+    rim = stage.ring_rim
+    if rim is None:
+        return None
+    radial = (rim.stiffness or 0.0) * (rim.pins or 1)
+    tangential = radial if rim.tangential_stiffness is None else rim.tangential_stiffness * (rim.pins or 1)
+    return RimData(rim.orders, (radial, tangential), rim.damping_ratio)
+
+
 def _held_radius(gearset: SetPart, train: TrainKinematics, placed: PlacedTrain) -> float:
     """Radius (m) of the pitch circle of the held member; of a carrier that on which the pins are."""
     for mesh, gears in enumerate(train.motion.gears):
@@ -83,4 +106,5 @@ def set_data(gearset: SetPart, train: TrainKinematics) -> SetData:
         stage.held,
         stage.frame_forces,
         bool(stage.helix_angle),
+        _rim(stage),
     )

@@ -98,6 +98,7 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
                 rule = f"{gear} is named twice in planetary stages"
                 yield InputError(f"{key}.{name}", quoted(gear), rule, "use a gear of its own for each")
         yield from _counts(key, stage)
+        yield from _elastic(scenario, key, stage)
         if all(name in gears for name in (stage.sun, stage.planet, stage.ring)):
             yield from _assembly(scenario, key, stage)
             yield from _hands(scenario, stage)
@@ -121,6 +122,38 @@ def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
     if len(stage.floating) == len(MEMBERS):
         rule = "no member of the set has a bearing: it has no place"
         yield InputError(f"{key}.floating", None, rule, "let one of them have a bearing")
+
+
+def _elastic(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError]:
+    """Refuse rims and pins that contradict themselves, and rims whose bending the mesh has too."""
+    rim, pin = stage.ring_rim, stage.pin
+    if rim is not None:
+        held_by = scenario.gear[stage.ring].rim if stage.ring in scenario.gear else "fixed"
+        if held_by != "fixed":
+            rule = f"counts the bending of the rim twice, for {key}.ring_rim has it"
+            yield InputError(f"gear.{stage.ring}.rim", quoted(held_by), rule, "leave it out")
+        if rim.pins is not None and 2 * rim.orders >= rim.pins:
+            rule = f"{rim.pins} pins hold waves of orders below {rim.pins / 2:g} evenly, and no others"
+            yield InputError(
+                f"{key}.ring_rim.orders", rim.orders, rule, f"give at most {(rim.pins - 1) // 2}"
+            )
+        for name in ("pins", "tangential_stiffness"):
+            if rim.stiffness is None and getattr(rim, name) is not None:
+                remedy = 'add stiffness = "2e8 N/m", radial, of each pin, or of the whole fit'
+                yield InputError(f"{key}.ring_rim.stiffness", None, f"missing beside {name}", remedy)
+                break
+    if pin is None:
+        return
+    drawn = [name for name in ("diameter", "length") if getattr(pin, name) is not None]
+    if pin.stiffness is not None and drawn:
+        remedy = "give the one or the other"
+        yield InputError(f"{key}.pin.stiffness", None, f"contradicts {drawn[0]}, of which it follows", remedy)
+    elif pin.stiffness is None and len(drawn) < 2:
+        name = "length" if drawn == ["diameter"] else "diameter"
+        yield InputError(f"{key}.pin.{name}", None, "missing", "add it, or the pin's stiffness")
+    elif pin.diameter is not None and pin.bore >= pin.diameter:
+        rule = f"is not below the diameter of {1e3 * pin.diameter:g} mm"
+        yield InputError(f"{key}.pin.bore", f"{1e3 * pin.bore:g} mm", rule, "give a smaller one")
 
 
 def hands_of_set(scenario: Any, stage: PlanetaryStage) -> dict[str, Hand | None]:
