@@ -49,6 +49,8 @@ ALIKE = {
     "efficiency-involute-18-36",
     "ehl-crc-23-47",
     "helical-car-27-71",
+    "industrial-reducer",
+    "industrial-reducer-assessment",
     "involute-18-36-tip-relief",
     "involute-23-47",
     "involute-23-47-frictionless",

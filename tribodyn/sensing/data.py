@@ -26,7 +26,10 @@ KINDS: dict[str, SensorKind] = {
         "m/s2", "acceleration of {at} in {direction}, at its bearing, in the housing's axes", "a body", True
     ),
     "force": SensorKind(
-        "N", "force of {at} on its bearing in {direction}, in the housing's axes", "a body on a bearing", True
+        "N",
+        "force of {at} on its bearing in {direction}, in the housing's axes",
+        "a body on a bearing or a bearing of a shaft",
+        True,
     ),
     "housing": SensorKind("m/s2", "acceleration of the housing's point {at}", "a point of [housing]"),
     "ring": SensorKind(

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model
-from tribodyn.dynamics.recorded.outputs import Evaluated, Sampled, evaluated, sampled
+from tribodyn.dynamics.recorded.outputs import Evaluated, Sampled, evaluated, reaction, sampled
 from tribodyn.gears.sensing.sensor_places import DRIVE, OUTPUT, Placed, Sensible
 from tribodyn.numerics.processes.work import in_threads, usable_cores
 from tribodyn.numerics.shapes import Array, Float
@@ -103,6 +103,8 @@ class Listener:
             case "structure":
                 half = samples.model.layout.half
                 return parts.structure[at][direction] @ samples.y[half : 2 * half]
+            case "force" if at not in parts.bearings:
+                return reaction(parts.reactions[at], direction, samples.y, samples.model)
             case "force":
                 return force_on_bearing(parts.bearings[at], direction, samples)
             case "encoder":

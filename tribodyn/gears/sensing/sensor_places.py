@@ -40,6 +40,7 @@ class Sensible:
     rings: Mapping[str, RingPlaces] = field(default_factory=dict)  # by stage
     #: of a housing by matrices: what moves its points and seats in x, y, z, (3, coordinate)
     structure: Mapping[str, Float[Array, "3 coordinate"]] = field(default_factory=dict)
+    reactions: Mapping[str, int] = field(default_factory=dict)  # bearings of drawn shafts, by their names
 
 
 class Placed(NamedTuple):
@@ -78,7 +79,7 @@ def _places_of(sensor: SensorData, housing: HousingData, sensible: Sensible) -> 
         case "acceleration" | "encoder":
             return sensible.bodies
         case "force":
-            return sensible.bearings
+            return [*sensible.bearings, *sensible.reactions]
         case "housing":
             return dict.fromkeys([*sensible.structure, *housing.points])
         case "ring":
@@ -106,7 +107,7 @@ def _place(key: str, sensor: SensorData, housing: HousingData, sensible: Sensibl
 
 def _check_direction(key: str, placed: Placed, sensible: Sensible, model: Model) -> None:
     sensor, layout = placed.sensor, model.layout
-    if sensor.kind not in ("acceleration", "force"):
+    if sensor.kind not in ("acceleration", "force") or _on_shaft(placed.at, sensible, sensor.kind):
         return
     body = sensible.bodies[placed.at]
     moves = 3 if body < layout.spatial else 2 if body < layout.planar else 0
@@ -116,6 +117,11 @@ def _check_direction(key: str, placed: Placed, sensible: Sensible, model: Model)
     if DIRECTIONS[sensor.direction] >= moves:
         rule = f"{placed.at} moves in x and y alone"
         raise InputError(f"{key}.direction", quoted(sensor.direction), rule, 'use "x" or "y"')
+
+
+def _on_shaft(at: str, sensible: Sensible, kind: str = "force") -> bool:
+    """Whether a place of forces is a bearing of a drawn shaft, which has one in every direction."""
+    return kind == "force" and at not in sensible.bearings and at in sensible.reactions
 
 
 def _check_rate(
@@ -150,8 +156,11 @@ def _check_housing(housing: HousingData, sensible: Sensible, model: Model) -> No
                 rule = "is a planetary stage, whose ring a mode moves by one number"
                 raise InputError(key, quoted(name), rule, "give one number")
             continue
+        if _on_shaft(name, sensible):
+            continue
         if name not in sensible.bearings:
-            raise unknown_name(key, name, [*sensible.bearings, *sensible.rings], "body on a bearing")
+            places = [*sensible.bearings, *sensible.reactions, *sensible.rings]
+            raise unknown_name(key, name, places, "body on a bearing")
         if 2 in directions and sensible.bodies[name] >= model.layout.spatial:
             raise InputError(key, quoted(name), f"{name} does not move along its axis", "give x and y alone")
 

@@ -45,6 +45,7 @@ def sensible(prepared: PreparedGearbox) -> Sensible:
         reference=names[0],
         rings=rings,
         structure={point: system.motion_of(point, layout, numbers) for point in points} if system else {},
+        reactions={name: k for k, name in enumerate(case.system.bearing_names if case.system else ())},
     )
 
 
