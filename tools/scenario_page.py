@@ -89,6 +89,8 @@ def value_of(field: FieldInfo) -> str:
         return "CSV or list of tables" if inside(field, Reference) else "list of tables"
     if annotation is Column:
         return f"column of {inside(field, Kind)[0].name}" if inside(field, Kind) else "column of numbers"
+    if any(each.reader for each in inside(field, Reference)):
+        return "file or table"
     if inside(field, Reference):
         return "reference" if any(each.folder for each in inside(field, Reference)) else "CSV"
     if get_origin(annotation) is dict:
