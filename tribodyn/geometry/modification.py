@@ -44,6 +44,8 @@ class LeadRelief(NamedTuple):
     unmodified: float = 0.0  # length of the straight part, m
     #: material missing at both ends of a parabola over the whole face, m; adds to the relief
     crowning: float = 0.0
+    #: material missing at the end of the face more than at its start, linear between, m; 0 in the middle
+    slope: float = 0.0
 
 
 class FlankModification(NamedTuple):
@@ -119,7 +121,10 @@ def back_flanks(modifications: Modifications, pressure_angle: float) -> Modifica
 def turned_round(modifications: Modifications) -> Modifications:
     """The same looked at from the other end face, z the other way round."""
     pinion, gear = (
-        flank._replace(lead=flank.lead._replace(start=flank.lead.end, end=flank.lead.start), bias=-flank.bias)
+        flank._replace(
+            lead=flank.lead._replace(start=flank.lead.end, end=flank.lead.start, slope=-flank.lead.slope),
+            bias=-flank.bias,
+        )
         for flank in (modifications.pinion, modifications.gear)
     )
     within, across = modifications.misalignment
@@ -130,7 +135,8 @@ def vary_along_lead(modifications: Modifications) -> bool:
     """Whether anything differs from place to place along the face."""
     both = (modifications.pinion, modifications.gear)
     return any(modifications.misalignment) or any(
-        flank.lead.start or flank.lead.end or flank.lead.crowning or flank.bias for flank in both
+        flank.lead.start or flank.lead.end or flank.lead.crowning or flank.lead.slope or flank.bias
+        for flank in both
     )
 
 

@@ -294,5 +294,21 @@ ALONG_FACE = (
         "Over the path of contact, at these places: the contact pattern."
     ),
 )
+#: What makes the load of such a mesh more even, on its driving gear.
+PROPOSED = (
+    Quantity("proposed_helix_slope", "Helix slope that flattens the load", "µm", ".3g").defined_as(
+        "helix_slope of the driving gear that undoes what tilts and misalignment open under a load in the "
+        "middle of the face; its other modifications stay."
+    ),
+    Quantity(
+        "face_load_factor_helix_slope", "Face load factor with it", digits=".3f", symbol="K_Hβ"
+    ).defined_as("Of the gearbox computed again with this helix angle modification, of all meshes together."),
+    Quantity("proposed_crowning", "Crowning that flattens the load", "µm", ".3g").defined_as(
+        "crowning of the driving gear in place of a helix angle: √3/4 of what tilts and misalignment open."
+    ),
+    Quantity("face_load_factor_crowning", "Face load factor with it", digits=".3f", symbol="K_Hβ").defined_as(
+        "Of the gearbox computed again with this crowning, of all meshes together."
+    ),
+)
 #: Of shafts and their bearings under the mean load of the mesh.
-OF_SHAFTS = (*BEARINGS, *TILTS, *ALONG_FACE)
+OF_SHAFTS = (*BEARINGS, *TILTS, *ALONG_FACE, *PROPOSED)

@@ -190,6 +190,17 @@ def test_a_bias_twists_the_flank():
         np.testing.assert_allclose(from_behind, sign * twisted, atol=1e-12)
 
 
+def test_a_helix_slope_opens_the_end_of_the_face():
+    """Half of it missing at the end, half of it added at the start, from root to tip."""
+    rolls, ends = at(START, END), np.array([-WIDTH, 0.0, WIDTH]) / 2.0
+    for flank in ("pinion", "gear"):
+        modified = Modifications(**{flank: FlankModification(lead=LeadRelief(slope=8e-6))})
+        assert vary_along_lead(modified)
+        for seen, places in ((modified, ends), (turned_round(modified), -ends)):
+            gap = flank_gap(ASSEMBLY, seen, rolls, places)
+            np.testing.assert_allclose(gap, [[-4e-6, 0.0, 4e-6]] * 2, atol=1e-12)
+
+
 def test_everything_adds_up():
     flank = FlankModification(tip=Relief(20e-6, 2e-3), lead=LeadRelief(8e-6, 8e-6))
     modified = Modifications(flank, TIP, Misalignment(in_plane=1e-3))

@@ -159,8 +159,13 @@ def pitch_gap(modifications: Modifications, tooth: Int[Array, "*pair"]) -> Float
 
 
 def lead_amounts(lead: LeadRelief) -> dict[str, float]:
-    """What is missing along the face, m, by the keys of a scenario."""
-    return {"lead_relief_start": lead.start, "lead_relief_end": lead.end, "crowning": lead.crowning}
+    """What is missing along the face, m, by the keys of a scenario; of a slope its magnitude."""
+    return {
+        "lead_relief_start": lead.start,
+        "lead_relief_end": lead.end,
+        "crowning": lead.crowning,
+        "helix_slope": abs(lead.slope),
+    }
 
 
 def maximum_along_lead(assembly: Assembly, modifications: Modifications) -> tuple[str, str]:
@@ -211,7 +216,7 @@ def along_face(lead: LeadRelief, width: float, position: Float[Array, " slice"])
     """Relief of a gear (m) at places along its face, m from the middle."""
     straight = lead.unmodified / 2.0
     share = np.maximum(np.abs(position) - straight, 0.0) / (width / 2.0 - straight)
-    crowned = lead.crowning * (2.0 * position / width) ** 2
+    crowned = lead.crowning * (2.0 * position / width) ** 2 + lead.slope * position / width
     return crowned + np.where(position < 0.0, lead.start, lead.end) * share**2
 
 

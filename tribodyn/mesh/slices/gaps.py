@@ -9,7 +9,7 @@ from tribodyn.compliance.sharing.flank_gap import oblique_gap
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import PairGeometry
 from tribodyn.geometry.helix import normal_slope, roll_shift
-from tribodyn.geometry.modification import UNMODIFIED, back_flanks, uneven_teeth
+from tribodyn.geometry.modification import UNMODIFIED, back_flanks, turned_round, uneven_teeth
 from tribodyn.geometry.path import Kinematics, kinematics
 from tribodyn.mesh import table
 from tribodyn.numerics.elementary import namespace, sqrt
@@ -63,18 +63,21 @@ def modified_gap(
         return 0.0
     for broken in uneven_teeth(mesh.modifications):
         raise broken
-    behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
+    # the table is of a right-hand pinion: a left-hand one looked at from its other end face
+    hand = 1 if assembly.drive.helix_angle >= 0.0 else -1
+    front = mesh.modifications if hand > 0 else turned_round(mesh.modifications)
+    behind = back_flanks(front, float(assembly.path.pressure_angle(0.0)))
     fronts, slices = slots
     total = np.zeros(np.shape(extent.roll))
     width = float(assembly.common_width) / slices
     for side, part, flanks in (
-        (1, np.s_[..., :fronts], mesh.modifications),
+        (1, np.s_[..., :fronts], front),
         (-1, np.s_[..., fronts:], behind),
     ):
         roll, place, share = (field[part] for field in extent)
         for at, weight in zip(_AT, _WEIGHT, strict=True):
             offset = at * share * width
-            r = distance(roll - side * roll_shift(assembly, offset))
+            r = distance(roll - side * hand * roll_shift(assembly, offset))
             seen = PairGeometry(kinematics(assembly.path, r), np.zeros_like(r), r, r, r, r)
             total[part] += weight * oblique_gap(assembly, flanks, seen, place + offset, slope, side)
     return total

@@ -17,6 +17,7 @@ from tribodyn.gears.rating.bearings import (
     bearing_rows,
 )
 from tribodyn.quantities.catalogue import quantities
+from tribodyn.quantities.load import PROPOSED
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
 from tribodyn.studies.motion.frequencies import (
@@ -30,11 +31,13 @@ from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
-from tribodyn.studies.motion.train.face_loads import Spread, along_face, of_deflected
+from tribodyn.studies.motion.train.face_loads import along_face, flattened, of_deflected
 from tribodyn.train.flow import flow
 
 #: Quantities of a mesh's loads along its face.
-FACE = quantities("deflected_misalignment", "face_load_factor", "load_centre")
+FACE = quantities(
+    "deflected_misalignment", "face_load_factor", "load_centre", *(one.name for one in PROPOSED)
+)
 #: Share of a mode's energy below which a body is left out of a table.
 LITTLE = 0.005
 #: Harmonics of the meshes whose crossing with a mode is said.
@@ -47,10 +50,11 @@ def check(case: Gearbox) -> CheckResult:
     prepared = prepare(case)
     listener_of(prepared)
     spread = of_deflected(prepared)
-    prepared = prepared if spread is None else spread.prepared
     mode_set = modes(prepared.model, [one.cycle for one in prepared.tables])
     kinds = kinds_of(prepared, mode_set)
-    of_meshes = [_of_mesh(prepared, m, spread) for m in range(len(case.meshes))]
+    proposed = flattened(spread) if spread is not None else [{} for _ in case.meshes]
+    along = [along_face(spread, m) | proposed[m] for m in range(len(case.meshes))]
+    of_meshes = [_of_mesh(prepared, m, along[m]) for m in range(len(case.meshes))]
     of_modes = {
         "natural_frequencies": mode_set.frequency.tolist(),
         "mode_shares": [
@@ -84,8 +88,8 @@ def check(case: Gearbox) -> CheckResult:
     }
     faces = {name: of for name, of in data["meshes"].items() if FACE[0].name in of}
     title = "Loads along the faces, in static equilibrium"
-    along = [TextTable(title, *bearing_rows(faces, FACE))] if faces else []
-    tables = [*_train_tables(prepared, train), *_set_tables(prepared), *along, *tables]
+    of_faces = [TextTable(title, *bearing_rows(faces, FACE))] if faces else []
+    tables = [*_train_tables(prepared, train), *_set_tables(prepared), *of_faces, *tables]
     details = list(_once(names, [checked.tables for checked in of_meshes]))
     remarks = [*_named(names, [checked.remarks for checked in of_meshes]), *bearing_remarks(shafts, oil)]
     sentences = _named(names, [checked.warnings for checked in of_meshes])
@@ -119,7 +123,7 @@ def _once(names: list[str], tables: Sequence[Sequence[TextTable]]) -> Iterator[T
         yield table._replace(title=f"{table.title}, mesh {together(of)}")
 
 
-def _of_mesh(prepared: PreparedGearbox, m: int, spread: Spread | None) -> CheckResult:
+def _of_mesh(prepared: PreparedGearbox, m: int, along: dict[str, Any]) -> CheckResult:
     pair, tabulated = prepared.warm_pairs[m], prepared.tables[m]
     thermal = prepared.thermal[m]
     gears = PreparedGears(
@@ -129,7 +133,7 @@ def _of_mesh(prepared: PreparedGearbox, m: int, spread: Spread | None) -> CheckR
     ends = {prepared.case.meshes[m].driver, prepared.case.meshes[m].driven}
     bearings = [link.bearing for link in prepared.case.links if link.bearing and link.ends[0] in ends]
     checked = check_gears(gears, prepared.model.closure(m), masses)
-    checked = checked._replace(data=checked.data | along_face(spread, m))
+    checked = checked._replace(data=checked.data | along)
     return with_duty(checked, prepared.case.pairs[m], bearings)
 
 

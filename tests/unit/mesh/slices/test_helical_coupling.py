@@ -13,7 +13,13 @@ from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES, Drive, GearBody
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.modification import FlankModification, LeadRelief, Modifications
+from tribodyn.geometry.modification import (
+    FlankModification,
+    LeadRelief,
+    Misalignment,
+    Modifications,
+    turned_round,
+)
 from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.slices.coupled import BODIES_LENGTH, TEETH_LENGTH, couple_slices, spread
@@ -111,6 +117,16 @@ def test_slices_open_by_the_bias_of_their_places():
     late_by_z = late * z - (2.0 * fall * along / length) * (2.0 * along / width) / 12.0
     touching = np.broadcast_to(cycle.share, cycle.gap.shape)[0] > 0.0
     np.testing.assert_allclose(gap[touching], (10e-6 * late_by_z)[touching], atol=1e-12)
+
+
+def test_a_left_hand_pinion_is_a_right_hand_one_from_its_other_end():
+    pair, slices = helical_pair(1.1), 9
+    left = assemble(pair.family, pair.drive._replace(helix_angle=-pair.drive.helix_angle))
+    lead = LeadRelief(start=4e-6, end=9e-6)
+    made = Modifications(FlankModification(lead=lead, bias=10e-6), misalignment=Misalignment(1e-4, 2e-4))
+    found = sliced(left, replace(ENERGY, modifications=made), slices, nodes=65)
+    seen = sliced(pair, replace(ENERGY, modifications=turned_round(made)), slices, nodes=65)
+    np.testing.assert_allclose(found.gap, seen.gap, atol=1e-15)
 
 
 def test_back_flanks_keep_their_compliance():

@@ -1,19 +1,37 @@
 """Loads along the faces of gears on drawn shafts, in static equilibrium of the whole gearbox."""
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import pytest
 
 from tests.support.overhung_train import overhung_train
 from tests.support.train_scenarios import case_of_table
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.methods import STIFF
+from tribodyn.solve.transient import Stop, TransientSettings, transient
+from tribodyn.studies.load_contact.run import quantities_of
 from tribodyn.studies.motion.prepare import prepare
-from tribodyn.studies.motion.train.face_loads import FaceLoads, Spread, spread_of
+from tribodyn.studies.motion.train.assessable import pair_of
+from tribodyn.studies.motion.train.face_loads import FaceLoads, Spread, flattened, spread_of
+from tribodyn.studies.protocol.load import load_data
 
 
 @lru_cache
 def spread(mirrored: bool = False, hand: str = "right") -> Spread:
     return spread_of(prepare(case_of_table(overhung_train(mirrored=mirrored, hand=hand))))
+
+
+def uniform(**more: Any) -> Spread:
+    """Slices of one stiffness that do not hold each other; the overlap ratio is 1."""
+    mesh = {"damping_ratio": 0.3, "slices": 7, "compliance": "constant", "stiffness": "1e8 N/m"}
+    width = float(np.pi * 3.0 / np.sin(np.radians(15.0)))
+    written = overhung_train(width=width, mesh=mesh)
+    for shaft in written["shaft"]:
+        shaft["drawn"]["damping_ratio"] = 0.3
+    written["operating"] |= more
+    return spread_of(prepare(case_of_table(written)), 24)
 
 
 def only(found: Spread) -> FaceLoads:
@@ -58,3 +76,57 @@ def test_a_load_off_the_middle_tilts_the_gears_back():
     (mesh,) = spread().prepared.case.meshes
     in_the_middle = mesh.pair.supports.misalignment.in_plane * float(mesh.pair.drive.gear.face_width)
     assert 0.7 * in_the_middle < only(spread()).misalignment < in_the_middle
+
+
+def test_uniform_stiffness_meets_the_closed_form():
+    """κ = c f b/(2 F_bt), K_Hβ = 1 + κ at the end of the face; c per width of the face, along the path."""
+    found = uniform()
+    loads, assembly = only(found), found.prepared.assembly
+    width, slices = float(assembly.common_width), len(loads.place)
+    base_helix = np.arcsin(np.sin(np.radians(15.0)) * np.cos(np.radians(20.0)))
+    per_width = 1e8 / width * float(assembly.contact_ratio) * np.cos(base_helix) ** 2
+    force = np.mean(loads.line_load) * width * np.cos(base_helix)
+    kappa = per_width * loads.misalignment * width / (2.0 * force)
+    assert 0.3 < kappa < 1.0
+    assert loads.factor == pytest.approx(1.0 + kappa * (1.0 - 1.0 / slices), rel=1e-2)  # middle of the last
+
+
+def test_slow_motion_settles_where_statics_stand():
+    """From the unloaded position, in one mesh cycle at 0.1 rpm."""
+    model = uniform(input_speed="0.1 rpm").prepared.model
+    layout, start = model.layout, np.zeros(model.layout.states)
+    *_, end = transient(model, start, TransientSettings(STIFF, 1e-9, 1, 100_000, 8))
+    assert isinstance(end, Stop)
+    assert not end.reason
+    statics = static_equilibrium(model, 0.0, int(model.schedule.first[1 % model.schedule.period]))
+    moved, stands = end.state[: layout.half], statics[: layout.half]
+    assert np.linalg.norm(moved - stands) < 1e-6 * np.linalg.norm(stands)
+    np.testing.assert_allclose(moved, stands, rtol=1e-5, atol=1e-6 * np.max(np.abs(stands)))
+
+
+@pytest.mark.slow
+def test_load_contact_of_the_same_misalignment_agrees():
+    """Slow rotation on finite elements, in which slices hold each other at every load."""
+    mesh = {"damping_ratio": 0.05, "slices": 7, "compliance": "fem"}
+    case = case_of_table(overhung_train(mesh=mesh))
+    loads, (pair,) = only(spread_of(prepare(case), 16)), case.pairs
+    angle = loads.misalignment / float(pair.drive.gear.face_width)
+    scenario = {
+        "title": "The same",
+        "kind": "load-contact",
+        "drive": pair_of(case, "only")["drive"],
+        "operating": {"gear_torque": f"{pair.operating.gear_torque!r} N*m"},
+        "mesh": {"slices": 7, "misalignment": {"in_plane": f"{angle!r} rad"}},
+    }
+    alone = quantities_of(load_data(scenario, "same").case)
+    assert loads.factor == pytest.approx(alone["face_load_factor"], rel=0.02)
+    assert loads.factor > 2.0
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+def test_what_is_proposed_flattens_the_load(hand: str):
+    before = spread(hand=hand)
+    (proposed,) = flattened(before)
+    assert proposed["face_load_factor_helix_slope"] < 1.05
+    assert proposed["face_load_factor_crowning"] < 0.8 * only(before).factor
+    assert proposed["proposed_helix_slope"] < 0.0  # material stays where the flanks open

@@ -102,6 +102,7 @@ def _modified(drive: DriveTable) -> Iterator[tuple[str, str | None]]:
             "lead_relief_start",
             "lead_relief_end",
             "crowning",
+            "helix_slope",
             "bias",
         ):
             if amount := getattr(table, relief):

@@ -82,6 +82,7 @@ class Modification(quantity.Table):
         "0 mm"
     )
     crowning: Amount | None = None
+    helix_slope: Annotated[float, quantity.InUnit(units.DEVIATION, "6 um")] = quantity.written("0 um")
     bias: Annotated[float, quantity.InUnit(units.DEVIATION, "6 um")] = quantity.written("0 um")
     profile_error: Annotated[ErrorCurve, quantity.csv_file("roll_angle", "error")] | None = None
     pitch_errors: Annotated[
@@ -107,7 +108,11 @@ def flank_of(table: Modification, module: float) -> FlankModification:
         tip=_relief(table, "tip", module),
         root=_relief(table, "root", module),
         lead=LeadRelief(
-            table.lead_relief_start, table.lead_relief_end, table.lead_unmodified, table.crowning or 0.0
+            table.lead_relief_start,
+            table.lead_relief_end,
+            table.lead_unmodified,
+            table.crowning or 0.0,
+            table.helix_slope,
         ),
         bias=table.bias,
         profile_error=table.profile_error.in_si() if table.profile_error else None,
