@@ -12,10 +12,12 @@ from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.modes import modes
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError
+from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.solve.transient import TransientSettings
 from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.run import run
 from tribodyn.train.elastic.pin import Pin, pin_stiffness
 from tribodyn.train.elastic.ring import Rim, rim_matrices, rows_at
 
@@ -128,3 +130,14 @@ def test_a_rim_that_bends_in_the_mesh_too_is_refused():
     table["gear"]["ring"]["rim"] = "free"
     with pytest.raises(InputError, match="counts the bending of the rim twice"):
         case_of_table(table)
+
+
+def test_a_record_has_what_the_rim_does_at_its_meshes(tmp_path):
+    """Alike at all planets of a set in phase: its ring is pushed apart, and no mesh of the sun has any."""
+    table = planet_set(ring_rim={"orders": 3}, solver={"cycles": 8}) | {"output": {"samples_per_cycle": 16}}
+    run(case_of_table(table), tmp_path / "set.h5")
+    record = Record(tmp_path / "set.h5")
+    for name in ("rim_along", "rim_across"):
+        values = np.asarray(record[name])[-16:]
+        assert np.all(np.isnan(values[:, :3]))
+        assert np.ptp(values[:, 3:], axis=1).max() < 1e-3 * np.abs(values[:, 3:]).max()

@@ -13,7 +13,7 @@ from tribodyn.dynamics.loads import (
     joins_in_space,
     stretch_in_plane,
 )
-from tribodyn.dynamics.mesh_motion import motion_of, place_in_mesh
+from tribodyn.dynamics.mesh_motion import by_rim, motion_of, place_in_mesh
 from tribodyn.dynamics.parameters import Model
 from tribodyn.dynamics.recorded.extremes import LOWEST, Extremes, highest_loaded
 from tribodyn.dynamics.recorded.faces import over_faces
@@ -22,11 +22,13 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.train.layout import displacements, work_of, works_of_meshes
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import (
+    ACROSS,
     DAMPING,
     IN,
     IN_SPACE,
     OUT,
     PARAMETRIC,
+    TOWARDS,
     TURN,
     rotational_error,
     shift_of,
@@ -41,6 +43,8 @@ from tribodyn.tribology.surface_state import limits_last, surface_and_limits
 POWERS = ("power_in", "power_out", "power_friction", "power_damping", "power_parametric", "drive_torque")
 #: What is worked out with them for the summary alone: shares allowed by each limit of film and friction law.
 UNRECORDED = ("closure_shares", "friction_shares")
+#: What rims that bend do at their meshes.
+RIM_NAMES = {"rim_along": TOWARDS, "rim_across": ACROSS}
 #: What bodies that move in space do beside moving in the plane.
 IN_SPACE_NAMES = ("z", "tilt_x", "tilt_y")
 
@@ -146,6 +150,11 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         "entrainment_speed": contacting(0.5 * speeds, inside),
         "sliding_speed": contacting(contacts.sliding, inside),
         "mesh_stiffness": np.where(touching, stiffness, 0.0),
+        **{
+            name: np.broadcast_to(by_rim(which, m, 0, samples.y, model), count)
+            for name, which in RIM_NAMES.items()
+            if model.layout.rim_count[m] > 0
+        },
         # along the pitch tangent
         "tangent_load": np.where(touching, load * arm, 0.0),
         "tangent_stiffness": np.where(touching, stiffness * arm**2, 0.0),

@@ -112,6 +112,13 @@ IN_SPACE: dict[str, Variable] = {
     "z_rate": Variable(_BODY, "m/s", "velocity of each body along its axis"),
     "axial_force": Variable(_MESH, "N", "force of each mesh on its driver along z"),
 }
+#: And where rims of rings bend.
+RIM: dict[str, Variable] = {
+    "rim_along": Variable(
+        _MESH, "m", "bending of the ring's rim at each mesh along the pitch tangent, as the driver's motion"
+    ),
+    "rim_across": Variable(_MESH, "m", "likewise across, from the driver's axis to the driven one's"),
+}
 #: And of meshes in slices.
 LINE_LOAD: dict[str, Variable] = {
     "line_load": OF_SLICES["line_load"]._replace(dims=(*_PAIRS, "slice")),
@@ -170,8 +177,9 @@ class GearboxRecord(NamedTuple):
                 block[name] = np.full((count, len(self.meshes), len(self.pairs), *further), np.nan)
                 for m, (mesh, values) in enumerate(zip(self.meshes, sampled.meshes, strict=True)):
                     self._put(block[name][:, m], mesh.cycle, values.get(name))
-            elif variable.dims == _MESH and name in sampled.meshes[0]:
-                block[name] = np.stack([mesh[name] for mesh in sampled.meshes], axis=1)
+            elif variable.dims == _MESH and any(name in mesh for mesh in sampled.meshes):
+                nothing = np.full(count, np.nan)
+                block[name] = np.stack([mesh.get(name, nothing) for mesh in sampled.meshes], axis=1)
             elif variable.dims == _BODY:
                 values = sampled.whole[name]
                 block[name] = np.full((count, bodies), np.nan)
@@ -230,6 +238,8 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
     if (slices := max(mesh.cycle.slices for mesh in meshes)) > 1:
         samples, axes = samples | IN_SPACE | LINE_LOAD, axes | SLICE
         scales["slice"] = np.arange(1, slices + 1)
+    if any(model.layout.rim_count):
+        samples = samples | RIM
     if bearings:
         samples, axes = samples | BEARINGS, axes | _BEARING
     axes = axes | {"revolution": REVOLUTION}

@@ -13,8 +13,8 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.gears.drawn_system import modal_damping
 from tribodyn.gears.tabulated import Tabulated
-from tribodyn.geometry.drive import SIDES
-from tribodyn.studies.motion.case import Gearbox, SetData
+from tribodyn.geometry.drive import Side
+from tribodyn.studies.motion.case import Gearbox, RimData, SetData
 from tribodyn.studies.motion.planetary.frames import carried_ratio
 from tribodyn.train.coupling import CoupledMatrices
 from tribodyn.train.elastic.ring import FIRST_ORDER, PER_ORDER, Rim, rim_matrices, rows_at
@@ -27,19 +27,14 @@ class _PlacedRim(NamedTuple):
     """A set's rim, its meshes, and the place of its first coordinate among those of no body."""
 
     gearset: SetData
+    data: RimData
     meshes: tuple[int, ...]
     first: int
 
     @property
-    def count(self) -> int:
-        """Coordinates."""
-        rim = self.gearset.rim
-        return coordinates(rim.orders) if rim is not None else 0
-
-
-def coordinates(orders: int) -> int:
-    """Coordinates of a rim of the orders 2 … `orders`."""
-    return PER_ORDER * (orders + 1 - FIRST_ORDER)
+    def size(self) -> int:
+        """Number of its coordinates."""
+        return PER_ORDER * (self.data.orders + 1 - FIRST_ORDER)
 
 
 def _placed(case: Gearbox) -> list[_PlacedRim]:
@@ -48,13 +43,13 @@ def _placed(case: Gearbox) -> list[_PlacedRim]:
         if gearset.rim is not None:
             ring = gearset.members[RING]
             meshes = tuple(m for m, mesh in enumerate(case.meshes) if ring in (mesh.driver, mesh.driven))
-            rims.append(_PlacedRim(gearset, meshes, sum(rim.count for rim in rims)))
+            rims.append(_PlacedRim(gearset, gearset.rim, meshes, sum(rim.size for rim in rims)))
     return rims
 
 
 def rim_coordinates(case: Gearbox) -> int:
     """Coordinates of all rims of a case."""
-    return sum(rim.count for rim in _placed(case))
+    return sum(rim.size for rim in _placed(case))
 
 
 def with_rims(case: Gearbox, layout: TrainLayout) -> TrainLayout:
@@ -65,7 +60,7 @@ def with_rims(case: Gearbox, layout: TrainLayout) -> TrainLayout:
     first, count = ([0] * layout.meshes for _ in range(2))
     for rim in rims:
         for m in rim.meshes:
-            first[m], count[m] = layout.half - layout.modes + rim.first, rim.count
+            first[m], count[m] = layout.half - layout.modes + rim.first, rim.size
     kind = type(layout.rim_first)
     return layout._replace(rim_first=kind(first), rim_count=kind(count))
 
@@ -73,19 +68,17 @@ def with_rims(case: Gearbox, layout: TrainLayout) -> TrainLayout:
 def rims_of(case: Gearbox, tables: Sequence[Tabulated], layout: TrainLayout) -> Iterator[CoupledMatrices]:
     """Matrices of all rims. Raises InputError where a rim turns so fast that its waves do not stand."""
     for placed in _placed(case):
-        gearset, data = placed.gearset, placed.gearset.rim
-        if data is None:
-            continue
+        gearset, data = placed.gearset, placed.data
         rim = _rim(case, tables, placed.meshes[0], gearset)
         speed = _passing(case, gearset)
         matrices = rim_matrices(rim, data.orders, data.held, speed)
         if np.min(np.linalg.eigvalsh(matrices.stiffness)) <= 0.0:
             rule = f"the rim turns against the carrier faster than its waves of order {data.orders} run"
             raise InputError(f"{gearset.key}.ring_rim.orders", data.orders, rule, "give fewer orders")
-        ratios = np.full(placed.count, data.damping_ratio)
+        ratios = np.full(placed.size, data.damping_ratio)
         damping = matrices.gyroscopic + modal_damping(matrices.mass, matrices.stiffness, ratios)
-        places = layout.half - layout.modes + placed.first + np.arange(placed.count)
-        yield CoupledMatrices(places, matrices.stiffness, damping, matrices.mass, np.zeros(placed.count))
+        places = layout.half - layout.modes + placed.first + np.arange(placed.size)
+        yield CoupledMatrices(places, matrices.stiffness, damping, matrices.mass, np.zeros(placed.size))
 
 
 def pushing_rims(
@@ -93,17 +86,16 @@ def pushing_rims(
 ) -> tuple[GearMesh, ...]:
     """The meshes with what the rims move them by."""
     rims = _placed(case)
-    rows = np.zeros((len(meshes), ACROSS + 1, max((rim.count for rim in rims), default=0)))
+    rows = np.zeros((len(meshes), ACROSS + 1, max((rim.size for rim in rims), default=0)))
     for placed in rims:
-        data = placed.gearset.rim
-        for m in placed.meshes if data is not None else ():
+        for m in placed.meshes:
             mesh, ring = meshes[m], placed.gearset.members[RING]
             driven = case.meshes[m].driven == ring
             radius = abs(float(mesh.driven_radius if driven else mesh.driver_radius))
             planet = case.meshes[m].driver if driven else case.meshes[m].driven
             angle = placed.gearset.angles[placed.gearset.planets.index(planet)]
             rim = _rim(case, tables, m, placed.gearset)
-            moved = rows_at(rim, data.orders, angle, radius)
+            moved = rows_at(rim, placed.data.orders, angle, radius)
             radial = np.array([np.cos(angle), np.sin(angle)])
             onwards = np.array([-radial[1], radial[0]])
             for which, way in (
@@ -111,7 +103,7 @@ def pushing_rims(
                 (ACROSS, (mesh.across_x, mesh.across_y)),
             ):
                 row = np.dot(way, radial) * moved[0] + np.dot(way, onwards) * moved[1]
-                rows[m, which, : placed.count] = -row if driven else row
+                rows[m, which, : placed.size] = -row if driven else row
     return (
         tuple(mesh._replace(rim=row) for mesh, row in zip(meshes, rows, strict=True)) if rims else (*meshes,)
     )
@@ -132,7 +124,7 @@ def _rim(case: Gearbox, tables: Sequence[Tabulated], m: int, gearset: SetData) -
     driven = int(case.meshes[m].driven == gearset.members[RING])
     assembly, pair = tables[m].assembly, case.meshes[m].pair
     # of the pair's gears the one with negative teeth
-    side = next(side for side in SIDES if float(getattr(assembly.drive, side).teeth) < 0.0)
+    side: Side = "pinion" if float(assembly.drive.pinion.teeth) < 0.0 else "gear"
     body, material = getattr(assembly.drive, side), pair.materials[driven]
     return Rim(
         abs(float(assembly.tooth(side).root_radius)),
