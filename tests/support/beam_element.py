@@ -13,21 +13,21 @@ STEEL = ShaftMetal(206e9, 0.3)
 PIECES = 24
 
 
-def whole_bar():
+def whole_bar(diameter=DIAMETER):
     """Stiffness and mass of the whole model."""
     size = SIX * (PIECES + 1)
     stiffness, mass = np.zeros((2, size, size))
     for piece in range(PIECES):
         at = slice(SIX * piece, SIX * (piece + 2))
-        found = matrices(ShaftSection(LENGTH, DIAMETER), LENGTH / PIECES, STEEL, DENSITY)
+        found = matrices(ShaftSection(LENGTH, diameter), LENGTH / PIECES, STEEL, DENSITY)
         stiffness[at, at] += found.stiffness
         mass[at, at] += found.mass
     return stiffness, mass
 
 
-def bar(highest: float = 3000.0) -> SuperElement:
+def bar(highest: float = 3000.0, diameter: float = DIAMETER) -> SuperElement:
     """Seats at both ends, a point in the middle."""
-    stiffness, mass = whole_bar()
+    stiffness, mass = whole_bar(diameter)
     size = len(mass)
     ends = [*range(SIX), *range(size - SIX, size)]
     left = reduced(*map(sparse.csr_matrix, (stiffness, mass, np.eye(size)[ends])), highest)

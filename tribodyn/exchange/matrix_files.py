@@ -156,7 +156,7 @@ def look_into_hdf5(path: Path) -> str:
                 data = file[name]
                 if not isinstance(data, h5py.Dataset) or data.is_virtual or data.external:
                     return f"{name} is no array of its own"
-                if data.size > MOST_ELEMENTS:
+                if (data.size or 0) > MOST_ELEMENTS:
                     return f"{name} has {data.size} elements, more than {MOST_ELEMENTS}"
                 data[()]
     except Exception as error:  # whatever HDF5 says of it

@@ -117,9 +117,10 @@ def _fixed_modes(
 
     # M^-1-free form: largest 1/ω² of (M A M) φ = M φ / ω², with A the flexibility of fixed seats
     wanted = min(modes or _FIRST_MODES, free - 1)
-    operator = LinearOperator((count, count), matvec=lambda v: mass @ flexibility(mass @ v), dtype=float)
+    linear: Any = LinearOperator
+    operator = linear((count, count), matvec=lambda v: mass @ flexibility(mass @ v), dtype=float)
     inverse_mass = splu(mass)
-    minv = LinearOperator((count, count), matvec=inverse_mass.solve, dtype=float)
+    minv = linear((count, count), matvec=inverse_mass.solve, dtype=float)
     while True:
         start = np.random.default_rng(1).standard_normal(count)
         inverse, shapes = eigsh(operator, wanted, M=mass, Minv=minv, which="LA", v0=start)

@@ -43,7 +43,7 @@ class PlateMetal(NamedTuple):
 def plate_housing(
     size: Sequence[float],
     thickness: float,
-    bores: Mapping[str, Bore | Sequence[Any]],
+    bores: Mapping[str, Sequence[Any]],
     *,
     points: Mapping[str, Sequence[float]] | None = None,
     metal: PlateMetal = PlateMetal(),
@@ -95,10 +95,10 @@ def plate_housing(
         spread = with_rigid_bores(places, rings, dofs, centres)
         kept = np.setdiff1d(np.arange(count), np.concatenate([dofs[ring].ravel() for ring in rings]))
         spread = spread[:, np.concatenate([~np.isin(kept, fixed), np.ones(6 * len(rings), dtype=bool)])]
-        seats = sparse.eye(spread.shape[1], format="csr")[-6 * len(rings) :]
+        seats = sparse.csr_matrix(sparse.eye(spread.shape[1]))[-6 * len(rings) :]
     else:
         free = np.setdiff1d(np.arange(count), fixed)
-        spread = sparse.eye(count, format="csc")[:, free]
+        spread = sparse.csc_matrix(sparse.eye(count))[:, free]
         rows = [averaged(places, ring, dofs, centre) for ring, centre in zip(rings, centres, strict=True)]
         seats = sparse.vstack(rows).tocsc()[:, free]
     left = reduced(spread.T @ stiffness @ spread, spread.T @ mass @ spread, seats, highest)
@@ -158,7 +158,7 @@ def _box(size: Float[Array, " 3"], thickness: float, bores: Sequence[Bore], side
 
     marks = [
         [
-            bore[axis] + share * bore.radius
+            (bore.x, bore.y)[axis] + share * bore.radius
             for bore in bores
             for share in (-_AROUND, -_HOLE, 0.0, _HOLE, _AROUND)
         ]
