@@ -35,6 +35,7 @@ from tribodyn.studies.motion.pictures.planet_figures import (
     orbit_figure,
     planet_load_figure,
 )
+from tribodyn.studies.motion.pictures.shafts_figure import has_shafts, shafts_figure
 from tribodyn.studies.motion.pictures.train_picture import draw_train, train_figure
 
 MESH_FORCE = Trace("driven_torque", "Force of each mesh along its pitch tangent", "$F_t$", "N")
@@ -228,6 +229,9 @@ DRAWINGS: dict[str, Drawing] = {
         train_figure,
         lambda record: "centre" in record.geometry,
         ("train", "{path} does not say where its gears stand", "run it again"),
+    ),
+    "shafts": _held(
+        "shafts", "drawn shafts from the side, bent by the mean loads", shafts_figure, has_shafts
     ),
     "planet-load": _held(
         "planet-load",

@@ -37,6 +37,8 @@ def test_bearings_of_a_middle_shaft_carry_the_thrust_of_both_meshes(tmp_path: Pa
     case = load_scenario("industrial-reducer", {**SHORT, "sensor": sensors})
     run(case, tmp_path / "run.h5")
     with Record(tmp_path / "run.h5") as record:
+        bearings = np.asarray(record.geometry["seat_shaft"]) == 1
+        at_rest = float(np.sum(record.geometry["seat_force"][bearings, 2]))
         thrust = sum(np.mean(signal.values) for signal in read_sensed(record).signals)
     torques = 75e3 / (1480 * math.pi / 30.0), 75e3 / (1480 * math.pi / 30.0) * 83 / 19
     # T tan β/r of the driver, r = m z/(2 cos β)
@@ -44,6 +46,7 @@ def test_bearings_of_a_middle_shaft_carry_the_thrust_of_both_meshes(tmp_path: Pa
         torque * math.sin(math.radians(helix)) / (module * teeth / 2.0)
         for torque, helix, module, teeth in ((torques[0], 15, 3.5e-3, 19), (torques[1], 12, 5e-3, 21))
     )
+    assert at_rest == pytest.approx(second - first, rel=0.01)
     assert thrust == pytest.approx(second - first, rel=0.02)
 
 
