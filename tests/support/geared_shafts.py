@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigvals
 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.elastic.beam_matrices import SIX
@@ -93,6 +92,6 @@ def natural_frequencies(mass: Array, damping: Array, stiffness: Array) -> Float[
     """Hz, increasing, of an undamped gyroscopic system; rigid motions left out."""
     none, one = np.zeros_like(mass), np.eye(len(mass))
     inverse = np.linalg.inv(mass)
-    values = eigvals(np.block([[none, one], [-inverse @ stiffness, -inverse @ damping]])).imag
+    values = np.linalg.eigvals(np.block([[none, one], [-inverse @ stiffness, -inverse @ damping]])).imag
     found = np.sort(values[values > 0.0]) / (2.0 * np.pi)
     return found[found > 1.0]
