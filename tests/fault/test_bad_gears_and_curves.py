@@ -94,7 +94,7 @@ WIDE = ['helix_angle="30 deg"', 'pinion.face_width="0.9 m"', 'gear.face_width="0
 LEFT = ['helix_angle="15 deg"', "hand=left", "gear.hand=left"]
 #: A helix that cannot be: settings, key of the message, rule, remedy.
 HELICES = {
-    "too steep": (['helix_angle="45 deg"'], "helix_angle = 45 deg", "less than 45 deg", "8 to 35 deg"),
+    "too steep": (['helix_angle="61 deg"'], "helix_angle = 61 deg", "60 deg at most", "8 to 35 deg"),
     "negative": (['helix_angle="-15 deg"'], "helix_angle = -15 deg", "not be negative", 'hand = "left"'),
     "one hand": (LEFT, 'gear.hand = "left"', "opposite hands", 'write "right"'),
     "no angle": (["pinion.hand=left"], 'pinion.hand = "left"', "spur gears", 'helix_angle = "20 deg"'),

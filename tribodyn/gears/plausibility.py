@@ -16,7 +16,7 @@ from tribodyn.gears.case import GearCase
 from tribodyn.gears.check import with_rounding
 from tribodyn.gears.duty import HERTZ, duty_lines, nominal_duty
 from tribodyn.gears.rating.bearings import bearing_part, bearing_rows, shafts_of_pair
-from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.tribology.oil import T_40, T_100, ZERO_CELSIUS, LubricantData
@@ -234,7 +234,20 @@ def unusual_values(case: GearCase, bearings: Iterable[BearingData] = ()) -> list
         if isfinite(number) and not twice and not usual_range.low <= number <= usual_range.high:
             outside.add(name)
             sentences[usual_range.sentence(number)] = None
-    return list(sentences)
+    assembly = assemble(family(case.family), case.drive)
+    return [*sentences, *shortened_flanks(assembly)]
+
+
+def shortened_flanks(assembly: Assembly) -> list[str]:
+    """What undercut takes of the path of contact, a line for each gear."""
+    whole, left = assembly.contact_ratio_between(*assembly.tip_limits), assembly.contact_ratio
+    return [
+        f"The {side} is undercut: its flank begins at a diameter of "
+        f"{2e3 * float(assembly.tooth(side).form_radius):.6g} mm, which leaves a contact ratio of {left:.4g} of "
+        f"{whole:.4g}."
+        for side in SIDES
+        if assembly.shortened(side)
+    ]
 
 
 def _numbers(case: Any, bearings: Iterable[BearingData]) -> Iterator[tuple[str, float]]:

@@ -19,7 +19,7 @@ from tribodyn.geometry.path import (
     seen_from,
 )
 from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, polar, thickness_half_angle
-from tribodyn.numerics.elementary import absolute, as_float, cos, minimum, namespace, smallest, sqrt
+from tribodyn.numerics.elementary import absolute, as_float, cos, maximum, minimum, namespace, smallest, sqrt
 
 _SAMPLES = 400
 
@@ -47,12 +47,18 @@ class Assembly:
         return cut_tooth(self.family, self.drive, "gear")
 
     @cached_property
-    def limits(self) -> tuple[Any, Any]:
-        """Signed distances r_start and r_end of first and last contact, m.
-
-        NaN where the tip circles do not reach the path.
-        """
+    def tip_limits(self) -> tuple[Any, Any]:
+        """Signed distances, m, at which the tip circles cut the path; NaN where they do not reach it."""
         return _plain(contact_limits(self.path, *(tip_radius(self.drive, side) for side in SIDES)))
+
+    @cached_property
+    def limits(self) -> tuple[Any, Any]:
+        """Signed distances r_start and r_end of first and last contact, m; NaN where there is no path.
+
+        Where the mate's tip touches a flank, or where an undercut flank begins above that.
+        """
+        start, end = self.tip_limits
+        return _plain((_above_undercut(self, "pinion", start), -_above_undercut(self, "gear", -end)))
 
     @property
     def r_start(self) -> Any:
@@ -72,7 +78,11 @@ class Assembly:
     @cached_property
     def contact_ratio(self) -> Any:
         """Transverse contact ratio."""
-        return as_float(contact_ratio(self.path, *self.limits, self.drive.pinion.teeth))
+        return self.contact_ratio_between(*self.limits)
+
+    def contact_ratio_between(self, start: Any, end: Any) -> Any:
+        """Transverse contact ratio of a path from a signed distance to another, m."""
+        return as_float(contact_ratio(self.path, start, end, self.drive.pinion.teeth))
 
     @property
     def common_width(self) -> Any:
@@ -89,8 +99,16 @@ class Assembly:
         return self.pinion if side == "pinion" else self.gear
 
     def lowest_contact(self, side: Side) -> Any:
-        """Signed distance (m), in the body's own view, where the mate's tip touches this body's flank."""
+        """Signed distance (m), in the body's own view, of the lowest contact on this body's flank."""
         return self.r_start if side == "pinion" else -self.r_end
+
+    def lowest_at_tip(self, side: Side) -> Any:
+        """The same where the mate's tip cuts the path, whether there is a flank or not."""
+        return self.tip_limits[0] if side == "pinion" else -self.tip_limits[1]
+
+    def shortened(self, side: Side) -> bool:
+        """Whether contact on a body's flank begins where undercut ends it; of plain numbers."""
+        return bool(self.lowest_contact(side) > self.lowest_at_tip(side))
 
     def path_of(self, side: Side) -> Path:
         """Return the working path as one body sees it, which is that path's pinion."""
@@ -100,6 +118,14 @@ class Assembly:
 def _plain(values: Iterable[Any]) -> tuple[Any, ...]:
     """Floats, where they are not JAX's."""
     return tuple(map(as_float, values))
+
+
+def _above_undercut(assembly: Assembly, side: Side, lowest: Any) -> Any:
+    """The lowest contact, in a body's own view, not below the start of a flank that is undercut."""
+    tooth, path = assembly.tooth(side), assembly.path_of(side)
+    xp = namespace(assembly.drive)
+    begins = distance_at_radius(path, tooth.form_radius)
+    return xp.where(tooth.overrun > 0, maximum(lowest, begins), lowest)
 
 
 def mate_of(side: Side) -> Side:
@@ -129,17 +155,17 @@ def tip_clearance(assembly: Assembly, side: Side) -> Any:
 
 
 def lowest_contact_speed(assembly: Assembly, side: Side) -> Any:
-    """Speed of the lowest contact along this body's flank, m per rad; no flank is there unless > 0.
+    """Speed along this body's flank where the mate's tip cuts the path, m per rad; no flank there unless > 0.
 
     Per rad of its own turning, in the sense in which an external body turns.
     """
     path = assembly.path_of(side)
     r_p = path.pinion_pitch_radius
-    return as_float(kinematics(path, assembly.lowest_contact(side)).pinion_speed * absolute(r_p) / r_p)
+    return as_float(kinematics(path, assembly.lowest_at_tip(side)).pinion_speed * absolute(r_p) / r_p)
 
 
 def lowest_contact_radius(assembly: Assembly, side: Side) -> Any:
-    """Radius on this body at which the mate's tip touches its flank, m."""
+    """Radius on this body of its lowest contact, m."""
     return as_float(radius(assembly.path_of(side), assembly.lowest_contact(side)))
 
 
@@ -152,7 +178,7 @@ def tip_corner_gap(assembly: Assembly, side: Side) -> Any:
     tooth, path = assembly.tooth(side), assembly.path_of(side)
     xp = namespace(assembly.drive)
     r_p, r_g = path.pinion_pitch_radius, path.gear_pitch_radius
-    lowest = assembly.lowest_contact(side)
+    lowest = assembly.lowest_at_tip(side)
     alpha = path.pressure_angle(lowest)
     tip, mate_angle = polar(lowest * xp.cos(alpha), -lowest * xp.sin(alpha), r_g)
     mate_turn = -mate_angle * np.linspace(0.0, 1.0, _SAMPLES)

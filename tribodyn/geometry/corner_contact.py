@@ -4,15 +4,16 @@ Unloaded teeth part there. Loaded ones let the body run ahead, and the corner of
 flank early or late, once the deflection exceeds the gap between them.
 
 The corner is followed in the view of the body whose flank it touches (`path.seen_from`): before contact
-begins that is the pinion, met by the gear's tip; after its end the gear, met by the pinion's.
+begins that is the pinion, met by the gear's tip; after its end the gear, met by the pinion's. Where undercut
+ends a flank before the tip reaches it, the corner there touches the mate's flank.
 """
 
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import Side
+from tribodyn.geometry.assembly import Assembly, mate_of
+from tribodyn.geometry.drive import Side, tip_radius
 from tribodyn.geometry.path import Kinematics, PerContact, distance_at_radius, kinematics, radius
 from tribodyn.geometry.tooth import polar, thickness_half_angle
 from tribodyn.numerics.shapes import Array, Bool
@@ -59,9 +60,13 @@ def pair_geometry(assembly: Assembly, roll: PerContact) -> PairGeometry:
     sides: tuple[tuple[Side, Bool[Array, "*contact"]], ...] = (("pinion", roll < start), ("gear", roll > end))
     for side, outside in sides:
         if np.any(outside):
-            distance, corner_gap, at, flank = _corner(assembly, side, roll[outside])
-            gap[outside], reach[side][outside] = corner_gap, at
-            place[side][outside] = flank if side == "pinion" else -flank
+            touched, first = side, assembly.lowest_contact(side)
+            if assembly.shortened(side):  # the corner at which undercut ends its own flank touches the mate's
+                touched, first = mate_of(side), -first
+            distance, corner_gap, at, flank = _corner(assembly, touched, first, roll[outside])
+            beyond = np.maximum(at - tip_radius(assembly.drive, touched), 0.0)  # no flank is there
+            gap[outside], reach[touched][outside] = corner_gap + beyond, at
+            place[touched][outside] = flank if touched == "pinion" else -flank
             moved[outside] = (-distance if side == "pinion" else distance) - r[outside]
     ratio = path.pinion_pitch_radius / path.gear_pitch_radius
     motion = motion._replace(
@@ -77,16 +82,15 @@ def pair_geometry(assembly: Assembly, roll: PerContact) -> PairGeometry:
 
 
 def _corner(
-    assembly: Assembly, side: Side, roll: PerContact
+    assembly: Assembly, side: Side, first: Any, roll: PerContact
 ) -> tuple[PerContact, PerContact, PerContact, PerContact]:
-    """Corner of the mate's tip near this body's flank at the pinion's angles.
+    """Corner of the mate near this body's flank at the pinion's angles; on the path it touches at `first`.
 
     Its distance from the pitch point, the gap along the flank's normal, the radius on this body and the
     signed distance, in this body's view, at which the flank would be in contact at that radius; m.
     """
     path: Any = assembly.path_of(side)
     tooth = assembly.tooth(side)
-    first = assembly.lowest_contact(side)
     r_body, r_mate = path.pinion_pitch_radius, path.gear_pitch_radius
     turn = roll if side == "pinion" else -roll * assembly.path.pinion_pitch_radius / r_body
     alpha = path.pressure_angle(first)

@@ -3,6 +3,7 @@
 import math
 import re
 
+import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
@@ -20,6 +21,27 @@ def drive(pinion, gear, angle=20.0):
     return Drive(0.003, math.radians(angle), pinion, gear)
 
 
+def rack_cut_radius(teeth, alpha):
+    """Radius, in modules times 3 mm, down to which the rounded tip of a rack has left the involute.
+
+    All places of the rounding are carried into the gear's frame, tooth upwards, and those that lie inside the
+    involute looked for.
+    """
+    module, pitch = 0.003, 0.0015 * teeth
+    base, rounding = pitch * math.cos(alpha), 0.25 * module
+    centre_y = pitch - 1.0 * module
+    centre_x = math.pi * module / 4 + module * math.tan(alpha) + rounding / math.cos(alpha)
+    turn, at = np.meshgrid(np.linspace(-1.0, 0.2, 4000), np.linspace(alpha, 1.2, 1500))
+    x = centre_x - rounding * np.cos(at) + pitch * turn
+    y = centre_y - rounding * np.sin(at)
+    x, y = x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)
+    radius, half = np.hypot(x, y), np.arctan2(x, y)
+    there = np.maximum(radius, base)
+    tangent = np.sqrt((there / base) ** 2 - 1)
+    involute_half = math.pi / (2 * teeth) + math.tan(alpha) - alpha - (tangent - np.arctan(tangent))
+    return float(np.max(radius[(radius > base) & (half < involute_half - 1e-9) & (half > 0.0)]))
+
+
 def refusal(family, bad):
     with pytest.raises(InputError) as caught:
         check(family, bad)
@@ -28,8 +50,13 @@ def refusal(family, bad):
 
 # drive, key, what the message says, whether it names a value that then passes this rule
 REFUSED = {
-    "undercut": (drive(body(11.0), body(47.0)), "pinion.profile_shift", "rack undercuts", True),
-    "undercut gear": (drive(body(30.0), body(10.0)), "gear.profile_shift", "rack undercuts", True),
+    "undercut": (drive(body(9.0), body(47.0)), "pinion.profile_shift", "rack undercuts", True),
+    "undercut gear": (
+        drive(body(30.0), body(8.0, bore_radius=0.0)),
+        "gear.profile_shift",
+        "rack undercuts",
+        True,
+    ),
     "pointed by shift": (drive(body(14.0, 1.0), body(47.0)), "pinion.profile_shift", "pointed", True),
     "pointed by addendum": (
         drive(body(23.0, addendum=1.9), body(47.0, dedendum=1.35, fillet_radius=0.1)),
@@ -110,10 +137,10 @@ def breaks_rule(drive, before):
     return False
 
 
-@pytest.mark.parametrize(("teeth", "mate"), [(8, 47), (11, 47), (12, 47), (13, 47), (11, 17), (14, 200)])
+@pytest.mark.parametrize(("teeth", "mate"), [(7, 47), (8, 47), (9, 47), (8, 17), (9, 17), (9, 200)])
 def test_profile_shift_advised_against_undercut_is_the_least_that_is_accepted(teeth, mate):
     # x_min = h − z sin² α/2 leaves no undercut, h the height of the rack's straight flank below its
-    # reference line; less will do where the mate does not reach as deep as the undercut
+    # reference line; less will do where enough of the path is left
     alpha = math.radians(20)
     height = 1.25 - 0.25 * (1 - math.sin(alpha))
 
@@ -185,6 +212,23 @@ class TestCRC:
     def test_few_teeth_are_not_undercut(self, teeth, angle):
         """There is no undercut limit: on this path u_p/ω = [r(1 + w) + √(r²(1 + w)² + 4 A A_0)]/2 > 0."""
         check(crc.FAMILY, drive(body(teeth, fillet_radius=0.2), body(47.0, fillet_radius=0.2), angle))
+
+
+@pytest.mark.parametrize(("teeth", "mate"), [(10, 47), (12, 47), (14, 14), (14, 200), (20, 40)])
+def test_contact_on_an_undercut_flank_begins_where_the_rack_has_left_it(teeth, mate):
+    """Against the envelope of the rack, drawn point by point: its tip's path and the involute cross there."""
+    angle = 20.0 if teeth < 20 else 14.5
+    pair = check(involute.FAMILY, drive(body(float(teeth), bore_radius=0.0), body(float(mate)), angle))
+    alpha, radius = math.radians(angle), 0.0015 * teeth
+    base, begins = radius * math.cos(alpha), rack_cut_radius(teeth, alpha)
+    assert pair.shortened("pinion")
+    assert pair.pinion.form_radius == pytest.approx(begins, rel=1e-4)
+    start = radius * math.sin(alpha) - math.sqrt(begins**2 - base**2)
+    leaves = math.sqrt((radius + 0.003) ** 2 - base**2) - radius * math.sin(alpha)
+    if pair.shortened("gear"):
+        leaves = start
+    found = pair.contact_ratio * 0.003 * math.pi * math.cos(alpha)
+    assert found == pytest.approx(start + leaves, rel=2e-3)
 
 
 def test_undercut_below_the_lowest_contact_is_no_fault():

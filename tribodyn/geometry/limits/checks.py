@@ -50,7 +50,6 @@ def check(family: Family, drive: Drive) -> Assembly:
         for side in SIDES:
             _check_root(assembly, side)
             _check_rack_corners(assembly, side)
-            _check_undercut(assembly, side)
             _check_tip(assembly, side)
         _check_backlash(assembly)
         for side in SIDES:
@@ -144,20 +143,23 @@ def _check_rack_corners(assembly: Assembly, side: Side) -> None:
     raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, remedy)
 
 
-def _check_undercut(assembly: Assembly, side: Side) -> None:
-    """Refuse undercut that reaches the active flank; below the lowest contact it does no harm."""
-    if not _undercut(assembly, side):
-        return
+def _without_undercut(assembly: Assembly, side: Side) -> InputError | None:
+    """Error of an undercut flank that leaves too little of the path, with what would do; None: it is not."""
+    if not assembly.shortened(side):
+        return None
     body, tooth = _written(assembly, side), assembly.tooth(side)
 
     def sound(shift: float) -> bool:
         return bool(_changed(assembly, side, profile_shift=shift).tooth(side).overrun <= 0)
 
-    def harmless(shift: float) -> bool:
-        return not _undercut(_changed(assembly, side, profile_shift=shift), side)
+    def enough(shift: float) -> bool:
+        pair = _changed(assembly, side, profile_shift=shift)
+        return bool(pair.contact_ratio + overlap_ratio(pair) >= 1)
 
+    whole = assembly.contact_ratio_between(*assembly.tip_limits)
     rule = (
-        f"the rack undercuts the working part of the flank up to the radius {millimetres(tooth.form_radius)}"
+        f"the rack undercuts the flank up to the radius {millimetres(tooth.form_radius)}, which leaves a "
+        f"contact ratio of {assembly.contact_ratio:.3f} of {whole:.3f}"
     )
     otherwise = "use more teeth, a larger pressure angle or a smaller dedendum"
     if assembly.family.parameters:
@@ -165,20 +167,10 @@ def _check_undercut(assembly: Assembly, side: Side) -> None:
     if assembly.family.shiftable:
         shift = body.profile_shift
         minimum = boundary(sound, shift, shift + 2)
-        if minimum is not None:  # less will do where the undercut stays below the lowest contact
-            minimum = boundary(harmless, shift, minimum)
-        remedy = advice(minimum, "at least", otherwise)
-        raise InputError(f"drive.{side}.profile_shift", body.profile_shift, rule, remedy)
-    raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, otherwise)
-
-
-def _undercut(assembly: Assembly, side: Side) -> bool:
-    """Whether undercut reaches the active flank."""
-    tooth = assembly.tooth(side)
-    below = lowest_contact_speed(assembly, side) > 0
-    return bool(tooth.overrun > 0) and not (
-        below and lowest_contact_radius(assembly, side) >= tooth.form_radius
-    )
+        if minimum is not None:  # less will do where enough of the path is left
+            minimum = boundary(enough, shift, minimum) if enough(minimum) else None
+        return InputError(f"drive.{side}.profile_shift", shift, rule, advice(minimum, "at least", otherwise))
+    return InputError(f"drive.{side}.dedendum", body.dedendum, rule, otherwise)
 
 
 def _check_tip(assembly: Assembly, side: Side) -> None:
@@ -282,6 +274,9 @@ def _check_clearance(assembly: Assembly, side: Side) -> None:
 def _check_contact_ratio(assembly: Assembly) -> None:
     ratio, overlap = assembly.contact_ratio, float(overlap_ratio(assembly))
     if not ratio + overlap >= 1:
+        for side in SIDES:
+            if error := _without_undercut(assembly, side):
+                raise error
         of = f"total contact ratio is {ratio + overlap:.3f}" if overlap else f"contact ratio is {ratio:.3f}"
         rule = f"the {of}, so that a pair parts before the next one touches"
         remedy = "use larger addenda, more teeth or a smaller pressure angle"
@@ -311,11 +306,12 @@ def _usable_centre_distance(assembly: Assembly, wanted: float) -> float | None:
 
 def _interference(assembly: Assembly, side: Side) -> str:
     """Say how the mate's tip meets this body below its flank, or nothing."""
-    form = assembly.tooth(side).form_radius
-    contact = lowest_contact_radius(assembly, side)
-    if not lowest_contact_speed(assembly, side) > 0:
+    tooth = assembly.tooth(side)
+    form, contact = tooth.form_radius, lowest_contact_radius(assembly, side)
+    undercut = bool(tooth.overrun > 0)  # the rack has made room for tips that reach as deep as its own
+    if not undercut and not lowest_contact_speed(assembly, side) > 0:
         return f"the tip reaches past the end of any flank of the {side}"
-    if not contact >= form:
+    if not undercut and not contact >= form:
         return (
             f"the tip touches the {side} at the radius {millimetres(abs(contact))}, in the fillet: "
             f"the flank begins at {millimetres(abs(form))}"

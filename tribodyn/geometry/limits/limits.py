@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, mate_of, tip_clearance, tip_corner_gap
+from tribodyn.geometry.assembly import Assembly, mate_of, tip_clearance, tip_corner_gap
 from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, tip_circle_radius
 from tribodyn.geometry.helix import overlap_ratio
 from tribodyn.geometry.limits.sizes import millimetres
-from tribodyn.geometry.path import distance_at_radius, kinematics, position
+from tribodyn.geometry.path import distance_at_radius, kinematics, position, radius
 from tribodyn.geometry.tooth import flank_point, polar, thickness_half_angle
 from tribodyn.numerics.elementary import (
     absolute,
@@ -223,14 +223,14 @@ def beyond(unit: str, drive: Drive) -> float:
 
 def _of_body(assembly: Assembly, side: Side) -> dict[str, Any]:
     drive, tooth = assembly.drive, assembly.tooth(side)
-    start, end = assembly.limits
+    start, end = assembly.tip_limits
     r = start + (end - start) * np.linspace(0.0, 1.0, _SAMPLES)
     motion = kinematics(assembly.path, r)
     speed = motion.pinion_speed if side == "pinion" else motion.gear_speed
     speed = speed * sense(assembly.path.pinion_pitch_radius)  # in the pinion's own sense of turning
     return {
         "undercut": smooth_minimum(away_from_pitch_point(speed, r, drive.module), _BLENDED * drive.module),
-        "interference": lowest_contact_radius(assembly, side) - tooth.form_radius,
+        "interference": radius(assembly.path_of(side), assembly.lowest_at_tip(side)) - tooth.form_radius,
         "tip_corner": minimum(tip_corner_gap(assembly, side), drive.module),
         "tip_thickness": 2 * flank_point(tooth, tooth.tip_distance)[1],
         "clearance": tip_clearance(assembly, side),

@@ -127,8 +127,8 @@ def _deviations(face: Face) -> Iterator[tuple[str, str | None]]:
         yield "mesh.slice_coupling", "false"
 
 
-#: Helix angle below which gears are cylindrical gears of parallel axes in practice, and the overlap ratio.
-STEEPEST, MOST_OVERLAP = 45.0, 10.0
+#: Helix angle up to which gears are cylindrical gears of parallel axes in practice, and the overlap ratio.
+STEEPEST, MOST_OVERLAP = 60.0, 10.0
 
 
 def broken_helix_rules(drive: DriveTable) -> Iterator[InputError]:
@@ -141,8 +141,8 @@ def broken_helix_rules(drive: DriveTable) -> Iterator[InputError]:
     if beta < 0.0:
         remedy = f'write helix_angle = "{-beta:.6g} deg" and hand = "left", the hand of the pinion'
         yield InputError(key, shown, "must not be negative: the hand gives the direction", remedy)
-    elif beta >= STEEPEST:
-        rule = "must be less than 45 deg: beyond, a transverse section says little of the teeth"
+    elif beta > STEEPEST:
+        rule = "must be 60 deg at most: beyond, a transverse section says little of the teeth"
         yield InputError(key, shown, rule, 'use 8 to 35 deg, as in helix_angle = "20 deg"')
     else:
         width = min(drive.pinion.face_width, drive.gear.face_width)
