@@ -241,12 +241,12 @@ def unusual_values(case: GearCase, bearings: Iterable[BearingData] = ()) -> list
 def shortened_flanks(assembly: Assembly) -> list[str]:
     """What undercut takes of the path of contact, a line for each gear."""
     whole, left = assembly.contact_ratio_between(*assembly.tip_limits), assembly.contact_ratio
+    undercut = [side for side in SIDES if assembly.shortened(side)]
+    begins = {side: 2e3 * float(assembly.tooth(side).form_radius) for side in undercut}
     return [
-        f"The {side} is undercut: its flank begins at a diameter of "
-        f"{2e3 * float(assembly.tooth(side).form_radius):.6g} mm, which leaves a contact ratio of {left:.4g} of "
-        f"{whole:.4g}."
-        for side in SIDES
-        if assembly.shortened(side)
+        f"The {side} is undercut: its flank begins at a diameter of {begins[side]:.6g} mm, which leaves a "
+        f"contact ratio of {left:.4g} of {whole:.4g}."
+        for side in undercut
     ]
 
 
