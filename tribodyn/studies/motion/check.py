@@ -31,7 +31,7 @@ from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
-from tribodyn.studies.motion.train.face_loads import along_face, flattened, of_deflected
+from tribodyn.studies.motion.train.face_loads import along_face, of_deflected, proposals
 from tribodyn.train.flow import flow
 
 #: Quantities of a mesh's loads along its face.
@@ -52,7 +52,7 @@ def check(case: Gearbox) -> CheckResult:
     spread = of_deflected(prepared)
     mode_set = modes(prepared.model, [one.cycle for one in prepared.tables])
     kinds = kinds_of(prepared, mode_set)
-    proposed = flattened(spread) if spread is not None else [{} for _ in case.meshes]
+    proposed = proposals(spread, len(case.meshes))
     along = [along_face(spread, m) | proposed[m] for m in range(len(case.meshes))]
     of_meshes = [_of_mesh(prepared, m, along[m]) for m in range(len(case.meshes))]
     of_modes = {

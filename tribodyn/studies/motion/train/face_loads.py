@@ -6,6 +6,7 @@ mesh's pair, as its modifications take it: from +z its driver turns clockwise; 0
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -14,7 +15,7 @@ import numpy as np
 from tribodyn.dynamics.approach import DISTANCE, LINE_LOAD, PRESENT, RADIUS
 from tribodyn.dynamics.mesh_motion import motion_of
 from tribodyn.dynamics.recorded.outputs import Evaluated, evaluated, mesh_outputs
-from tribodyn.errors import SimulationError
+from tribodyn.errors import InputError, SimulationError
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.drawn_system import DrawnSystem, places_of
 from tribodyn.gears.tabulated import Tabulated, tables
@@ -214,10 +215,17 @@ def of_deflected(prepared: PreparedGearbox) -> Spread | None:
     """The same of a gearbox whose shafts are drawn; None of others, and where nothing presses its flanks."""
     if prepared.case.system is None:
         return None
-    try:
+    with suppress(SimulationError, InputError):  # of loads and tilts that no user has written
         return spread_of(prepared)
-    except SimulationError:
-        return None
+    return None
+
+
+def proposals(spread: Spread | None, meshes: int) -> tuple[dict[str, Any], ...]:
+    """`flattened`, of so many meshes; empty where what is proposed cannot be made."""
+    if spread is not None:
+        with suppress(SimulationError, InputError):
+            return flattened(spread)
+    return tuple({} for _ in range(meshes))
 
 
 def along_face(spread: Spread | None, m: int) -> dict[str, Any]:
