@@ -17,7 +17,7 @@ from tribodyn.gears.check import with_rounding
 from tribodyn.gears.duty import HERTZ, duty_lines, nominal_duty
 from tribodyn.gears.rating.bearings import bearing_part, bearing_rows, shafts_of_pair
 from tribodyn.geometry.assembly import Assembly, assemble
-from tribodyn.geometry.drive import SIDES, body_of
+from tribodyn.geometry.drive import SIDES, Side, body_of
 from tribodyn.geometry.families import family
 from tribodyn.tribology.oil import T_40, T_100, ZERO_CELSIUS, LubricantData
 
@@ -241,7 +241,7 @@ def unusual_values(case: GearCase, bearings: Iterable[BearingData] = ()) -> list
 def shortened_flanks(assembly: Assembly) -> list[str]:
     """What undercut takes of the path of contact, a line for each gear."""
     whole, left = assembly.contact_ratio_between(*assembly.tip_limits), assembly.contact_ratio
-    undercut = [side for side in SIDES if assembly.shortened(side)]
+    undercut: list[Side] = [side for side in SIDES if assembly.shortened(side)]
     begins = {side: 2e3 * float(assembly.tooth(side).form_radius) for side in undercut}
     return [
         f"The {side} is undercut: its flank begins at a diameter of {begins[side]:.6g} mm, which leaves a "

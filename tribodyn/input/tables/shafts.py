@@ -1,6 +1,6 @@
 """Shafts: ``[[shaft]]``, and ``[shaft.pinion]`` and ``[shaft.gear]`` for those of a pair as drawn."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Any
 
@@ -102,6 +102,8 @@ def broken_shafts(
         if gear not in gears and isinstance(shafts, DrawnShafts):
             yield unknown_name(key, gear, gears, "gear")
         yield from broken_shaft(key, drawn)
+        if isinstance(shafts, DrawnShafts):
+            yield from _broken_places(f"{key}.positions", drawn.positions, [gear], ())
         shaft_of = [one for one in listed(shafts) if gear in one.gears]
         names = gear, *(name for one in shaft_of for name in (one.name, *one.gears, *drawn.positions))
         given = bearings.by_name if bearings is not None and bearings.written_out else ()
@@ -119,7 +121,7 @@ def _broken_in_list(
             rule = "follows from the sections of the drawn shaft"
             yield InputError(f"{key}.{name}", None, rule, f"leave {name} out")
     if shaft.drawn is not None and shaft.drawn.positions:
-        yield from _broken_positions(key, shaft, bodies)
+        yield from _broken_places(f"{key}.drawn.positions", shaft.drawn.positions, shaft.gears, bodies)
     elif shaft.drawn is not None and len(shaft.gears) > 1:
         rule = f"has {len(shaft.gears)} gears, and gear_position is the place of one"
         example = ", ".join(f'{name} = "50 mm"' for name in shaft.gears)
@@ -139,16 +141,15 @@ def _broken_in_list(
     yield from broken_link_law(key, shaft)
 
 
-def _broken_positions(key: str, shaft: Shaft, bodies: Collection[str]) -> Iterator[InputError]:
-    """What a shaft drawn with the places of all that it carries says wrong of them."""
-    assert shaft.drawn is not None
-    place, positions = f"{key}.drawn.positions", shaft.drawn.positions
+def _broken_places(
+    key: str, positions: Mapping[str, float], gears: Sequence[str], bodies: Collection[str]
+) -> Iterator[InputError]:
+    """What is wrong with the names of what a shaft of some gears carries, and where."""
+    known = [*gears, *bodies]
     for name in positions:
-        if name not in shaft.gears and name not in bodies:
-            yield unknown_name(
-                f"{place}.{name}", name, [*shaft.gears, *bodies], "gear of the shaft or [[body]]"
-            )
-    for name in shaft.gears:
+        if name not in known:
+            yield unknown_name(f"{key}.{name}", name, known, "gear of the shaft or [[body]]")
+    for name in gears if positions else ():
         if name not in positions:
             rule, remedy = f"has no place for {name}, a gear of the shaft", f'add {name} = "50 mm"'
-            yield InputError(place, None, rule, remedy)
+            yield InputError(key, None, rule, remedy)

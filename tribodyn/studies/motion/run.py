@@ -36,7 +36,6 @@ from tribodyn.studies.motion.summary import (
     worst_of,
 )
 from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
-from tribodyn.studies.motion.train.face_loads import along_face, of_deflected
 from tribodyn.studies.protocol.study import Progress, RunResult
 
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
@@ -68,12 +67,10 @@ def _warmer(case: Gearbox, summary: Mapping[str, Any]) -> Gearbox | None:
 def _run(case: Gearbox, path: Path, force: bool, *, progress: Progress | None) -> RunResult:
     """Run a case once."""
     prepared = prepare(case)
-    spread = of_deflected(prepared)
-    prepared = prepared if spread is None else spread.prepared
     model, meshes = prepared.model, meshes_of_run(prepared)
     listener = listener_of(prepared)
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
-    rests = [mesh_at_rest(prepared, m) | along_face(spread, m) for m in range(len(meshes))]
+    rests = [mesh_at_rest(prepared, m) for m in range(len(meshes))]
     # of a train the oil that enters its meshes, which warms in each of them
     oil = case.meshes[0].pair.lubricant if case.named else prepared.warm_pairs[0].lubricant
     summary: dict[str, Any] = {
