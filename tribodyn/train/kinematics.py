@@ -1,121 +1,23 @@
-"""Speeds and senses of rotation of a train of external gears and planetary sets, in whole numbers.
+"""Speeds and senses of rotation of a train of gears and epicyclic sets, in whole numbers; which gear drives.
 
-A mesh turns its gears against each other, at speeds in the inverse ratio of their teeth. A coupling (a shaft,
-rigid or compliant) turns its bodies alike. A planetary set of which one member is held turns the other two in
-one ratio. Power flows outward from the input: of a mesh's two bodies the one that is fewer meshes away from
-the input drives; in a set as its torques have it, from the sun or from the ring to the planets.
+Speeds solve one linear system, see `willis`. Power flows outward from the input: of the two bodies of a mesh
+in the housing the one that is fewer meshes away from the input drives. In a set the torques say it: that gear
+drives by which power goes into the mesh, in rotation against the carrier.
 
 Mesh 0 of the result is the *reference mesh*, the first one that the input's power meets; body 0, the
-*reference body*, drives it, or carries the planet that does. Speeds are given over that body's; turns are
-measured in cycles of that mesh.
+*reference body*, drives it, or carries the planet that does, or is the input. Speeds are given over that
+body's; turns are measured in cycles of that mesh.
 """
 
-from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from types import MappingProxyType
 from typing import NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.train.planetary import CARRIER, RING, SUN, SetTeeth, speeds, willis
+from tribodyn.train.joints import Joint, Named, SetMembers, Toothed, distances, joined, rows_of
 from tribodyn.train.schedule import common_period
-
-
-class Named(NamedTuple):
-    """A body, or whatever else a message may have to name."""
-
-    name: str
-    key: str  # where it stands in the scenario, dotted
-
-
-class Toothed(NamedTuple):
-    """A gear on a body."""
-
-    name: str
-    key: str
-    body: int
-    teeth: int  # negative of an internal gear
-
-
-class Joint(NamedTuple):
-    """A mesh of two gears, or a coupling of two bodies, by their indices, in either order."""
-
-    key: str
-    ends: tuple[int, int]
-    of_set: int = -1  # number of the planetary set that a mesh belongs to; -1: none
-
-
-class SetMembers(NamedTuple):
-    """A planetary set by its bodies."""
-
-    key: str  # where it stands in the scenario, dotted
-    members: dict[str, int]  # sun, ring, carrier
-    planets: tuple[int, ...]
-    teeth: SetTeeth
-    held: str  # the member that does not turn
-
-    def turning(self) -> tuple[str, str]:
-        """The two members that turn."""
-        first, second = (name for name in self.members if name != self.held)
-        return first, second
-
-
-class Turning(NamedTuple):
-    """A body as it was reached."""
-
-    speed: Fraction  # over the input's
-    sense: int
-    away: int  # meshes between it and the input
-
-    @property
-    def signed(self) -> Fraction:
-        """Speed, counter-clockwise positive."""
-        return self.speed * self.sense
-
-
-#: Away from the input by more meshes than any train has: what it does not turn.
-HELD = 1_000_000
-
-
-def driving_in_set(
-    gears: Sequence[Toothed], mesh: Joint, members: SetMembers, drives: str
-) -> tuple[int, int]:
-    """Driving and driven gear of a set's mesh, where the sun or the ring `drives` the planets."""
-    one, two = mesh.ends
-    central, planet = (two, one) if gears[one].body in members.planets else (one, two)
-    is_driver = gears[central].body == members.members[drives]
-    return (central, planet) if is_driver else (planet, central)
-
-
-def turn_set(bodies: Sequence[Named], gearset: SetMembers, turning_of: dict[int, Turning]) -> str:
-    """Add a set's held member and planets to what turns; returns which of sun and ring drives the planets."""
-    held = gearset.members[gearset.held]
-    if held in turning_of and turning_of[held].speed:
-        rule = f"{bodies[held].name} is held, and other stages or shafts turn it"
-        raise InputError(f"{gearset.key}.held", gearset.held, rule, "hold another member, or part the two")
-    members = [gearset.members[name] for name in gearset.turning() if gearset.members[name] in turning_of]
-    if len(members) < 2:
-        names = " nor ".join(bodies[gearset.members[name]].name for name in gearset.turning())
-        rule = f"the input turns neither {names} of this planetary stage"
-        remedy = "add the [[stage]], [[shaft]] or [[link]] that turns one of them"
-        raise InputError(gearset.key, None, rule, remedy)
-    driving = min(gearset.turning(), key=lambda name: turning_of[gearset.members[name]].away)
-    turning = turning_of[gearset.members[driving]]
-    each = {
-        name: speed * turning.signed for name, speed in speeds(gearset.teeth, gearset.held, driving).items()
-    }
-    for name, speed in each.items():
-        for body in gearset.planets if name == "planet" else (gearset.members[name],):
-            rolling = speed if name == CARRIER else speed - each[CARRIER]
-            way = -1 if rolling < 0 else 1
-            if body == held and body in turning_of and turning_of[body].sense != way:
-                rule = f"{bodies[body].name} is held in two stages whose planets roll in opposite senses"
-                raise InputError(
-                    f"{gearset.key}.held", gearset.held, rule, "name two gears, one in each stage"
-                )
-            if name == "planet" or body == held:
-                turning_of[body] = Turning(abs(speed), way, turning.away + 1 if body != held else HELD)
-    enters = willis(gearset.teeth)[SUN] * (each[SUN] - each[CARRIER]) / willis(gearset.teeth)[driving]
-    return SUN if enters * turning.sense > 0 else RING
+from tribodyn.train.willis import Row, Speeds, reactions, solve
 
 
 class TrainSpeeds(NamedTuple):
@@ -127,9 +29,9 @@ class TrainSpeeds(NamedTuple):
     bodies: tuple[int, ...]  # in their new order: the reference body first, the others as given
     meshes: tuple[int, ...]  # in their new order: the reference mesh first, the others as given
     input: int  # new index of the body at which power enters
-    ratio: tuple[Fraction, ...]  # of each body in the new order: |speed| over the reference body's
+    ratio: tuple[Fraction, ...]  # of each body in the new order: speed in its sense over the reference's
     #: likewise: +1 counter-clockwise seen from +z, −1 clockwise; of gears of a set as they turn against its
-    #: carrier
+    #: carrier, whose ratio is negative where they turn the other way all the same
     sense: tuple[int, ...]
     #: driver, driven: new indices of the bodies of each mesh in the new order
     driver: tuple[int, ...]
@@ -154,46 +56,79 @@ def kinematics(
     source: int,
     sense: int,
     sets: Sequence[SetMembers] = (),
+    outputs: Sequence[int] = (),
+    given: Mapping[int, Fraction] = MappingProxyType({}),
 ) -> TrainSpeeds:
     """Work out which end of each mesh drives, and how fast and which way every body turns.
 
     `source` is the body at which power enters, `sense` its sense of rotation (+1: counter-clockwise seen from
-    +z). Raises InputError for a gear without a mesh, a mesh of gears that turn together, loops whose ratios
-    or senses contradict each other, bodies that the input does not turn, and a train without a mesh.
+    +z). `outputs` are bodies at which it leaves, alike where there are several; `given` the speeds of further
+    bodies over the source's, of those that turn against it negative, whose torques follow. Raises InputError
+    for a gear without a mesh, a mesh of gears that turn together, loops whose ratios or senses contradict
+    each other, bodies whose speeds the input does not fix, and a train without a mesh.
     """
     _refuse_idle_gears(gears, meshes)
     joints = [_by_bodies(gears, mesh) for mesh in meshes]
-    turning_of = _spread(len(bodies), gears, meshes, joints, couplings, source, sense, sets)
-    drives = [turn_set(bodies, one, turning_of) for one in sets]
-    _refuse_unreached(bodies, gears, turning_of)
+    carrier_of = [sets[mesh.of_set].carrier if mesh.of_set >= 0 else -1 for mesh in meshes]
+    away = distances(len(bodies), meshes, joints, couplings, source, sets)
+    _refuse_unreached(bodies, gears, away)
+    system = rows_of(gears, meshes, joints, couplings, carrier_of, away, source, sense, sets, given)
+    rows = [row for _, row in system]
+    found = solve(len(bodies), rows)
+    _refuse_open(bodies, sets, found)
+    speed = [Fraction(0) if each is None else each for each in found.speed]
+    _refuse_moved_held(bodies, sets, [rows[k] for k in found.against], speed)
     for place, mesh in enumerate(meshes):
         if mesh.of_set < 0:
-            _check_mesh(bodies, gears, mesh, joints[place], turning_of)
+            _check_mesh(bodies, gears, mesh, joints[place], speed)
     for coupling in couplings:
-        _check_coupling(bodies, coupling, turning_of)
+        _check_coupling(bodies, coupling, speed)
+    for k in found.against:
+        raise InputError(*_contradiction(bodies, system[k]))
+    senses = _senses(bodies, couplings, sets, speed)
 
-    driving = [
-        _driving(gears, mesh, turning_of)
-        if mesh.of_set < 0
-        else driving_in_set(gears, mesh, sets[mesh.of_set], drives[mesh.of_set])
-        for mesh in meshes
+    on_ends = dict(
+        zip(
+            (kind for kind, _ in system),
+            reactions(rows, {body: -1.0 if speed[body] > 0 else 1.0 for body in outputs if speed[body]}),
+            strict=True,
+        )
+    )
+    largest = max(abs(torque) for torque in on_ends.values())
+    driving = []
+    for place, mesh in enumerate(meshes):
+        one, two = mesh.ends
+        if mesh.of_set < 0:
+            first = away[joints[place][0]] < away[joints[place][1]]
+        else:
+            torque = on_ends["mesh", place] * gears[one].teeth
+            rolling = float(speed[joints[place][0]] - speed[carrier_of[place]])
+            idle = abs(torque) <= 1e-9 * largest * abs(gears[one].teeth)
+            first = gears[one].body not in sets[mesh.of_set].planets if idle else torque * rolling < 0.0
+        driving.append((one, two) if first else (two, one))
+    nearness = [min(away[end] for end in joint) for joint in joints]
+    turning = [place for place, (driver, _) in enumerate(driving) if speed[gears[driver].body]]
+    rolls = [
+        place
+        for place in turning
+        if speed[joints[place][0]] != speed[carrier_of[place]] or (carrier_of[place] < 0)
     ]
-    away = [min(turning_of[end].away for end in joint) for joint in joints]
-    turning = [place for place, (driver, _) in enumerate(driving) if turning_of[gears[driver].body].speed]
-    reference = min(turning, key=lambda m: (away[m], m))
+    reference = min(rolls or turning, key=lambda m: (nearness[m], m))
     order = (reference, *(place for place in range(len(meshes)) if place != reference))
-    carrier = [sets[mesh.of_set].members[CARRIER] if mesh.of_set >= 0 else -1 for mesh in meshes]
-    driving, carrier = [driving[place] for place in order], [carrier[place] for place in order]
-    first = gears[driving[0][0]].body
-    if carrier[0] >= 0 and first in sets[meshes[reference].of_set].planets and turning_of[carrier[0]].speed:
-        first = carrier[0]
-    numbers = (first, *(body for body in range(len(bodies)) if body != first))
+    driving, carrier = [driving[place] for place in order], [carrier_of[place] for place in order]
+    first_body = gears[driving[0][0]].body
+    if carrier[0] >= 0 and first_body in sets[meshes[reference].of_set].planets and speed[carrier[0]]:
+        first_body = carrier[0]
+    if carrier[0] >= 0 and abs(speed[first_body]) != 1:
+        first_body = source
+    numbers = (first_body, *(body for body in range(len(bodies)) if body != first_body))
     new = {body: index for index, body in enumerate(numbers)} | {-1: -1}
-    scale = turning_of[first].speed
-    ratio = tuple(turning_of[body].speed / scale for body in numbers)
+    scale = speed[first_body] * senses[first_body]
+    if scale < 0:
+        rule = f"{bodies[first_body].name} turns slower than the carrier of its planets, and the same way"
+        raise InputError("operating.input", bodies[source].name, rule, "let power enter at another member")
     cycles = [
-        abs(gears[driver].teeth)
-        * abs(turning_of[gears[driver].body].signed - (turning_of[by].signed if by >= 0 else 0))
+        abs(gears[driver].teeth * (speed[gears[driver].body] - (speed[by] if by >= 0 else 0)))
         for (driver, _), by in zip(driving, carrier, strict=True)
     ]
     rate = tuple(each / cycles[0] for each in cycles)
@@ -201,8 +136,8 @@ def kinematics(
         bodies=numbers,
         meshes=order,
         input=new[source],
-        ratio=ratio,
-        sense=tuple(turning_of[body].sense for body in numbers),
+        ratio=tuple(speed[body] * senses[body] / scale for body in numbers),
+        sense=tuple(senses[body] for body in numbers),
         driver=tuple(new[gears[driver].body] for driver, _ in driving),
         driven=tuple(new[gears[driven].body] for _, driven in driving),
         gears=tuple(driving),
@@ -212,10 +147,75 @@ def kinematics(
     )
 
 
-def _driving(gears: Sequence[Toothed], mesh: Joint, turning: dict[int, Turning]) -> tuple[int, int]:
-    """Driving and driven gear of a mesh in the housing."""
-    one, two = mesh.ends
-    return (one, two) if turning[gears[one].body].away < turning[gears[two].body].away else (two, one)
+def _senses(
+    bodies: Sequence[Named], couplings: Sequence[Joint], sets: Sequence[SetMembers], speed: Sequence[Fraction]
+) -> list[int]:
+    """Senses of rotation: of gears of sets against the carrier; what couplings join has one."""
+    rolling: dict[int, int] = {}
+    for one in sets:
+        for body in (*one.central, *one.planets):
+            way = -1 if speed[body] < speed[one.carrier] else 1
+            if rolling.setdefault(body, way) != way:
+                is_held = "is held" if speed[body] == 0 else "turns"
+                rule = f"{bodies[body].name} {is_held} in two stages whose planets roll in opposite senses"
+                raise InputError(
+                    f"{one.key}.held", one.held_as or None, rule, "name two gears, one in each stage"
+                )
+    group = joined(len(bodies), [coupling.ends for coupling in couplings])
+    of_group: dict[int, int] = {}
+    for body, way in rolling.items():
+        if of_group.setdefault(group[body], way) != way:
+            rule = f"{bodies[body].name} and what turns with it roll in opposite senses against two carriers"
+            raise InputError(bodies[body].key, None, rule, "join them by two bodies with an idler between")
+    return [of_group.get(group[body], -1 if speed[body] < 0 else 1) for body in range(len(bodies))]
+
+
+def _refuse_open(bodies: Sequence[Named], sets: Sequence[SetMembers], found: Speeds) -> None:
+    """Refuse a train whose speeds the input does not fix."""
+    free = [body for body, speed in enumerate(found.speed) if speed is None]
+    if not free:
+        return
+    for one in sets:
+        members = (*one.central, one.carrier)
+        if open_ones := [bodies[body].name for body in members if body in free]:
+            names = " and ".join((", ".join(open_ones[:-1]), open_ones[-1]) if open_ones[1:] else open_ones)
+            rule = f"the input does not fix how fast {names} turn: {found.freedom} more must be known"
+            first = open_ones[0]
+            remedy = (
+                f'hold a member (held = "{first}"), give a [[load]] there its speed, '
+                "or join two members by a [[link]]"
+            )
+            raise InputError(one.key, None, rule, remedy)
+    body = bodies[free[0]]
+    raise InputError(
+        body.key, None, "the input does not fix how fast it turns", "add the [[stage]] that does"
+    )
+
+
+def _refuse_moved_held(
+    bodies: Sequence[Named], sets: Sequence[SetMembers], against: Sequence[Row], speed: Sequence[Fraction]
+) -> None:
+    """Refuse to hold a member that others turn: the rows against it touch the set, or lead there."""
+    for one in sets:
+        if one.held >= 0 and any(one.held in row.factors for row in against):
+            rule = f"{bodies[one.held].name} is held, and other stages or shafts turn it"
+            remedy = "hold another member, or part the two"
+            raise InputError(f"{one.key}.held", one.held_as, rule, remedy)
+
+
+def _contradiction(
+    bodies: Sequence[Named], row: tuple[tuple[str, int], Row]
+) -> tuple[str, str | None, str, str]:
+    """Key, value, rule and remedy of a row that contradicts others."""
+    (kind, _), equation = row
+    names = " and ".join(bodies[body].name for body in equation.factors)
+    rule = f"{names} cannot turn as other stages, shafts and held members turn them"
+    return (
+        bodies[next(iter(equation.factors))].key,
+        None,
+        f"{rule} ({kind})",
+        "open the loop, or hold one less",
+    )
 
 
 def _by_bodies(gears: Sequence[Toothed], mesh: Joint) -> tuple[int, int]:
@@ -237,57 +237,9 @@ def _refuse_idle_gears(gears: Sequence[Toothed], meshes: Sequence[Joint]) -> Non
             raise InputError(gear.key, None, "meshes with no other gear", remedy)
 
 
-def _spread(
-    count: int,
-    gears: Sequence[Toothed],
-    meshes: Sequence[Joint],
-    joints: Sequence[tuple[int, int]],
-    couplings: Iterable[Joint],
-    source: int,
-    sense: int,
-    sets: Sequence[SetMembers],
-) -> dict[int, Turning]:
-    """Go outward from the input, over couplings first, so that every body is reached by fewest meshes."""
-    coupled: list[list[int]] = [[] for _ in range(count)]
-    for coupling in couplings:
-        one, two = coupling.ends
-        coupled[one].append(two)
-        coupled[two].append(one)
-    # bodies that a mesh or a set turns, and by how much, < 0: the other way
-    meshing: list[list[tuple[int, Fraction]]] = [[] for _ in range(count)]
-    for mesh, (one, two) in zip(meshes, joints, strict=True):
-        if mesh.of_set < 0:
-            ratio = Fraction(-gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth)
-            meshing[one].append((two, ratio))
-            meshing[two].append((one, 1 / ratio))
-    for gearset in sets:
-        one, two = gearset.turning()
-        ratio = speeds(gearset.teeth, gearset.held, one)[two]
-        meshing[gearset.members[one]].append((gearset.members[two], ratio))
-        meshing[gearset.members[two]].append((gearset.members[one], 1 / ratio))
-    turning = {source: Turning(Fraction(1), sense, 0)}
-    waiting = deque([source])
-    done: set[int] = set()
-    while waiting:
-        body = waiting.popleft()
-        if body in done:
-            continue
-        done.add(body)
-        speed, way, away = turning[body]
-        for other in coupled[body]:
-            if other not in turning or turning[other].away > away:
-                turning[other] = Turning(speed, way, away)
-                waiting.appendleft(other)
-        for other, ratio in meshing[body]:
-            if other not in turning:
-                turning[other] = Turning(speed * abs(ratio), way if ratio > 0 else -way, away + 1)
-                waiting.append(other)
-    return turning
-
-
-def _refuse_unreached(bodies: Sequence[Named], gears: Sequence[Toothed], turning: dict[int, Turning]) -> None:
+def _refuse_unreached(bodies: Sequence[Named], gears: Sequence[Toothed], away: Sequence[int]) -> None:
     for place, body in enumerate(bodies):
-        if place in turning:
+        if away[place] >= 0:
             continue
         gear = next((gear for gear in gears if gear.body == place), None)
         key = body.key if gear is None else gear.key
@@ -300,31 +252,29 @@ def _check_mesh(
     gears: Sequence[Toothed],
     mesh: Joint,
     joint: tuple[int, int],
-    turning: dict[int, Turning],
+    speed: Sequence[Fraction],
 ) -> None:
-    one, two = (turning[body] for body in joint)
+    one, two = (speed[body] for body in joint)
     names = [bodies[body].name for body in joint]
-    external = gears[mesh.ends[0]].teeth * gears[mesh.ends[1]].teeth > 0
-    if (one.sense == two.sense) is external:
+    by_mesh = one * Fraction(-gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth)
+    if by_mesh * two < 0:
         rule = f"closes a loop in which {names[0]} and {names[1]} turn the same way, and cannot mesh"
         remedy = "a loop of external gears needs an even number of meshes"
         raise InputError(mesh.key, None, rule, remedy)
-    by_mesh = one.speed * abs(Fraction(gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth))
-    if by_mesh != two.speed:
+    if by_mesh != two:
         rule = (
-            f"closes a loop whose ratios contradict each other: by this mesh {names[1]} turns at {by_mesh} "
-            f"of the input's speed, by the others at {two.speed}"
+            f"closes a loop whose ratios contradict each other: by this mesh {names[1]} turns at "
+            f"{abs(by_mesh)} of the input's speed, by the others at {abs(two)}"
         )
         raise InputError(mesh.key, None, rule, "change numbers of teeth, or open the loop")
 
 
-def _check_coupling(bodies: Sequence[Named], coupling: Joint, turning_of: dict[int, Turning]) -> None:
-    one, two = (turning_of[body] for body in coupling.ends)
+def _check_coupling(bodies: Sequence[Named], coupling: Joint, speed: Sequence[Fraction]) -> None:
+    one, two = (speed[body] for body in coupling.ends)
     names = [bodies[body].name for body in coupling.ends]
-    if one.sense != two.sense or one.speed != two.speed:
-        speeds = [f"{turning.sense * turning.speed}" for turning in (one, two)]
+    if one != two:
         rule = (
             f"closes a loop whose ratios contradict each other: {names[0]} and {names[1]} turn at "
-            f"{speeds[0]} and {speeds[1]} of the input's speed"
+            f"{one} and {two} of the input's speed"
         )
         raise InputError(coupling.key, None, rule, "change numbers of teeth, or open the loop")

@@ -12,6 +12,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.joints import joined
 from tribodyn.train.structure import ACROSS, ALONG_Z, IN_SPACE, LEAN_ACROSS, LEAN_ALONG, MOVES, TOWARDS
 
 #: Product of a direction's cosines below which it is along an axis.
@@ -58,15 +59,6 @@ def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int
         pass
     azimuths = tuple(_azimuth(mesh, *(centre[axes[end]] for end in mesh.ends)) for mesh in meshes)
     return Centres(np.array([centre[axes[body]] for body in range(count)]), azimuths)
-
-
-def joined(count: int, pairs: Sequence[tuple[int, int]]) -> list[int]:
-    """Number alike what pairs join, directly or by others, of so many: each by the lowest in its group."""
-    groups = list(range(count))
-    for one, two in pairs:
-        low, high = sorted((groups[one], groups[two]))
-        groups = [low if group == high else group for group in groups]
-    return groups
 
 
 def _place_one(

@@ -5,7 +5,8 @@ from fractions import Fraction
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.train.kinematics import Joint, Named, Toothed, TrainSpeeds, kinematics
+from tribodyn.train.joints import Joint, Named, Toothed
+from tribodyn.train.kinematics import TrainSpeeds, kinematics
 
 
 def train(

@@ -21,9 +21,10 @@ from tribodyn.studies.motion.drivetrain.structure import (
 )
 from tribodyn.studies.motion.drivetrain.teeth import check_planet, check_same_teeth, engagement
 from tribodyn.studies.motion.planetary.stages import coaxial, refuse_overlap
+from tribodyn.train.joints import joined
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.phases import ToothedShaft, nominal_phases
-from tribodyn.train.positions import Centres, Disc, Distance, check_room, joined, places
+from tribodyn.train.positions import Centres, Disc, Distance, check_room, places
 
 #: Modules by which a loop of meshes may not close, a choice: the rounding of azimuths in degrees with two
 #: decimals moves axes less, and backlash changes by 0.7 of it.
@@ -74,8 +75,9 @@ class PlacedTrain(NamedTuple):
 def resolve_kinematics(scenario: Any) -> TrainKinematics:
     """Work out what turns how; the names of the scenario must be sound. InputError where it is no train."""
     parts = structure(scenario)
-    source, _ = ends_of(scenario)
-    motion = motion_of(parts, parts.body(source), SENSES[scenario.operating.sense])
+    source, output = ends_of(scenario)
+    outputs = [parts.body(name) for name in (output, *(load.at for load in scenario.load)) if name]
+    motion = motion_of(parts, parts.body(source), SENSES[scenario.operating.sense], outputs)
     if scenario.drive is not None and motion.gears[0] != (0, 1):
         rule = "a drive file says that its pinion drives"
         raise InputError("operating.input", source, rule, f'write input = "{OF_DRIVE[0]}"')

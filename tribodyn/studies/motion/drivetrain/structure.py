@@ -33,7 +33,8 @@ from tribodyn.studies.motion.planetary.stages import (
     planetary_stages,
     set_of,
 )
-from tribodyn.train.kinematics import Joint, Named, SetMembers, Toothed, TrainSpeeds, kinematics
+from tribodyn.train.joints import Joint, Named, Toothed
+from tribodyn.train.kinematics import TrainSpeeds, kinematics
 
 #: Names of the gears of a drive file.
 OF_DRIVE = ("pinion", "gear")
@@ -261,7 +262,7 @@ def _named_apart(gears: Sequence[GearPart]) -> tuple[GearPart, ...]:
     return tuple(named)
 
 
-def motion_of(parts: Structure, source: int, sense: int) -> TrainSpeeds:
+def motion_of(parts: Structure, source: int, sense: int, outputs: Sequence[int]) -> TrainSpeeds:
     """Speeds and order of a train; raises as `train.kinematics.kinematics` does."""
     return kinematics(
         [Named(body.name, body.key) for body in parts.bodies],
@@ -270,7 +271,8 @@ def motion_of(parts: Structure, source: int, sense: int) -> TrainSpeeds:
         [Joint(link.key, ends) for link, ends in parts.couplings()],
         source,
         sense,
-        [SetMembers(one.key, one.members, one.planets, one.teeth, one.table.held) for one in parts.sets],
+        [one.turning() for one in parts.sets],
+        outputs,
     )
 
 

@@ -12,7 +12,8 @@ from tribodyn.input.tables.gears.model_files import Hand
 from tribodyn.input.tables.shafts import listed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
-from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly
+from tribodyn.train.joints import SetMembers
+from tribodyn.train.planetary import CARRIER, MEMBERS, SetTeeth, check_assembly
 
 
 class SetPart(NamedTuple):
@@ -29,6 +30,11 @@ class SetPart(NamedTuple):
     def held(self) -> int:
         """The body that does not turn."""
         return self.members[self.table.held]
+
+    def turning(self) -> SetMembers:
+        """The set as its kinematics see it."""
+        central = tuple(body for name, body in self.members.items() if name != CARRIER)
+        return SetMembers(self.key, self.members[CARRIER], central, self.planets, self.held, self.table.held)
 
     @property
     def floating(self) -> tuple[int, ...]:
