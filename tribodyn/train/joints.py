@@ -6,7 +6,7 @@ from fractions import Fraction
 from itertools import combinations
 from typing import NamedTuple
 
-from tribodyn.train.willis import Row, of_coupling, of_mesh, of_speed
+from tribodyn.train.willis import Equation, of_coupling, of_mesh, of_speed
 
 
 class Named(NamedTuple):
@@ -53,13 +53,12 @@ def rows_of(
     meshes: Sequence[Joint],
     joints: Sequence[tuple[int, int]],
     couplings: Sequence[Joint],
-    carrier_of: Sequence[int],
     away: Sequence[int],
     source: int,
     sense: int,
     sets: Sequence[SetMembers],
     given: Mapping[int, Fraction],
-) -> list[tuple[tuple[str, int], Row]]:
+) -> list[tuple[tuple[str, int], Equation]]:
     """The equations of a train, what fixes speeds first, then joints from the input outward."""
     rows = [(("source", source), of_speed(source, Fraction(sense)))]
     rows += [(("given", body), of_speed(body, sense * speed)) for body, speed in given.items()]
@@ -73,7 +72,11 @@ def rows_of(
             min(away[end] for end in joint),
             1,
             ("mesh", place),
-            of_mesh(*joint, (gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth), carrier_of[place]),
+            of_mesh(
+                *joint,
+                (gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth),
+                sets[mesh.of_set].carrier if mesh.of_set >= 0 else -1,
+            ),
         )
         for place, (mesh, joint) in enumerate(zip(meshes, joints, strict=True))
     ]

@@ -17,7 +17,7 @@ from typing import NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.train.joints import Joint, Named, SetMembers, Toothed, distances, joined, rows_of
 from tribodyn.train.schedule import common_period
-from tribodyn.train.willis import Row, Speeds, reactions, solve
+from tribodyn.train.willis import Equation, Speeds, reactions, solve
 
 
 class TrainSpeeds(NamedTuple):
@@ -72,12 +72,12 @@ def kinematics(
     carrier_of = [sets[mesh.of_set].carrier if mesh.of_set >= 0 else -1 for mesh in meshes]
     away = distances(len(bodies), meshes, joints, couplings, source, sets)
     _refuse_unreached(bodies, gears, away)
-    system = rows_of(gears, meshes, joints, couplings, carrier_of, away, source, sense, sets, given)
+    system = rows_of(gears, meshes, joints, couplings, away, source, sense, sets, given)
     rows = [row for _, row in system]
     found = solve(len(bodies), rows)
     _refuse_open(bodies, sets, found)
     speed = [Fraction(0) if each is None else each for each in found.speed]
-    _refuse_moved_held(bodies, sets, [rows[k] for k in found.against], speed)
+    _refuse_moved_held(bodies, sets, [rows[k] for k in found.against])
     for place, mesh in enumerate(meshes):
         if mesh.of_set < 0:
             _check_mesh(bodies, gears, mesh, joints[place], speed)
@@ -193,7 +193,7 @@ def _refuse_open(bodies: Sequence[Named], sets: Sequence[SetMembers], found: Spe
 
 
 def _refuse_moved_held(
-    bodies: Sequence[Named], sets: Sequence[SetMembers], against: Sequence[Row], speed: Sequence[Fraction]
+    bodies: Sequence[Named], sets: Sequence[SetMembers], against: Sequence[Equation]
 ) -> None:
     """Refuse to hold a member that others turn: the rows against it touch the set, or lead there."""
     for one in sets:
@@ -204,7 +204,7 @@ def _refuse_moved_held(
 
 
 def _contradiction(
-    bodies: Sequence[Named], row: tuple[tuple[str, int], Row]
+    bodies: Sequence[Named], row: tuple[tuple[str, int], Equation]
 ) -> tuple[str, str | None, str, str]:
     """Key, value, rule and remedy of a row that contradicts others."""
     (kind, _), equation = row

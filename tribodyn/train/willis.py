@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 
-class Row(NamedTuple):
+class Equation(NamedTuple):
     """One equation: Σ factor · speed of a body = value."""
 
     factors: Mapping[int, Fraction]
@@ -28,26 +28,26 @@ class Speeds(NamedTuple):
     against: tuple[int, ...]  # rows that contradict those before them
 
 
-def of_mesh(one: int, two: int, teeth: tuple[int, int], carrier: int = -1) -> Row:
+def of_mesh(one: int, two: int, teeth: tuple[int, int], carrier: int = -1) -> Equation:
     """The row of a mesh of two bodies; carrier -1: the axes stand still."""
     factors = dict[int, Fraction]()
     for body, factor in ((one, teeth[0]), (two, teeth[1]), (carrier, -sum(teeth))):
         if body >= 0:
             factors[body] = factors.get(body, Fraction(0)) + factor
-    return Row(factors)
+    return Equation(factors)
 
 
-def of_coupling(one: int, two: int) -> Row:
+def of_coupling(one: int, two: int) -> Equation:
     """The row of two bodies that turn alike."""
-    return Row({one: Fraction(1), two: Fraction(-1)})
+    return Equation({one: Fraction(1), two: Fraction(-1)})
 
 
-def of_speed(body: int, speed: Fraction = Fraction(0)) -> Row:
+def of_speed(body: int, speed: Fraction = Fraction(0)) -> Equation:
     """The row of a body whose speed is given; 0: it is held."""
-    return Row({body: Fraction(1)}, speed)
+    return Equation({body: Fraction(1)}, speed)
 
 
-def solve(count: int, rows: Sequence[Row]) -> Speeds:
+def solve(count: int, rows: Sequence[Equation]) -> Speeds:
     """Speeds of so many bodies, exactly; rows that contradict those before them are left out and named."""
     solved: dict[int, tuple[dict[int, Fraction], Fraction]] = {}  # by the body that each row gives
     against = []
@@ -87,7 +87,7 @@ def _reduced(
     return {body: factor for body, factor in factors.items() if factor}, value
 
 
-def reactions(rows: Sequence[Row], loads: Mapping[int, float]) -> list[float]:
+def reactions(rows: Sequence[Equation], loads: Mapping[int, float]) -> list[float]:
     """Multiplier λ of every row that balances torques from outside (N m) on bodies: Σ λ · factor + load = 0.
 
     A mesh bears the torque λ z_1 on its first body, λ z_2 on its second, −λ (z_1 + z_2) on its carrier; the

@@ -3,7 +3,8 @@
 import pytest
 
 from tribodyn.train.flow import nominal_torques
-from tribodyn.train.kinematics import Joint, Named, Toothed, TrainSpeeds, kinematics
+from tribodyn.train.joints import Joint, Named, Toothed
+from tribodyn.train.kinematics import TrainSpeeds, kinematics
 
 
 def motion(bodies: list[tuple[int, ...]], meshes: list[tuple[int, int]], source: int = 0) -> TrainSpeeds:
