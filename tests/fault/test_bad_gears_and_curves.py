@@ -7,7 +7,7 @@ import pytest
 from tests.support.verbs import complaint, complaints, sets
 
 GEOMETRY = {
-    "undercut": ("drive.pinion.teeth=8", "drive.pinion.profile_shift", "undercut", "use at least"),
+    "tip in the fillet": ("drive.pinion.profile_shift=-1.0", "drive.gear.addendum", "cuts", "use at most"),
     "pointed tip": ("drive.pinion.profile_shift=1.4", "drive.pinion.", "pointed", "at most"),
     "contact ratio": (
         "drive.pinion.addendum=0.05",
