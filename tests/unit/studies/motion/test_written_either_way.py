@@ -355,7 +355,7 @@ def of_everything(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Record]
 KINDS_OF_MOTION = [STUDIES["gear-pair"], STUDIES["gear-train"]]
 #: Quantities of planets, which the others have not; churning and windage, see `everything`.
 OF_PLANETS = {"mesh_load_factor", "planet_load_factor_max"}
-#: Figures of what these records have not: slices, drawn shafts, helical teeth, a speed that changes, whole revolutions.
+#: Figures of what these records have not: slices, shafts, helical teeth, changing speed, whole revolutions.
 OF_OTHERS = {"line-load", "shafts", "in-space", "orders", "revolutions", "synchronous-average"}
 
 
