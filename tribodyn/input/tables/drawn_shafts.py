@@ -22,6 +22,8 @@ Frequency = Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY), "5 
 #: Largest diameter of a shaft over the smallest, and over its length: stiffness in bending goes with the
 #: fourth power, of which rounding leaves 2e-6.
 MOST_STEPPED, THICKEST = 300.0, 30.0
+#: Clearance and preload over the diameter of the rolling elements, at most.
+LARGEST_FIT = 0.1
 
 DrawnType = Literal["deep-groove-ball", "cylindrical-roller", "tapered-roller"]
 #: Keys that rolling bearings of a type need, and those that others have no use for.
@@ -236,6 +238,11 @@ def _broken_bearing(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
             rule = f"no more than {math.floor(most)} of them fit side by side on the pitch circle"
             remedy = "check elements, element_diameter and pitch_diameter"
             yield InputError(f"{key}.elements", bearing.elements, rule, remedy)
+    for name in ("clearance", "preload") if bearing.element_diameter else ():
+        fit, size = getattr(bearing, name), bearing.element_diameter or 0.0
+        if abs(fit) > LARGEST_FIT * size:
+            rule = f"is more than a tenth of the rolling elements' diameter, {_shown(size)}"
+            yield InputError(f"{key}.{name}", _shown(fit), rule, "check its unit: fits are micrometres")
     if bearing.contact_angle is not None and bearing.contact_angle >= math.radians(60.0):
         shown = f"{math.degrees(bearing.contact_angle):.6g} deg"
         rule = "60 deg or more: a thrust bearing"
