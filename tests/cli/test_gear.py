@@ -78,7 +78,7 @@ def own_drive(folder: Path, old: str, new: str) -> str:
     [
         ('family = "involute"', 'family = "evolvent"', "drive.family"),
         ('module = "3 mm"', 'module = "3"', "drive.module"),
-        ("teeth = 23", "teeth = 14", "undercuts"),
+        ("teeth = 23", "teeth = 9", "the bore reaches the root circle"),
         ('material = "steel-liu-ni-2022"', "", "drive.pinion.material: missing"),
         ('material = "steel-liu-ni-2022"', 'material = "steel-liu-nix"', "did you mean"),
     ],

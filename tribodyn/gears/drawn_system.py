@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import eigh
 
 from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
@@ -253,6 +252,8 @@ def modal_damping(
     ratios: Float[Array, " coordinate"],
 ) -> Float[Array, "coordinate coordinate"]:
     """Damping under which every mode has a ratio: that of the coordinates by their kinetic energy in it."""
+    from scipy.linalg import eigh  # heavy, and most gearboxes need none
+
     squared, shapes = eigh(stiffness, mass)
     momentum = mass @ shapes
     ratio = np.einsum("im,im,i->m", shapes, momentum, ratios)

@@ -8,7 +8,6 @@ J. 6 (1968) 1313). A rigid motion of the structure is one of its seats alone.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
@@ -106,6 +105,8 @@ def rigid_motions(
 
 def frequencies(element: SuperElement) -> Float[Array, " coordinate"]:
     """Natural frequencies with free seats, Hz, increasing; rigid motions of a free structure are 0."""
+    from scipy.linalg import eigh  # heavy, and most gearboxes need none
+
     squares = eigh(element.stiffness, element.mass, eigvals_only=True)
     return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi)
 
@@ -117,6 +118,8 @@ def sound(element: SuperElement, key: str = "housing.matrices") -> tuple[SuperEl
     positive (semi-)definite, with some but not six rigid motions, with rigid motions that do not fit the
     places of the seats, with different masses in x, y and z, or with frequencies beyond those of any metal.
     """
+    from scipy.linalg import eigh  # heavy, and most gearboxes need none
+
     element = _symmetric(element, key)
     squares = np.asarray(eigh(element.stiffness, element.mass, eigvals_only=True))
     lowest = np.append(squares, np.inf)[: SIX + 1]
@@ -157,6 +160,8 @@ def _semidefinite(
     matrix: Float[Array, "coordinate coordinate"], name: str, element: SuperElement, key: str
 ) -> Float[Array, "coordinate coordinate"]:
     """A matrix that is symmetric and has no negative eigenvalue, but for rounding."""
+    from scipy.linalg import eigh  # heavy, and most gearboxes need none
+
     scale = np.sqrt(np.abs(np.diag(matrix)))
     scale[scale == 0.0] = np.max(scale, initial=0.0) or 1.0
     scaled = matrix / np.outer(scale, scale)
@@ -182,6 +187,8 @@ def _semidefinite(
 
 def _free(element: SuperElement, elastic: float, key: str) -> tuple[SuperElement, float]:
     """A free structure without what rounding strains in its rigid motions, and its mass, kg."""
+    from scipy.linalg import eigh  # heavy, and most gearboxes need none
+
     motions = rigid_motions(element.places, element.modes)
     inertia = motions.T @ element.mass @ motions
     strained = motions.T @ element.stiffness @ motions
@@ -230,6 +237,8 @@ def modal_damping(
 
     M Φ diag(2 ζ ω) Φᵀ M with mass-normalised modes Φ.
     """
+    from scipy.linalg import eigh  # heavy, and most gearboxes need none
+
     squares, modes = eigh(stiffness, mass)
     moved = mass @ modes
     squares[squares < ROUNDED_OFF * squares[-1]] = 0.0

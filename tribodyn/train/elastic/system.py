@@ -11,7 +11,6 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.elastic.beam_matrices import SIX, matrices
@@ -254,6 +253,8 @@ def _not_held(structure: SystemMatrices, free: np.ndarray, motion: np.ndarray) -
 
 def reduced(state: Settled, modes_up_to: float = 0.0) -> Reduced:
     """Condense a settled system to its points, with the modes up to a frequency (Hz) while these are held."""
+    from scipy.linalg import eigh  # heavy, and most gearboxes need none
+
     structure = state.structure
     size = len(structure.stiffness)
     kept = np.array([first + direction for first in structure.points for direction in range(SIX)])

@@ -152,11 +152,11 @@ def test_constraints_that_cannot_be_kept_are_named(tmp_path: Path):
 
 
 def test_a_start_that_cannot_be_made_is_said_and_left(tmp_path: Path):
-    undercut = {"drive.pinion.profile_shift": -0.9}
-    found = search(tmp_path / "a.h5", overrides=undercut)
+    interfering = {"drive.pinion.profile_shift": -0.9}
+    found = search(tmp_path / "a.h5", overrides=interfering)
     assert found.status == "complete"
     assert found.objective_start is None
-    assert "undercut" in found.summary["start_message"]
+    assert "fillet" in found.summary["start_message"]
 
 
 def test_nothing_of_the_users_is_replaced(tmp_path: Path):

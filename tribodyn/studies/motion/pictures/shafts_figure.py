@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
-from scipy.interpolate import CubicSpline
 
 from tribodyn.post.figures.gears_in_mesh import GEAR_FILL, MILLIMETRE, PINION_FILL
 from tribodyn.post.figures.panel import View, record_title
@@ -54,6 +53,8 @@ def _direction(record: Record) -> np.ndarray:
 
 def _draw(axes: Axes, record: Record, along: np.ndarray, seen: np.ndarray) -> float:
     """Draw all in mm over z, deflections and forces in the direction `seen`; how far those are magnified."""
+    from scipy.interpolate import CubicSpline  # heavy, and most gearboxes need none
+
     parts = record.geometry
     height = np.asarray(parts["station_centre"]) @ along / MILLIMETRE
     shaft = np.asarray(parts["station_shaft"], int)
