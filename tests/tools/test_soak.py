@@ -94,7 +94,8 @@ def test_every_kind_is_drawn_with_every_family(tmp_path):
     ],
 )
 def test_advice_is_tried(tmp_path, remedy, expected):
-    rule = "the rack undercuts the flank up to the radius 11.46 mm, which leaves a contact ratio of 0.888 of 1.525"
+    left = "which leaves a contact ratio of 0.888 of 1.525"
+    rule = f"the rack undercuts the flank up to the radius 11.46 mm, {left}"
     error = InputError("drive.pinion.profile_shift", 0.0, rule, remedy)
     said = untrue(Refused(bare(drive(0.0)), error), tmp_path)
     assert len(said) == (expected is not None)
