@@ -3,10 +3,10 @@
 import numpy as np
 import scipy.sparse as sparse
 
+from tribodyn.train.elastic.beam import ShaftMetal, ShaftSection
 from tribodyn.train.elastic.beam_matrices import SIX, matrices
 from tribodyn.train.elastic.craig_bampton import reduced
 from tribodyn.train.elastic.superelement import SuperElement, modal_damping
-from tribodyn.train.links.beam import ShaftMetal, ShaftSection
 
 LENGTH, DIAMETER, DENSITY = 0.5, 0.02, 7850.0
 STEEL = ShaftMetal(206e9, 0.3)

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.elastic.beam import ShaftMetal, ShaftSection
 from tribodyn.train.elastic.beam_matrices import SIX
 from tribodyn.train.elastic.system import PlacedBearing, PlacedShaft, ShaftSystem, settled, structure_of
-from tribodyn.train.links.beam import ShaftMetal, ShaftSection
 
 YOUNG, SHEAR, DENSITY = 206e9, 206e9 / 2.6, 7850.0
 MESH_STIFFNESS, PRESSURE_ANGLE = 3e8, np.radians(20.0)

@@ -12,15 +12,13 @@ import numpy as np
 
 from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
-from tribodyn.gears.supports import BearingUnderLoad, GearSupport, element_loads, held_by, shaft_of
+from tribodyn.gears.supports import BearingUnderLoad, GearSupport, element_loads, placed_shaft, refusing
 from tribodyn.input.tables.drawn_shafts import DrawnShaft
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.coupling import CoupledMatrices, coupled, own_mass
 from tribodyn.train.elastic.beam_matrices import SIX
-from tribodyn.train.elastic.superelement import SuperElement
+from tribodyn.train.elastic.superelement import SuperElement, modal_damping
 from tribodyn.train.elastic.system import (
-    PlacedBearing,
-    PlacedShaft,
     Reduced,
     Settled,
     ShaftSystem,
@@ -29,7 +27,6 @@ from tribodyn.train.elastic.system import (
     structure_of,
 )
 from tribodyn.train.layout import TrainLayout
-from tribodyn.train.links.shaft import NotHeld
 from tribodyn.train.structure import (
     IN_SPACE,
     TILT_X,
@@ -94,17 +91,8 @@ class DrawnSystem:
     def settled(self) -> Settled:
         """Where the mean loads bring it; InputError where they are not held."""
         structure = structure_of(self._physical, ELEMENTS if self._modes_up_to else 1)
-        try:
+        with refusing([shaft.key for shaft in self.shafts for _ in shaft.points]):
             return settled(structure, self.loads)
-        except NotHeld as error:
-            keys = [shaft.key for shaft in self.shafts for _ in shaft.points]
-            rule = f"{error}, under the load of the mesh"
-            remedy = "give a load, less clearance, or bearings that hold it; thrust of tapered ones both ways"
-            raise InputError(keys[error.point], None, rule, remedy) from error
-        except np.linalg.LinAlgError as error:
-            rule = "sections and bearings differ so much in stiffness that no equilibrium can be computed"
-            remedy = "check the units of lengths, diameters and stiffnesses"
-            raise InputError(self.shafts[0].key, None, rule, remedy) from error
 
     @cached_property
     def reduced(self) -> Reduced:
@@ -140,16 +128,10 @@ class DrawnSystem:
 
     @property
     def _physical(self) -> ShaftSystem:
-        shafts = []
-        for shaft in self.shafts:
-            drawn = shaft_of(shaft.drawing)
-            bearings = [
-                PlacedBearing(bearing.position, held_by(bearing), bearing.seat)
-                for bearing in shaft.drawing.bearing
-            ]
-            places = tuple(place for _, place in shaft.points)
-            spin = shaft.sense * shaft.speed
-            shafts.append(PlacedShaft(*drawn, shaft.drawing.density, places, tuple(bearings), spin))
+        shafts = (
+            placed_shaft(shaft.drawing, (place for _, place in shaft.points), shaft.sense * shaft.speed)
+            for shaft in self.shafts
+        )
         return ShaftSystem(tuple(shafts), self.housing)
 
     def supports(self) -> dict[int, GearSupport]:
@@ -217,6 +199,7 @@ class DrawnSystem:
             (left.mass + np.diag(own))[np.ix_(free, free)],
             stiffness[np.ix_(free, free)],
             ratios[free],
+            rounding=0.0,
         )
         force = left.force * signs
         force[turns] = 0.0
@@ -244,20 +227,6 @@ def coupled_by(
     parts, reaction, at_rest = system.couplings(layout, bodies, new)
     layout, numbers = coupled(layout, [parts, *further], bodies, prescribed)
     return layout, numbers._replace(reaction=reaction, reaction_at_rest=at_rest)
-
-
-def modal_damping(
-    mass: Float[Array, "coordinate coordinate"],
-    stiffness: Float[Array, "coordinate coordinate"],
-    ratios: Float[Array, " coordinate"],
-) -> Float[Array, "coordinate coordinate"]:
-    """Damping under which every mode has a ratio: that of the coordinates by their kinetic energy in it."""
-    from scipy.linalg import eigh  # heavy, and most gearboxes need none
-
-    squared, shapes = eigh(stiffness, mass)
-    momentum = mass @ shapes
-    ratio = np.einsum("im,im,i->m", shapes, momentum, ratios)
-    return momentum * (2.0 * ratio * np.sqrt(np.maximum(squared, 0.0))) @ momentum.T
 
 
 def starts(shafts: Sequence[Mapping[int, float]], meshing: Sequence[tuple[int, int]]) -> list[float]:

@@ -4,6 +4,8 @@ The load is that of the pitch point: F_t = T/r, F_r = F_t tan α_t, F_a = F_t ta
 the face, whose load a misalignment shifts; that it does is left out, which overestimates the tilts.
 """
 
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,21 +23,15 @@ from tribodyn.input.tables.gears.drive_data import assembled_on_path
 from tribodyn.input.tables.gears.model_files import DriveTable
 from tribodyn.input.tables.shafts import drawn_shafts
 from tribodyn.numerics.remembered import remembered
-from tribodyn.train.links.beam import ShaftMetal, ShaftSection
-from tribodyn.train.links.rolling_bearing import BallRow, BearingState, RollerRow
-from tribodyn.train.links.shaft import (
-    Matrix,
-    NotHeld,
-    Support,
-    SupportedShaft,
-    displacement_on,
-    mesh_loads,
-    under_load,
-)
+from tribodyn.train.elastic.beam import ShaftMetal, ShaftSection
+from tribodyn.train.elastic.rolling_bearing import BallRow, BearingState, RollerRow
+from tribodyn.train.elastic.shaft import displacement_on, mesh_loads, under_load
+from tribodyn.train.elastic.system import Matrix, NotHeld, PlacedBearing, PlacedShaft
 
 #: Forces along x, y, z (N) and moments about x and y (N m), or displacements (m, rad).
 Five = tuple[float, ...]
-_STILL: Five = (0.0,) * 5
+#: No displacement.
+STILL: Five = (0.0,) * 5
 
 
 class BearingUnderLoad(NamedTuple):
@@ -89,7 +85,7 @@ def supports_of(scenario: Any) -> GearSupports:
             supports[side] = matrix_support(f"bearings.{side}.matrix", bearing_of(matrix), load)
     angle = float(assembly.path.pressure_angle(0.0))
     stand = misalignment_of_tilts(
-        ((one.displacement if one else _STILL)[3:] for one in supports.values()), angle
+        ((one.displacement if one else STILL)[3:] for one in supports.values()), angle
     )
     return GearSupports(supports["pinion"], supports["gear"], stand, angle)
 
@@ -149,20 +145,27 @@ def matrix_support(key: str, data: BearingData, load: Five) -> GearSupport:
     return GearSupport(data, tuple(moved.tolist()))
 
 
-def drawn_support(key: str, table: DrawnShaft, load: Five) -> GearSupport:
-    """What a shaft as drawn holds its gear by under a load; InputError where it does not."""
+@contextmanager
+def refusing(keys: Sequence[str]) -> Iterator[None]:
+    """Refuse shafts that are not held; `keys` are those of the shafts of all points."""
     try:
-        moved, stiffness, answers = _settled(_supported(table), load)
+        yield
     except NotHeld as error:
         rule = f"{error}, under the load of the mesh"
         remedy = (
             "give a load, less clearance, or bearings that hold it there; thrust of tapered ones both ways"
         )
-        raise InputError(key, None, rule, remedy) from error
+        raise InputError(keys[error.point], None, rule, remedy) from error
     except np.linalg.LinAlgError as error:
         rule = "its sections and bearings differ so much in stiffness that no equilibrium can be computed"
         remedy = "check the units of lengths, diameters and stiffnesses"
-        raise InputError(key, None, rule, remedy) from error
+        raise InputError(keys[0], None, rule, remedy) from error
+
+
+def drawn_support(key: str, table: DrawnShaft, load: Five) -> GearSupport:
+    """What a shaft as drawn holds its gear by under a load; InputError where it does not."""
+    with refusing([key]):
+        moved, stiffness, answers = _settled(placed_shaft(table, table.placed("gear").values()), load)
     bearings = tuple(
         BearingUnderLoad(bearing.position, bearing, *answer)
         for bearing, answer in zip(table.bearing, answers, strict=True)
@@ -172,7 +175,7 @@ def drawn_support(key: str, table: DrawnShaft, load: Five) -> GearSupport:
 
 
 @remembered(64)
-def _settled(shaft: SupportedShaft, load: Five) -> tuple[Five, Matrix, tuple[tuple[Five, Matrix], ...]]:
+def _settled(shaft: PlacedShaft, load: Five) -> tuple[Five, Matrix, tuple[tuple[Five, Matrix], ...]]:
     settled_shaft = under_load(shaft, load)
     return (
         tuple(settled_shaft.displacement.tolist()),
@@ -187,17 +190,16 @@ def element_loads(state: BearingState) -> Matrix:
     return tuple(map(tuple, loads.tolist()))
 
 
-def _supported(table: DrawnShaft) -> SupportedShaft:
-    sections, metal = shaft_of(table)
-    assert table.gear_position is not None, "refused by the rules"
-    supports = (Support(bearing.position, held_by(bearing)) for bearing in table.bearing)
-    return SupportedShaft(sections, table.gear_position, tuple(supports), metal)
-
-
-def shaft_of(table: DrawnShaft) -> tuple[tuple[ShaftSection, ...], ShaftMetal]:
-    """Sections and metal of a drawing."""
-    sections = tuple(ShaftSection(*section.model_dump().values()) for section in table.section)
-    return sections, ShaftMetal(table.youngs_modulus, table.poisson_ratio)
+def placed_shaft(table: DrawnShaft, points: Iterable[float], spin: float = 0.0) -> PlacedShaft:
+    """A drawing as the physics takes it, with the places of what it carries (m) and its spin, rad/s."""
+    return PlacedShaft(
+        tuple(ShaftSection(*section.model_dump().values()) for section in table.section),
+        ShaftMetal(table.youngs_modulus, table.poisson_ratio),
+        table.density,
+        tuple(points),
+        tuple(PlacedBearing(one.position, held_by(one), one.seat) for one in table.bearing),
+        spin,
+    )
 
 
 def held_by(table: BearingOfShaft) -> BallRow | RollerRow | Matrix:

@@ -18,7 +18,7 @@ from tribodyn.standards.rolling_bearings import (
     reference_viscosity,
     running_time,
 )
-from tribodyn.train.links.rolling_bearing import BallRow, answer
+from tribodyn.train.elastic.rolling_bearing import BallRow, answer
 
 BALL, ROLLER, TAPERED = "deep-groove-ball", "cylindrical-roller", "tapered-roller"
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.links.beam import DIRECTIONS, ShaftMetal, ShaftSection, element, shear_factor
+from tribodyn.train.elastic.beam import DIRECTIONS, ShaftMetal, ShaftSection, element, shear_factor
 
 SIX = 6
 #: Places of deflection and slope in both planes: x with tilt_y, y with −tilt_x.

@@ -231,16 +231,19 @@ def _plausible(element: SuperElement, mass: float, lowest: float, key: str) -> N
 def modal_damping(
     mass: Float[Array, "coordinate coordinate"],
     stiffness: Float[Array, "coordinate coordinate"],
-    ratio: float,
+    ratios: float | Float[Array, " coordinate"],
+    rounding: float = ROUNDED_OFF,
 ) -> Float[Array, "coordinate coordinate"]:
-    """Damping with which every elastic mode with free seats has one ratio; rigid motions have none.
+    """Damping with which every mode has a ratio; rigid motions have none.
 
-    M Φ diag(2 ζ ω) Φᵀ M with mass-normalised modes Φ.
+    M Φ diag(2 ζ ω) Φᵀ M with mass-normalised modes Φ; ζ is the mean of the coordinates' `ratios`, weighted by
+    their kinetic energy in the mode. Squared frequencies below `rounding` of the largest are 0.
     """
     from scipy.linalg import eigh  # heavy, and most gearboxes need none
 
     squares, modes = eigh(stiffness, mass)
     moved = mass @ modes
-    squares[squares < ROUNDED_OFF * squares[-1]] = 0.0
+    squares[squares < rounding * squares[-1]] = 0.0
+    ratio = np.einsum("im,im,i->m", modes, moved, np.broadcast_to(ratios, len(moved)))
     damping = (moved * (2.0 * ratio * np.sqrt(np.maximum(squares, 0.0)))) @ moved.T
     return (damping + damping.T) / 2.0

@@ -13,13 +13,22 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.elastic.beam import DIRECTIONS, ShaftMetal, ShaftSection
 from tribodyn.train.elastic.beam_matrices import SIX, matrices
-from tribodyn.train.links.beam import DIRECTIONS, ShaftMetal, ShaftSection
-from tribodyn.train.links.rolling_bearing import BallRow, BearingState, RollerRow, answer
-from tribodyn.train.links.shaft import LOOSE, MOST_STEPS, SETTLED, Matrix, NotHeld
+from tribodyn.train.elastic.rolling_bearing import BallRow, BearingState, RollerRow, answer
 
-#: Elements of a shaft at least, where its own modes are looked for.
-ELEMENTS = 24
+#: Stiffness matrix of a support, five by five, N/m, N, N m/rad, as rows: hashable.
+Matrix = tuple[tuple[float, ...], ...]
+#: Residual over the load at which the equilibrium is settled; steps at most.
+SETTLED, MOST_STEPS = 1e-10, 300
+#: Least stiffness over the greatest, lengths by the shaft's, below which a point is not held.
+LOOSE = 1e-9
+
+
+class NotHeld(ValueError):
+    """No equilibrium: the bearings do not hold a point in a direction; the text says in which."""
+
+    point = 0  # its number
 
 
 class PlacedBearing(NamedTuple):
@@ -59,6 +68,7 @@ class SystemMatrices(NamedTuple):
     seats: tuple[int, ...]  # of each bearing's seat; -1: the ground
     bearings: tuple[PlacedBearing, ...]
     turns: tuple[int, ...]  # coordinates of the rotation of shafts about z
+    nodal: int  # coordinates that are six of a node or a seat; behind them those of the housing's modes
     length: float  # of the longest shaft, m
 
 
@@ -68,7 +78,7 @@ class Settled(NamedTuple):
     structure: SystemMatrices
     moved: Float[Array, " coordinate"]
     bearings: tuple[BearingState, ...]  # forces of the shafts on them
-    loads: Float[Array, "point 6"]
+    load: Float[Array, " coordinate"]
 
     @property
     def points(self) -> Float[Array, "point 6"]:
@@ -137,7 +147,8 @@ def structure_of(system: ShaftSystem, elements: int = 1) -> SystemMatrices:
     ]
     length = max(sum(section.length for section in shaft.sections) for shaft in system.shafts)
     places = tuple(points), tuple(nodes), tuple(seats), tuple(bearings), tuple(turns)
-    return SystemMatrices(whole[0], whole[1], whole[2], *places, length)
+    nodal = count if housing is None else count + SIX * len(housing.seats)
+    return SystemMatrices(whole[0], whole[1], whole[2], *places, nodal, length)
 
 
 def _answers(structure: SystemMatrices, moved: Float[Array, " coordinate"]) -> tuple[BearingState, ...]:
@@ -178,23 +189,19 @@ def _tangent(
 
 
 def settled(structure: SystemMatrices, loads: Sequence[Sequence[float]]) -> Settled:
-    """Settle a structure under loads on its points: forces along x, y, z (N), moments (N m) about x, y, z.
+    """Settle a structure under loads on its points: forces along x, y, z (N), moments (N m) about x and y.
 
-    Moments about z twist shafts and are left out here. Newton's method, damped where a step raises the
+    What else a load has twists shafts and is left out here. Newton's method, damped where a step raises the
     energy. Raises NotHeld.
     """
     size = len(structure.stiffness)
     free = np.setdiff1d(np.arange(size), structure.turns)
     scale = np.ones(size)  # all unknowns in m
-    shafts = len(structure.turns) * SIX
-    directions = np.arange(size) % SIX
-    seats = len(set(structure.seats) - {-1})
-    angles = (directions > 2) & (np.arange(size) < shafts + SIX * max(seats, 0))
-    scale[angles] = 1.0 / structure.length
+    coordinates = np.arange(structure.nodal)
+    scale[coordinates[coordinates % SIX > 2]] = 1.0 / structure.length
     outer = np.zeros(size)
     for first, load in zip(structure.points, loads, strict=True):
-        outer[first : first + SIX] += np.resize(np.asarray(load, dtype=float), SIX)
-    outer[list(structure.turns)] = 0.0
+        outer[first : first + DIRECTIONS] += load[:DIRECTIONS]
     linear = structure.stiffness
 
     def look(moved: np.ndarray) -> tuple[float, np.ndarray, tuple[BearingState, ...]]:
@@ -235,9 +242,7 @@ def settled(structure: SystemMatrices, loads: Sequence[Sequence[float]]) -> Sett
         raise _not_held(structure, free, loose)
     if not np.linalg.norm(seen[1]) <= 1e3 * wanted:  # NaN neither
         raise NotHeld("the equilibrium of shafts and bearings is not found")
-    return Settled(
-        structure, here, seen[2], np.array([np.resize(np.asarray(one, float), SIX) for one in loads])
-    )
+    return Settled(structure, here, seen[2], outer)
 
 
 def _not_held(structure: SystemMatrices, free: np.ndarray, motion: np.ndarray) -> NotHeld:
@@ -280,8 +285,7 @@ def reduced(state: Settled, modes_up_to: float = 0.0) -> Reduced:
     count = shapes.shape[1]
     stiffness[len(kept) :, : len(kept)], stiffness[: len(kept), len(kept) :] = 0.0, 0.0  # rounding
     at = np.concatenate([state.moved[kept], np.zeros(count)])
-    loads = np.concatenate([state.loads.ravel(), np.zeros(count)])
-    loads[5 : len(kept) : SIX] = 0.0
+    load = np.concatenate([state.load[kept], np.zeros(count)])
     reaction = np.zeros((len(structure.bearings), DIRECTIONS, len(at)))
     for number, bearing in enumerate(state.bearings):
         rows = _rows(structure.nodes[number], structure.seats[number], size)
@@ -292,7 +296,7 @@ def reduced(state: Settled, modes_up_to: float = 0.0) -> Reduced:
         symmetric[0],
         symmetric[1],
         damping,
-        stiffness @ at - loads,
+        stiffness @ at - load,
         count,
         tuple(frequencies),
         beyond,

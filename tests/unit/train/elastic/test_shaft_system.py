@@ -5,7 +5,9 @@ import pytest
 from scipy.linalg import eig, eigh
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.elastic.beam import ShaftMetal, ShaftSection, shear_factor
 from tribodyn.train.elastic.beam_matrices import SIX, matrices
+from tribodyn.train.elastic.rolling_bearing import BallRow, RollerRow
 from tribodyn.train.elastic.system import (
     PlacedBearing,
     PlacedShaft,
@@ -15,8 +17,6 @@ from tribodyn.train.elastic.system import (
     settled,
     structure_of,
 )
-from tribodyn.train.links.beam import ShaftMetal, ShaftSection, shear_factor
-from tribodyn.train.links.rolling_bearing import BallRow, RollerRow
 
 STEEL, DENSITY = ShaftMetal(206e9, 0.3), 7850.0
 RIGIDITY = 206e9 / 2.6

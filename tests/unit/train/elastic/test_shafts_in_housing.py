@@ -5,9 +5,9 @@ import pytest
 
 from tests.support.beam_element import STEEL, bar
 from tribodyn.input.tables.housing_matrices import without
+from tribodyn.train.elastic.beam import ShaftSection
 from tribodyn.train.elastic.beam_matrices import SIX
 from tribodyn.train.elastic.system import PlacedBearing, PlacedShaft, ShaftSystem, settled, structure_of
-from tribodyn.train.links.beam import ShaftSection
 
 #: Springs at both ends of a shaft, one of which holds it along its axis.
 LEFT = tuple(map(tuple, np.diag([2e8, 1e8, 1e8, 0.0, 0.0]).tolist()))

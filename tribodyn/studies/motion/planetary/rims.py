@@ -11,13 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.gears.drawn_system import modal_damping
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.geometry.drive import Side
 from tribodyn.studies.motion.case import Gearbox, RimData, SetData
 from tribodyn.studies.motion.planetary.frames import carried_ratio
 from tribodyn.train.coupling import CoupledMatrices
 from tribodyn.train.elastic.ring import FIRST_ORDER, PER_ORDER, Rim, rim_matrices, rows_at
+from tribodyn.train.elastic.superelement import modal_damping
 from tribodyn.train.layout import TrainLayout
 from tribodyn.train.planetary import CARRIER, RING
 from tribodyn.train.structure import ACROSS, TOWARDS, GearMesh
@@ -75,8 +75,8 @@ def rims_of(case: Gearbox, tables: Sequence[Tabulated], layout: TrainLayout) -> 
         if np.min(np.linalg.eigvalsh(matrices.stiffness)) <= 0.0:
             rule = f"the rim turns against the carrier faster than its waves of order {data.orders} run"
             raise InputError(f"{gearset.key}.ring_rim.orders", data.orders, rule, "give fewer orders")
-        ratios = np.full(placed.size, data.damping_ratio)
-        damping = matrices.gyroscopic + modal_damping(matrices.mass, matrices.stiffness, ratios)
+        damped = modal_damping(matrices.mass, matrices.stiffness, data.damping_ratio, rounding=0.0)
+        damping = matrices.gyroscopic + damped
         places = layout.half - layout.modes + placed.first + np.arange(placed.size)
         yield CoupledMatrices(places, matrices.stiffness, damping, matrices.mass, np.zeros(placed.size))
 

@@ -14,6 +14,7 @@ from tribodyn.dynamics.data import BearingData, in_space
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.gears.drawn_system import DrawnSystem, ShaftData, check_room_of_shafts, starts
 from tribodyn.gears.supports import (
+    STILL,
     Five,
     GearSupport,
     GearSupports,
@@ -32,7 +33,6 @@ from tribodyn.studies.motion.drivetrain.structure import OF_DRIVE, Structure
 from tribodyn.studies.motion.planetary.in_space import on_pin
 from tribodyn.train.positions import frame_of
 
-_NOTHING = (0.0,) * 5
 #: c_γ over the width, N/m²: 20 N/(mm µm) of steel, ISO 6336-1.
 MESH_STIFFNESS = 20e9
 
@@ -98,27 +98,25 @@ def drawn_system(
     Raises InputError where a shaft penetrates a gear of another.
     """
     parts, motion, new = train.parts, train.motion, train.numbers
-    names = {shaft.gears[0]: shaft.name for shaft in listed(scenario.shaft)}
-    drawn = [
-        (key, names.get(gear, gear), drawing) for gear, (key, drawing) in drawn_shafts(scenario.shaft).items()
-    ]
+    drawn = drawn_shafts(scenario.shaft)
+    _require_seats(scenario, list(drawn.values()))
     if not drawn:
-        _require_seats(scenario, [])
         return None
-    _require_seats(scenario, [(key, drawing) for key, _, drawing in drawn])
+    names = {shaft.gears[0]: shaft.name for shaft in listed(scenario.shaft)}
     carried = [
         {new[parts.body(name)]: place for name, place in drawing.placed(gear).items()}
-        for gear, (_, drawing) in drawn_shafts(scenario.shaft).items()
+        for gear, (_, drawing) in drawn.items()
     ]
     begin = starts(carried, list(zip(motion.driver, motion.driven, strict=True)))
     speed = duty.speed / float(motion.ratio[motion.input])
     shafts = []
-    for (key, name, drawing), bodies, start in zip(drawn, carried, begin, strict=True):
+    for (gear, (key, drawing)), bodies, start in zip(drawn.items(), carried, begin, strict=True):
         first = next(iter(bodies))
         x, y = placed.places.centres[first]
         turning = motion.sense[first], float(motion.ratio[first]) * speed
         points = tuple(bodies.items())
-        shafts.append(ShaftData(name, key, drawing, points, (float(x), float(y)), start, *turning))
+        name, centre = names.get(gear, gear), (float(x), float(y))
+        shafts.append(ShaftData(name, key, drawing, points, centre, start, *turning))
     gears = [
         (
             gear.name,
@@ -170,7 +168,7 @@ def supports_of_mesh(
         return GearSupports()
     turn = _view(train, placed, mesh)
     ends = [held.get(body) for body in (train.motion.driver[mesh], train.motion.driven[mesh])]
-    moved = [_turned(turn, _NOTHING if one is None else one.displacement) for one in ends]
+    moved = [_turned(turn, STILL if one is None else one.displacement) for one in ends]
     angle = float(placed.assemblies[mesh].path.pressure_angle(0.0))
     seen = [one and one._replace(displacement=moved[end], bearings=()) for end, one in enumerate(ends)]
     return GearSupports(seen[0], seen[1], misalignment_of_tilts((one[3:] for one in moved), angle), angle)

@@ -5,9 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.train.links.beam import ShaftMetal, ShaftSection, shear_factor
-from tribodyn.train.links.rolling_bearing import BallRow, RollerRow
-from tribodyn.train.links.shaft import NotHeld, Support, SupportedShaft, under_load
+from tribodyn.train.elastic.beam import ShaftMetal, ShaftSection, shear_factor
+from tribodyn.train.elastic.rolling_bearing import BallRow, RollerRow
+from tribodyn.train.elastic.shaft import under_load
+from tribodyn.train.elastic.system import NotHeld, PlacedShaft
+from tribodyn.train.elastic.system import PlacedBearing as Bearing
 
 STEEL = ShaftMetal(206e9, 0.3)
 LENGTH, DIAMETER = 0.16, 0.035
@@ -17,12 +19,12 @@ BALL = BallRow(9, 12e-3, 60e-3, clearance=10e-6)
 TAPERED = RollerRow(17, 8.5e-3, 12e-3, 53e-3, contact_angle=0.25, preload=5e-6)
 
 
-def shaft(gear: float, *supports: Support) -> SupportedShaft:
-    return SupportedShaft((ShaftSection(LENGTH, DIAMETER),), gear, supports, STEEL)
+def shaft(gear: float, *bearings: Bearing) -> PlacedShaft:
+    return PlacedShaft((ShaftSection(LENGTH, DIAMETER),), STEEL, 7850.0, (gear,), bearings, 0.0)
 
 
-BETWEEN = shaft(0.07, Support(0.01, BALL), Support(0.15, BALL._replace(located=False)))
-OVERHUNG = shaft(0.15, Support(0.01, TAPERED._replace(thrust=-1)), Support(0.09, TAPERED._replace(thrust=1)))
+BETWEEN = shaft(0.07, Bearing(0.01, BALL), Bearing(0.15, BALL._replace(located=False)))
+OVERHUNG = shaft(0.15, Bearing(0.01, TAPERED._replace(thrust=-1)), Bearing(0.09, TAPERED._replace(thrust=1)))
 LOAD = (-4000.0, -1500.0, -900.0, -28.0, 0.0)
 
 
@@ -32,7 +34,7 @@ def test_an_overhung_gear_by_hand():
     Its slope is F c (2 L + 3 c)/(6 E I), and what the shear of the span turns the shaft by, F c/(κ G A L).
     """
     span, arm = 0.1, 0.05
-    found = under_load(shaft(0.15, Support(0.0, RIGID), Support(span, PINNED)), (1000.0, 0, 0, 0, 0))
+    found = under_load(shaft(0.15, Bearing(0.0, RIGID), Bearing(span, PINNED)), (1000.0, 0, 0, 0, 0))
     bending = 206e9 * math.pi / 64.0 * DIAMETER**4
     shear = shear_factor(0.3, 0.0) * 206e9 / 2.6 * math.pi / 4.0 * DIAMETER**2
     deflection = 1000.0 * (arm**2 * (span + arm) / (3.0 * bending) + arm * (span + arm) / (shear * span))
@@ -43,13 +45,13 @@ def test_an_overhung_gear_by_hand():
 
 
 @pytest.mark.parametrize("case", [BETWEEN, OVERHUNG])
-def test_bearings_carry_the_load(case: SupportedShaft):
+def test_bearings_carry_the_load(case: PlacedShaft):
     """Forces and moments about the start of the shaft are in balance."""
     found = under_load(case, LOAD)
     total = np.zeros(5)
-    loads = [(case.gear_position, np.array(LOAD))]
+    loads = [(case.points[0], np.array(LOAD))]
     loads += [
-        (support.position, -state.force) for support, state in zip(case.supports, found.bearings, strict=True)
+        (bearing.position, -state.force) for bearing, state in zip(case.bearings, found.bearings, strict=True)
     ]
     for z, force in loads:
         total += force + np.array([0.0, 0.0, 0.0, -z * force[1], z * force[0]])
@@ -57,7 +59,7 @@ def test_bearings_carry_the_load(case: SupportedShaft):
 
 
 @pytest.mark.parametrize("case", [BETWEEN, OVERHUNG])
-def test_the_matrix_is_the_slope_of_load_over_displacement(case: SupportedShaft):
+def test_the_matrix_is_the_slope_of_load_over_displacement(case: PlacedShaft):
     found = under_load(case, LOAD)
     assert found.stiffness == pytest.approx(found.stiffness.T, rel=1e-12)
     for more in np.diag([4.0, 4.0, 4.0, 0.05, 0.05]):
@@ -75,17 +77,17 @@ def test_bearings_stiffen_under_load():
 @pytest.mark.parametrize(
     ("case", "load", "words"),
     [
-        (shaft(0.07, Support(0.01, PINNED), Support(0.15, PINNED)), LOAD, "along its axis"),
-        (shaft(0.07, Support(0.01, RIGID)), LOAD, "tilts"),
+        (shaft(0.07, Bearing(0.01, PINNED), Bearing(0.15, PINNED)), LOAD, "along its axis"),
+        (shaft(0.07, Bearing(0.01, RIGID)), LOAD, "tilts"),
         (BETWEEN, (0.0,) * 5, "holds it"),
         (
-            shaft(0.15, *(Support(z, TAPERED._replace(thrust=1, preload=0.0)) for z in (0.01, 0.09))),
+            shaft(0.15, *(Bearing(z, TAPERED._replace(thrust=1, preload=0.0)) for z in (0.01, 0.09))),
             LOAD,
             "hold",
         ),
     ],
 )
-def test_what_nothing_holds_is_refused(case: SupportedShaft, load: tuple[float, ...], words: str):
+def test_what_nothing_holds_is_refused(case: PlacedShaft, load: tuple[float, ...], words: str):
     with pytest.raises(NotHeld, match=words):
         under_load(case, load)
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 from tribodyn.dynamics.data import RollingBearing, radial_stiffness
-from tribodyn.train.links.rolling_bearing import BallRow, RollerRow, answer, ball_constant, roller_constant
+from tribodyn.train.elastic.rolling_bearing import BallRow, RollerRow, answer, ball_constant, roller_constant
 
 BALLS = BallRow(9, 12.7e-3, 65e-3)
 ROLLERS = RollerRow(14, 12e-3, 12e-3, 65e-3, profiled=False)

@@ -5,8 +5,6 @@ rotation about z is no part of it: a round shaft couples it with nothing, and th
 of freedom of their own. J. S. Przemieniecki, Theory of Matrix Structural Analysis (1968), (5.116).
 """
 
-from collections.abc import Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -72,27 +70,3 @@ def element(section: ShaftSection, length: float, metal: ShaftMetal) -> Float[Ar
         stiffness[np.ix_(places, places)] = in_plane * np.outer(turned, turned)
     stiffness[np.ix_((2, 7), (2, 7))] = modulus * area / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
     return stiffness
-
-
-def stiffness_between(
-    sections: Sequence[ShaftSection], metal: ShaftMetal, places: Sequence[float]
-) -> Float[Array, "kept kept"]:
-    """Stiffness of a free shaft between places along it (m from its start, any order), 5 rows each.
-
-    All other nodes carry no load, so that leaving them out by static condensation is exact. Two places at one
-    point of the shaft share a node and cannot be told apart: they must differ.
-    """
-    ends = np.cumsum([0.0, *(section.length for section in sections)])
-    nodes = np.unique([*ends, *places])
-    whole = np.zeros((DIRECTIONS * len(nodes),) * 2)
-    for first, (start, end) in enumerate(pairwise(nodes.tolist())):
-        section = sections[int(np.searchsorted(ends, (start + end) / 2.0)) - 1]
-        at = slice(DIRECTIONS * first, DIRECTIONS * (first + 2))
-        whole[at, at] += element(section, end - start, metal)
-    kept = np.searchsorted(nodes, places)
-    rows = (DIRECTIONS * kept[:, None] + np.arange(DIRECTIONS)).ravel()
-    others = np.setdiff1d(np.arange(len(whole)), rows)
-    if not len(others):
-        return whole[np.ix_(rows, rows)]
-    across = np.linalg.solve(whole[np.ix_(others, others)], whole[np.ix_(others, rows)])
-    return whole[np.ix_(rows, rows)] - whole[np.ix_(rows, others)] @ across
