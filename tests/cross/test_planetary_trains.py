@@ -7,6 +7,7 @@ import pytest
 
 from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case
 from tests.support.planetary_phases import mesh_phases
+from tests.support.single_set import torques
 from tests.support.train_scenarios import case_of_table
 from tribodyn.dynamics.modes import modes
 from tribodyn.errors import InputError
@@ -19,7 +20,11 @@ from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.studies.motion.planetary.results import kinds_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.run import run
-from tribodyn.train.planetary import MEMBERS, SetTeeth, excited, torques
+from tribodyn.train.planetary import (
+    MEMBERS,
+    SetTeeth,
+    excited,
+)
 from tribodyn.train.structure import shift_of, turn_of
 
 SUN, RING, CARRIER = 0, 1, 2

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.support.planetary_phases import mesh_phases
+from tests.support.single_set import mesh_frequency, speeds, torques, willis
 from tribodyn.errors import InputError
 from tribodyn.train.phases import Engagement, ToothedShaft, nominal_phases
 from tribodyn.train.planetary import (
@@ -17,11 +18,7 @@ from tribodyn.train.planetary import (
     SetTeeth,
     check_assembly,
     excited,
-    mesh_frequency,
     nearest_teeth,
-    speeds,
-    torques,
-    willis,
 )
 
 TEETH = SetTeeth(18, 36, -90)

@@ -4,11 +4,18 @@ from itertools import permutations
 
 import pytest
 
+from tests.support.single_set import speeds, torques
 from tribodyn.errors import InputError
 from tribodyn.train.flow import nominal_torques
 from tribodyn.train.joints import Joint, Named, SetMembers, Toothed
 from tribodyn.train.kinematics import TrainSpeeds, kinematics
-from tribodyn.train.planetary import CARRIER, MEMBERS, RING, SUN, SetTeeth, speeds, torques
+from tribodyn.train.planetary import (
+    CARRIER,
+    MEMBERS,
+    RING,
+    SUN,
+    SetTeeth,
+)
 
 TEETH = SetTeeth(18, 36, -93)
 BODIES = [Named(name, name) for name in (*MEMBERS, "planet-1", "planet-2", "planet-3", "load")]
