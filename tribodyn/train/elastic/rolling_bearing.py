@@ -12,6 +12,12 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.elastic.element_contact import (
+    BALL_EXPONENT,
+    ROLLER_EXPONENT,
+    ball_contact,
+    roller_contact,
+)
 
 #: Elastic constants of rings and rolling elements, bearing steel: E in Pa, ν.
 STEEL = 206e9, 0.3
@@ -20,7 +26,6 @@ CONFORMITY = 0.52
 #: ISO/TS 16281: load of a roller between both raceways over deflection^(10/9) and effective length^(8/9), N
 #: and mm; slices of a roller; its profile, drop over diameter and logarithm.
 ROLLER_CONSTANT, SLICES, PROFILE = 35948.0, 41, 0.00035
-_BALL_EXPONENT, _ROLLER_EXPONENT = 1.5, 10.0 / 9.0
 
 
 class BallRow(NamedTuple):
@@ -80,7 +85,7 @@ def ball_constant(row: BallRow) -> float:
         mean = along * across / (along + across)
         of_unit = first * (9.0 / (2.0 * second * mean) / (np.pi * ellipticity * plane) ** 2) ** (1.0 / 3.0)
         yielding += of_unit
-    return float(yielding**-_BALL_EXPONENT)
+    return float(yielding**-BALL_EXPONENT)
 
 
 def _ellipse(ratio: float) -> tuple[float, float, float]:
@@ -108,7 +113,7 @@ def _ellipse(ratio: float) -> tuple[float, float, float]:
 
 def roller_constant(row: RollerRow) -> float:
     """Load over deflection^(10/9) of a roller between both raceways, N/m^(10/9), of ISO/TS 16281."""
-    return ROLLER_CONSTANT * (1e3 * row.length) ** (8.0 / 9.0) * 1e3**_ROLLER_EXPONENT
+    return ROLLER_CONSTANT * (1e3 * row.length) ** (8.0 / 9.0) * 1e3**ROLLER_EXPONENT
 
 
 def answer(row: BallRow | RollerRow, moved: Float[Array, "5"]) -> BearingState:
@@ -146,17 +151,16 @@ def _of_balls(row: BallRow, moved: Float[Array, "5"]) -> BearingState:
     ]
     line = rest + by @ moved
     length = np.hypot(line[:, 0], line[:, 1])
-    pressed = np.maximum(length - apart, 0.0)
     constant = ball_constant(row)
-    load = constant * pressed**_BALL_EXPONENT
+    load, pressed = ball_contact(length, apart, constant)
     normal = line / length[:, None]
     along = np.einsum("ei,eij->ej", normal, by)
     # the load turns with its line: Q/A across it
     across = np.einsum("ei,eij->ej", np.stack([-normal[:, 1], normal[:, 0]], axis=1), by)
-    slope = _BALL_EXPONENT * constant * np.sqrt(pressed)
+    slope = BALL_EXPONENT * constant * np.sqrt(pressed)
     stiffness = np.einsum("e,ei,ej->ij", slope, along, along)
     stiffness += np.einsum("e,ei,ej->ij", load / length, across, across)
-    energy = float(np.sum(load * pressed)) / (1.0 + _BALL_EXPONENT)
+    energy = float(np.sum(load * pressed)) / (1.0 + BALL_EXPONENT)
     return BearingState(load @ along, stiffness, energy, load)
 
 
@@ -173,11 +177,10 @@ def _of_rollers(row: RollerRow, moved: Float[Array, "5"]) -> BearingState:
     rest = abs(sine) * row.preload - cosine * row.clearance / 2.0
     if row.profiled:  # both raceways
         rest = rest + 2.0 * PROFILE * row.diameter * np.log(1.0 - (2.0 * place / row.length) ** 2)
-    pressed = np.maximum(rest + by @ moved, 0.0)
     constant = roller_constant(row) / SLICES
-    load = constant * pressed**_ROLLER_EXPONENT
-    slope = _ROLLER_EXPONENT * constant * pressed ** (_ROLLER_EXPONENT - 1.0)
+    load, pressed = roller_contact(rest + by @ moved, constant)
+    slope = ROLLER_EXPONENT * constant * pressed ** (ROLLER_EXPONENT - 1.0)
     stiffness = np.einsum("es,esi,esj->ij", np.where(pressed > 0.0, slope, 0.0), by, by)
     force = np.einsum("es,esj->j", load, by)
-    energy = float(np.sum(load * pressed)) / (1.0 + _ROLLER_EXPONENT)
+    energy = float(np.sum(load * pressed)) / (1.0 + ROLLER_EXPONENT)
     return BearingState(force, stiffness, energy, np.sum(load, axis=1), load)
