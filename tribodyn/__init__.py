@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from tribodyn import signals as signals
     from tribodyn.derivatives.differentiable import Differentiable
     from tribodyn.errors import InputError, OutputError, SimulationError
+    from tribodyn.exchange.matrix_files import write_matrices
     from tribodyn.geometry.families import Family
     from tribodyn.interface import standards as standards
     from tribodyn.interface.drive import GearPair, NamedGear, constraints, drive, gear
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from tribodyn.numerics.parameter import Parameter
     from tribodyn.studies.protocol.study import Study
     from tribodyn.studies.protocol.verb import Finding
+    from tribodyn.train.elastic.plate_housing import plate_housing
     from tribodyn.train.links.law import LinkLaw
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
     from tribodyn.tribology.wear.law import WearLaw
@@ -83,6 +85,7 @@ __all__ = [
     "identify",
     "line_contact",
     "open",
+    "plate_housing",
     "run",
     "run_meshes",
     "scenario",
@@ -90,6 +93,7 @@ __all__ = [
     "standards",
     "sweep",
     "validate",
+    "write_matrices",
 ]
 
 # imported when asked for, so that `tribodyn --help` needs none of it
@@ -120,11 +124,13 @@ _PLACES = {
     "identify": "tribodyn.interface.identify",
     "line_contact": "tribodyn.interface.line_contact",
     "open": "tribodyn.interface.sweep:open_result",
+    "plate_housing": "tribodyn.train.elastic.plate_housing",
     "run": "tribodyn.interface.run",
     "run_meshes": "tribodyn.interface.run",
     "scenario": "tribodyn.interface.scenario",
     "sweep": "tribodyn.interface.sweep",
     "validate": "tribodyn.interface.validation",
+    "write_matrices": "tribodyn.exchange.matrix_files",
 }
 
 

@@ -75,9 +75,8 @@ def plate_housing(
     _check(lengths, thickness, placed)
     side = element_size or float(np.max(lengths)) / 6.0
     mesh = _box(lengths, thickness, list(placed.values()), side)
-    basis, stiffness, mass, surface = _assembled(mesh, metal)
-    dofs = _node_dofs(basis)
-    places = basis.doflocs[:, dofs[:, 0]].T
+    places, stiffness, mass, surface = _assembled(mesh, metal)
+    dofs = np.arange(3 * len(places)).reshape(-1, 3)
     centres = np.array(
         [
             (bore.x, bore.y, thickness / 2.0 if bore.wall == "front" else lengths[2] - thickness / 2.0)
@@ -190,33 +189,40 @@ def _box(size: Float[Array, " 3"], thickness: float, bores: Sequence[Bore], side
 
 
 def _assembled(mesh: Any, metal: PlateMetal) -> tuple[Any, Any, Any, Any]:
-    """Basis, stiffness, mass, and ∫ n u n v dS over what is outside."""
-    from skfem import Basis, BilinearForm, ElementHexS2, ElementVector, FacetBasis
-    from skfem.models.elasticity import lame_parameters, linear_elasticity
+    """Places of nodes, stiffness, mass, and ∫ n u n v dS over what is outside; three dofs to a node."""
+    from skfem import Basis, ElementHexS2, FacetBasis
+    from skfem.models.elasticity import lame_parameters
 
-    element = ElementVector(ElementHexS2())
-    basis = Basis(mesh, element, intorder=4)
-    lame = lame_parameters(metal.youngs_modulus, metal.poisson_ratio)
-    stiffness = linear_elasticity(*lame).assemble(basis)
-
-    def inertia(u: Any, v: Any, w: Any) -> Any:
-        return metal.density * (u[0] * v[0] + u[1] * v[1] + u[2] * v[2])
-
-    def normal(u: Any, v: Any, w: Any) -> Any:
-        return sum(u[i] * w.n[i] for i in range(3)) * sum(v[i] * w.n[i] for i in range(3))
-
-    mass = BilinearForm(inertia).assemble(basis)
+    basis = Basis(mesh, ElementHexS2(), intorder=4)
+    value, weight = np.array([np.asarray(phi[0]) for phi in basis.basis]), basis.dx
+    slope = np.array([phi[0].grad for phi in basis.basis])  # (function, direction, element, point)
+    nodes, (functions, three, elements, _) = len(basis.doflocs.T), slope.shape
+    lame, shear = lame_parameters(metal.youngs_modulus, metal.poisson_ratio)
+    flat = np.moveaxis(slope, 2, 0).reshape(elements, functions * three, -1)
+    both = (flat * weight[:, None]) @ flat.transpose(0, 2, 1)
+    both = both.reshape(elements, functions, three, functions, three)
+    along = np.einsum("eaibi->eab", both)[:, :, None, :, None] * np.eye(three)[None, None, :, None]
+    stiffness = lame * both + shear * (both.transpose(0, 1, 4, 3, 2) + along)
+    moved = np.einsum("aeq,beq,eq->eab", value, value, weight * metal.density)
+    mass = moved[:, :, None, :, None] * np.eye(three)[None, None, :, None]
     ends = np.array([mesh.p.min(axis=1), mesh.p.max(axis=1)])
     facets = mesh.boundary_facets()
     middle = mesh.p[:, mesh.facets[:, facets]].mean(axis=1)
-    outside = np.any(np.abs(middle - ends[:, :, None]) < 1e-9, axis=(0, 1))
-    surface = BilinearForm(normal).assemble(FacetBasis(mesh, element, facets=facets[outside], intorder=4))
-    return basis, stiffness, mass, surface
+    outside = facets[np.any(np.abs(middle - ends[:, :, None]) < 1e-9, axis=(0, 1))]
+    shell = FacetBasis(mesh, ElementHexS2(), facets=outside, intorder=4)
+    value = np.array([np.asarray(phi[0]) for phi in shell.basis])
+    pushed = (value[:, None] * shell.normals[None]).transpose(2, 0, 1, 3)
+    pushed = pushed.reshape(len(outside), functions * three, -1)
+    surface = (pushed * shell.dx[:, None]) @ pushed.transpose(0, 2, 1)
 
+    def whole(parts: Any, of: Any) -> Any:
+        dofs = (three * of.element_dofs.T[:, :, None] + np.arange(three)).reshape(len(of.element_dofs.T), -1)
+        size = dofs.shape[1]
+        rows, columns = np.repeat(dofs, size, axis=1), np.tile(dofs, size)
+        shape = (three * nodes, three * nodes)
+        return sparse.csc_matrix((parts.ravel(), (rows.ravel(), columns.ravel())), shape)
 
-def _node_dofs(basis: Any) -> Any:
-    """Degrees of freedom of all nodes, corners and middles of edges, in x, y, z."""
-    return np.concatenate([basis.nodal_dofs.T, basis.edge_dofs.T])
+    return basis.doflocs.T, whole(stiffness, basis), whole(mass, basis), whole(surface, shell)
 
 
 def _ring(places: Any, bore: Bore, centre: Any, thickness: float) -> Any:
