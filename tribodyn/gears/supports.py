@@ -16,15 +16,16 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.geometry.modification import Misalignment, Modifications, misalignment_of_tilts
-from tribodyn.input.tables.bearings import Bearing, Bearings, bearing_of, matrix_of
-from tribodyn.input.tables.drawn_shafts import SPRINGS, BearingOfShaft, DrawnShaft
+from tribodyn.input.tables.bearings import Bearing, Bearings, bearing_of
+from tribodyn.input.tables.drawn_bearings import BearingOfShaft, held_by
+from tribodyn.input.tables.drawn_shafts import DrawnShaft
 from tribodyn.input.tables.duty import duty_of
 from tribodyn.input.tables.gears.drive_data import assembled_on_path
 from tribodyn.input.tables.gears.model_files import DriveTable
 from tribodyn.input.tables.shafts import drawn_shafts
 from tribodyn.numerics.remembered import remembered
 from tribodyn.train.elastic.beam import ShaftMetal, ShaftSection
-from tribodyn.train.elastic.rolling_bearing import BallRow, BearingState, RollerRow
+from tribodyn.train.elastic.rolling_bearing import BearingState
 from tribodyn.train.elastic.shaft import displacement_on, mesh_loads, under_load
 from tribodyn.train.elastic.system import Matrix, NotHeld, PlacedBearing, PlacedShaft
 
@@ -199,25 +200,4 @@ def placed_shaft(table: DrawnShaft, points: Iterable[float], spin: float = 0.0) 
         tuple(points),
         tuple(PlacedBearing(one.position, held_by(one), one.seat) for one in table.bearing),
         spin,
-    )
-
-
-def held_by(table: BearingOfShaft) -> BallRow | RollerRow | Matrix:
-    """A bearing as the physics takes it."""
-    if table.matrix is not None:
-        return matrix_of(table.matrix, table.matrix_units)
-    if table.type is None:
-        x, y, z, tilt = (getattr(table, name) or 0.0 for name in SPRINGS)
-        return tuple(map(tuple, np.diag([x, y, z, tilt, tilt]).tolist()))
-    sizes: Any = table.elements, table.element_diameter
-    fit: Any = {"pitch_diameter": table.pitch_diameter, "clearance": table.clearance}
-    if table.type == "deep-groove-ball":
-        return BallRow(*sizes, **fit, located=table.locating)
-    return RollerRow(
-        *sizes,
-        length=table.roller_length or 0.0,
-        **fit,
-        contact_angle=table.contact_angle or 0.0,
-        thrust={"+z": 1, "-z": -1, None: 0}[table.thrust],
-        preload=table.preload,
     )

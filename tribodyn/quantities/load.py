@@ -245,6 +245,9 @@ BEARINGS = (
     Quantity("equivalent_load", "Equivalent dynamic load", "N", ",.0f", symbol="P").defined_as(
         "P = X F_r + Y F_a of ISO 281."
     ),
+    Quantity("static_safety", "Static safety", "", ".2f", symbol="S_0").defined_as(
+        "C_0/P_0 with P_0 = max(X_0 F_r + Y_0 F_a, F_r) of ISO 76."
+    ),
     Quantity("rating_life", "Basic rating life", "h", ",.0f", symbol="L_10h").defined_as(
         "That 90 % of such bearings reach at the duty's speed: (C/P)^p 10⁶ revolutions, ISO 281."
     ),

@@ -2,7 +2,7 @@
 
 Formulas of the modified and of the reference life are written from knowledge, without the standards at hand.
 
-Bearings are named "deep-groove-ball", "cylindrical-roller" and "tapered-roller".
+Bearings are named by type, as in `EXPONENTS`; loads and ratings are those of the whole bearing or pair.
 """
 
 import math
@@ -11,14 +11,34 @@ from typing import NamedTuple
 
 import numpy as np
 
+BALLS = ("deep-groove-ball", "angular-contact-ball", "four-point-contact-ball", "self-aligning-ball")
+ROLLERS = (
+    *("cylindrical-roller", "needle-roller", "tapered-roller"),
+    *("spherical-roller", "toroidal-roller"),
+)
 #: ISO 281: exponent of the life, of point and of line contact.
-EXPONENTS = {"deep-groove-ball": 3.0, "cylindrical-roller": 10.0 / 3.0, "tapered-roller": 10.0 / 3.0}
+EXPONENTS = dict.fromkeys(BALLS, 3.0) | dict.fromkeys(ROLLERS, 10.0 / 3.0)
+#: Those that carry radial load alone.
+_RADIAL = ("cylindrical-roller", "needle-roller", "toroidal-roller")
+#: Those whose two rows share a radial load.
+_TWO_ROWS = ("self-aligning-ball", "spherical-roller", "four-point-contact-ball")
 #: ISO 281, table 3, deep groove ball bearings: f_0 F_a/C_0, e and Y; X is 0.56 beyond e.
 _RELATIVE_LOAD = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
 _E = (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44)
 _Y = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
 #: f_0 of deep groove ball bearings of usual sizes: ISO 76 has 12 to 16.
 STATIC_FACTOR = 14.0
+#: ISO 281, table 3, angular contact ball bearings, one row: contact angle, degrees, X and Y; Y of 10° and 15°
+#: by i f_0 F_a/C_0 times cos α, at the relative loads above.
+_ANGLES = (10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0)
+_ANGULAR_X = (0.46, 0.44, 0.43, 0.41, 0.39, 0.37, 0.35, 0.33)
+_ANGULAR_Y = (
+    (1.88, 1.71, 1.52, 1.41, 1.34, 1.23, 1.10, 1.01, 1.00),
+    (1.47, 1.40, 1.30, 1.23, 1.19, 1.12, 1.02, 1.00, 1.00),
+    *((y,) * 9 for y in (1.00, 0.87, 0.76, 0.66, 0.57, 0.50)),
+)
+#: ISO 76, the same: Y_0 of one row, whose X_0 is 0.5.
+_STATIC_Y = (0.50, 0.46, 0.42, 0.38, 0.33, 0.29, 0.26, 0.22)
 
 
 class Equivalent(NamedTuple):
@@ -38,25 +58,63 @@ def equivalent_load(
     static_rating: float | None = None,
     static_factor: float = STATIC_FACTOR,
     contact_angle: float = 0.0,
+    rows: int = 1,
 ) -> Equivalent:
-    """P = X F_r + Y F_a of a single-row bearing, ISO 281:2007, tables 3 and 7; loads ≥ 0, N.
+    """P = X F_r + Y F_a, ISO 281:2007, tables 3 and 7; loads ≥ 0, N; α in rad.
 
     Deep groove ball bearings go by f_0 F_a/C_0, linear between the values of the table and constant beyond
-    them; without C_0 they are taken at its lower end, where Y is largest: P is not too small then. Tapered
-    ones have e = 1.5 tan α, X = 0.4 and Y = 0.4 cot α. Cylindrical ones carry F_r alone.
+    them; without C_0 they are taken at its lower end, where Y is largest: P is not too small then. So do
+    angular contact ones below 20°; linear between the angles of the table. Tapered ones have e = 1.5 tan α,
+    X = 0.4 and Y = 0.4 cot α. Two rows that take thrust both ways (`rows` = 2: O or X; spherical,
+    self-aligning and four-point contact ones always) have 2^0.7 times X and Y of one ball row, and
+    Y_1 = Y_2 − (1 − X_2)/e up to e: the table within its rounding; rollers X = 0.67, Y = 0.67 cot α and
+    Y_1 = 0.45 cot α, self-aligning balls 0.65 and 0.42. What carries F_r alone has P = F_r.
     """
-    if kind == "cylindrical-roller":
+    if kind in _RADIAL:
         return Equivalent(radial, 1.0, 0.0, math.inf)
-    if kind == "tapered-roller":
-        limit = 1.5 * math.tan(contact_angle)
-        factors = (0.4, 0.4 / math.tan(contact_angle))
-    else:
-        relative = 0.0 if static_rating is None else static_factor * axial / static_rating
+    rows = 2 if kind in _TWO_ROWS else rows
+    relative = 0.0 if static_rating is None else static_factor * axial / static_rating
+    up_to = 0.0
+    if kind == "deep-groove-ball":
         limit = float(np.interp(relative, _RELATIVE_LOAD, _E))
         factors = (0.56, float(np.interp(relative, _RELATIVE_LOAD, _Y)))
+    elif kind in ("angular-contact-ball", "four-point-contact-ball"):
+        at = rows * relative * math.cos(contact_angle), math.degrees(contact_angle)
+        x = float(np.interp(at[1], _ANGLES, _ANGULAR_X))
+        y = float(np.interp(at[1], _ANGLES, [np.interp(at[0], _RELATIVE_LOAD, each) for each in _ANGULAR_Y]))
+        limit = (1.0 - x) / y
+        factors = (x, y) if rows == 1 else (2.0**0.7 * x, 2.0**0.7 * y)
+        up_to = 0.0 if rows == 1 else factors[1] - (1.0 - factors[0]) / limit
+    else:
+        slope = math.tan(contact_angle)
+        limit = 1.5 * slope
+        share, up_to = (0.65, 0.42 / slope) if kind == "self-aligning-ball" else (0.67, 0.45 / slope)
+        if rows == 1:
+            share, up_to = 0.4, 0.0
+        factors = (share, share / slope)
     if axial <= limit * radial:
-        factors = (1.0, 0.0)
+        factors = (1.0, up_to)
     return Equivalent(factors[0] * radial + factors[1] * axial, *factors, limit)
+
+
+def static_load(
+    kind: str, radial: float, axial: float, *, contact_angle: float = 0.0, rows: int = 1
+) -> float:
+    """P_0 = max(X_0 F_r + Y_0 F_a, F_r), N, ISO 76:2006, tables 2 and 3; loads ≥ 0, N; α in rad.
+
+    Deep groove balls 0.6 and 0.5; angular contact 0.5 and Y_0 by α, other types with a contact angle 0.5 and
+    0.22 cot α; both doubled of two rows that take thrust both ways.
+    """
+    if kind in _RADIAL:
+        return radial
+    rows = 2 if kind in _TWO_ROWS else rows
+    if kind == "deep-groove-ball":
+        x, y = 0.6, 0.5
+    elif kind in ("angular-contact-ball", "four-point-contact-ball"):
+        x, y = 0.5 * rows, rows * float(np.interp(math.degrees(contact_angle), _ANGLES, _STATIC_Y))
+    else:
+        x, y = 0.5 * rows, rows * 0.22 / math.tan(contact_angle)
+    return max(x * radial + y * axial, radial)
 
 
 def basic_life(kind: str, dynamic_rating: float, load: float) -> float:
@@ -69,6 +127,21 @@ def running_time(revolutions: float, speed: float) -> float:
     return revolutions * 2.0 * math.pi / speed
 
 
+#: f_1 of Palmgren's moment as Harris gives it: of rollers; of balls with the exponent of P_0/C_0.
+_ROLLER_MOMENTS = {
+    "cylindrical-roller": 0.0003,
+    "needle-roller": 0.0003,
+    "tapered-roller": 0.0004,
+    "spherical-roller": 0.0004,
+}
+_BALL_MOMENTS = {
+    "deep-groove-ball": (0.0005, 0.55),
+    "angular-contact-ball": (0.001, 0.33),
+    "four-point-contact-ball": (0.001, 0.33),
+    "self-aligning-ball": (0.0003, 0.4),
+}
+
+
 def load_moment(
     kind: str,
     radial: float,
@@ -77,22 +150,35 @@ def load_moment(
     *,
     static_rating: float | None = None,
     contact_angle: float = 0.0,
+    rows: int = 1,
 ) -> float | None:
     """M_1 = f_1 P_1 d_m, N m, by Palmgren, f_1 and P_1 as Harris gives them (chapter 14; from memory).
 
-    Deep groove ball bearings: f_1 = 0.0005 (P_0/C_0)^0.55 with P_0 = max(0.6 F_r + 0.5 F_a, F_r) of ISO 76,
-    and P_1 = max(3 F_a − 0.1 F_r, F_r); None without C_0. Cylindrical rollers with cage: f_1 = 0.0003,
-    P_1 = F_r. Tapered rollers: f_1 = 0.0004, P_1 = max(2 Y F_a, F_r), Y = 0.4 cot α. Flange friction of
-    cylindrical rollers under axial load is not in it.
+    Balls: f_1 = c (P_0/C_0)^y of ISO 76's P_0, deep groove 0.0005 and 0.55, angular contact 0.001 and 0.33,
+    self-aligning 0.0003 and 0.4; None without C_0. P_1 ≥ F_r: deep groove 3 F_a − 0.1 F_r, angular contact
+    F_a − 0.1 F_r, of two rows 1.4 F_a − 0.1 F_r, self-aligning 1.4 Y_2 F_a − 0.1 F_r. Cylindrical and needle
+    rollers with cage: f_1 = 0.0003, P_1 = F_r; tapered rollers 0.0004, max(2 Y F_a, F_r), Y = 0.4 cot α;
+    spherical rollers 0.0004, max(1.2 Y_2 F_a, F_r). Flange friction under axial load is not in it; toroidal
+    rollers have none there: None.
     """
-    if kind == "cylindrical-roller":
-        return 0.0003 * radial * mean_diameter
-    if kind == "tapered-roller":
-        return 0.0004 * max(0.8 / math.tan(contact_angle) * axial, radial) * mean_diameter
+    slope = math.tan(contact_angle)
+    if kind == "toroidal-roller":
+        return None
+    if kind in ROLLERS:
+        thrust = 0.0 if kind in _RADIAL else (1.2 * 0.67 if kind == "spherical-roller" else 0.8) / slope
+        return _ROLLER_MOMENTS[kind] * max(thrust * axial, radial) * mean_diameter
     if static_rating is None:
         return None
-    static = max(0.6 * radial + 0.5 * axial, radial)
-    return 0.0005 * (static / static_rating) ** 0.55 * max(3.0 * axial - 0.1 * radial, radial) * mean_diameter
+    static = static_load(kind, radial, axial, contact_angle=contact_angle, rows=rows)
+    if kind == "deep-groove-ball":
+        thrust = 3.0
+    elif kind == "self-aligning-ball":
+        thrust = 1.4 * 0.65 / slope
+    else:
+        thrust = 1.4 if rows == 2 or kind in _TWO_ROWS else 1.0
+    factor, exponent = _BALL_MOMENTS[kind]
+    load = max(thrust * axial - 0.1 * radial, radial)
+    return factor * (static / static_rating) ** exponent * load * mean_diameter
 
 
 #: ISO 281:2007, annex A: filtered circulating oil by the code of ISO 4406 (beside it β of its filter): a, b
@@ -128,7 +214,7 @@ def fatigue_load_limit(kind: str, static_rating: float, pitch_diameter: float) -
 
     C_0/22 of balls, C_0/8.2 of rollers; beyond D_pw = 100 mm times (100/D_pw)^0.5 and ^0.3.
     """
-    share, exponent = (22.0, 0.5) if kind == "deep-groove-ball" else (8.2, 0.3)
+    share, exponent = (22.0, 0.5) if kind in BALLS else (8.2, 0.3)
     return static_rating / share * min(0.1 / pitch_diameter, 1.0) ** exponent
 
 
@@ -141,7 +227,7 @@ def life_factor(kind: str, viscosity_ratio: float, relative_limit: float) -> flo
     ratio = min(max(viscosity_ratio, 0.1), 4.0)
     place = 0 if ratio < 0.4 else 1 if ratio < 1.0 else 2
     power = ratio ** (0.054381, 0.19087, 0.071739)[place]
-    if kind == "deep-groove-ball":
+    if kind in BALLS:
         film = max(2.5671 - (2.2649, 1.9987, 1.9987)[place] / power, 0.0) ** 0.83
         rest, exponent = 1.0 - film * relative_limit ** (1.0 / 3.0), -9.3
     else:
@@ -157,18 +243,22 @@ def reference_life_of_balls(
     pitch_diameter: float,
     contact_angle: float = 0.0,
     conformity: float = 0.52,
+    outer_conformity: float | None = None,
 ) -> float:
-    """L_10r, revolutions, from the loads of all balls (N): ISO/TS 16281:2008, 4.3; infinite without load.
+    """L_10r, revolutions, from the loads of all balls of a row (N): ISO/TS 16281:2008, 4.3; infinite of none.
 
     [(Q_ci/Q_ei)^(−10/3) + (Q_ce/Q_ee)^(−10/3)]^(−9/10) 10⁶ with Q_ei = (Σ Q³/Z)^⅓ and
     Q_ee = (Σ Q^(10/3)/Z)^0.3 of an inner ring that turns under a standing load, and the ratings of the
-    raceways by C; both grooves of one conformity (radius over ball diameter).
+    raceways by C. Conformity is the groove's radius over the ball's diameter; absent, the outer groove's is
+    that of the inner one.
     """
     load = np.asarray(loads, dtype=float)
     if not np.any(load):
         return math.inf
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
-    raceways = 1.044 * ((1.0 - gamma) / (1.0 + gamma)) ** 1.72  # equal grooves: times 1^0.41
+    inner_groove, outer_groove = conformity, outer_conformity or conformity
+    grooves = inner_groove / outer_groove * (2.0 * outer_groove - 1.0) / (2.0 * inner_groove - 1.0)
+    raceways = 1.044 * ((1.0 - gamma) / (1.0 + gamma)) ** 1.72 * grooves**0.41
     each = dynamic_rating / (len(load) * math.cos(contact_angle) ** 0.7)
     inner = each / 0.407 * (1.0 + raceways ** (10.0 / 3.0)) ** 0.3
     outer = each / 0.389 * (1.0 + raceways ** (-10.0 / 3.0)) ** 0.3
@@ -184,7 +274,7 @@ def reference_life_of_rollers(
     pitch_diameter: float,
     contact_angle: float = 0.0,
 ) -> float:
-    """L_10r, revolutions, from the loads (N) of the slices of all rollers: ISO/TS 16281:2008, 5.3.
+    """L_10r, revolutions, from the loads (N) of the slices of all rollers of a row: ISO/TS 16281:2008, 5.3.
 
     {Σ_k [(q_kci/q_kei)^(−9/2) + (q_kce/q_kee)^(−9/2)]}^(−8/9) 10⁶ over the slices, with the mean loads of
     exponents 4 and 4.5 and the ratings of the raceways by C, λ ν = 0.83; slices near the ends count more,
@@ -204,3 +294,15 @@ def reference_life_of_rollers(
     on_inner = np.mean(concentrated**4, axis=0) ** 0.25
     on_outer = np.mean(concentrated**4.5, axis=0) ** (2.0 / 9.0)
     return 1e6 * float(np.sum((on_inner / inner) ** 4.5 + (on_outer / outer) ** 4.5)) ** (-8.0 / 9.0)
+
+
+def row_rating(kind: str, dynamic_rating: float, rows: int) -> float:
+    """C of one of so many rows from that of all: ISO 281, C ~ i^0.7 of balls, i^(7/9) of rollers."""
+    return dynamic_rating / rows ** (0.7 if kind in BALLS else 7.0 / 9.0)
+
+
+def life_of_rows(kind: str, lives: Sequence[float]) -> float:
+    """Life of rows that turn together: L^−e = Σ L_row^−e, e = 10/9 of balls, 9/8 of rollers."""
+    slope = 10.0 / 9.0 if kind in BALLS else 9.0 / 8.0
+    failing = sum(life**-slope for life in lives if life < math.inf)
+    return float(failing ** (-1.0 / slope)) if failing > 0.0 else math.inf

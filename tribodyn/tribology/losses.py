@@ -134,6 +134,9 @@ DRAG_FACTORS = {
     "cylindrical-roller": 3.0,
     "tapered-roller": 6.0,
     "needle-roller": 12.0,
+    "self-aligning-ball": 1.75,
+    "spherical-roller": 5.0,
+    "four-point-contact-ball": 6.5,  # as two rows of angular contact
 }
 #: ν n, mm²/s times rpm, below which the moment no longer depends on it.
 SLOW = 2000.0

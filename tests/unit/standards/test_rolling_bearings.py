@@ -12,11 +12,14 @@ from tribodyn.standards.rolling_bearings import (
     equivalent_load,
     fatigue_load_limit,
     life_factor,
+    life_of_rows,
     load_moment,
     reference_life_of_balls,
     reference_life_of_rollers,
     reference_viscosity,
+    row_rating,
     running_time,
+    static_load,
 )
 from tribodyn.train.elastic.rolling_bearing import BallRow, answer
 
@@ -131,3 +134,61 @@ def test_reference_life_of_the_distribution_that_the_ratings_stand_on():
     assert reference_life_of_rollers(even, 30e3, 1e-9, 66e-3) == pytest.approx(by_hand, rel=1e-4)
     tilted = [[30e3 / 20 / 31 * k / 15 for k in range(31)]] * 20
     assert reference_life_of_rollers(tilted, 30e3, 1e-9, 66e-3) < 0.5 * by_hand
+
+
+@pytest.mark.parametrize(
+    ("degrees", "relative", "one", "two"),
+    [
+        (15.0, 0.178, (0.44, 1.47, 0.38), (0.72, 2.39, 1.65)),
+        (15.0, 1.43, (0.44, 1.19, 0.47), (0.72, 1.93, 1.34)),
+        (10.0, 0.35, (0.46, 1.71, 0.32), (0.75, 2.78, 1.98)),
+        (25.0, 9.0, (0.41, 0.87, 0.68), (0.67, 1.41, 0.92)),
+        (30.0, 9.0, (0.39, 0.76, 0.80), (0.63, 1.24, 0.78)),
+        (35.0, 9.0, (0.37, 0.66, 0.95), (0.60, 1.07, 0.66)),
+        (40.0, 9.0, (0.35, 0.57, 1.14), (0.57, 0.93, 0.55)),
+    ],
+)
+def test_angular_contact_bearings_by_the_printed_table(degrees, relative, one, two):
+    """ISO 281, table 3: X, Y, e of one row; X_2, Y_2 and Y_1 of two, which follow from those here."""
+    angle, rating = math.radians(degrees), 20e3
+    for rows, (x, y, third) in ((1, one), (2, two)):
+        axial = relative * rating / 14.0 / rows
+
+        def factors(radial: float, axial: float = axial, rows: int = rows):
+            return equivalent_load(
+                "angular-contact-ball",
+                radial,
+                axial,
+                static_rating=rating,
+                contact_angle=angle,
+                rows=rows,
+            )
+
+        beyond, within = factors(0.0), factors(100.0 * axial)
+        assert (beyond.radial_factor, beyond.axial_factor) == pytest.approx((x, y), abs=0.012)
+        last = beyond.limit if rows == 1 else within.axial_factor
+        assert last == pytest.approx(third, abs=0.015)
+
+
+def test_two_rows_of_catalogues():
+    """Four-point and double row by makers: 35°: F_r + 0.66 F_a, e 0.95; 22210: e 0.24, Y_1 2.8, Y_2 4.2."""
+    four = equivalent_load("four-point-contact-ball", 1000.0, 900.0, contact_angle=math.radians(35.0))
+    assert (four.load, four.limit) == pytest.approx((1000.0 + 0.66 * 900.0, 0.95), rel=0.01)
+    angle = math.atan(0.24 / 1.5)
+    low, high = (equivalent_load("spherical-roller", 1e3, axial, contact_angle=angle) for axial in (1e2, 1e3))
+    assert (low.axial_factor, high.axial_factor) == pytest.approx((2.8, 4.2), abs=0.05)
+    assert static_load("spherical-roller", 1e3, 1e3, contact_angle=angle) == pytest.approx(3.8e3, rel=0.02)
+    forty = math.radians(40.0)
+    assert static_load("angular-contact-ball", 1e3, 3e3, contact_angle=forty) == pytest.approx(1280.0)
+    assert static_load("angular-contact-ball", 1e3, 3e3, contact_angle=forty, rows=2) == pytest.approx(2560.0)
+    assert static_load("toroidal-roller", 1e3, 5.0) == 1e3
+
+
+def test_rows_share_their_rating():
+    """Two rows of one load each have the life of the whole at both loads: C ~ i^0.7, i^(7/9)."""
+    for kind, exponent in (("angular-contact-ball", 3.0), ("spherical-roller", 4.0)):
+        one = row_rating(kind, 30e3, 2)
+        row = 1e6 * (one / 2e3) ** exponent
+        whole = 1e6 * (30e3 / 4e3) ** exponent
+        assert life_of_rows(kind, [row, row]) == pytest.approx(whole, rel=1e-9)
+        assert life_of_rows(kind, [row, math.inf]) == pytest.approx(row)

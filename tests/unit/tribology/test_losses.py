@@ -96,6 +96,9 @@ def test_palmgren_by_hand():
         "cylindrical-roller": 3.0,
         "tapered-roller": 6.0,
         "needle-roller": 12.0,
+        "self-aligning-ball": 1.75,
+        "spherical-roller": 5.0,
+        "four-point-contact-ball": 6.5,
     }
     for rpm in (30.0, 44.0, 700.0):
         for count in (1, 3):

@@ -7,21 +7,26 @@ from typing import Any, NamedTuple
 from tribodyn.gears.case import GearCase
 from tribodyn.gears.supports import BearingUnderLoad, GearSupport
 from tribodyn.geometry.drive import SIDES
-from tribodyn.input.tables.drawn_shafts import BearingOfShaft
+from tribodyn.input.tables.drawn_bearings import BearingOfShaft, held_by
 from tribodyn.quantities.load import BEARINGS
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards.rolling_bearings import (
+    BALLS,
     STATIC_FACTOR,
     basic_life,
     equivalent_load,
     fatigue_load_limit,
     life_factor,
+    life_of_rows,
     load_moment,
     reference_life_of_balls,
     reference_life_of_rollers,
     reference_viscosity,
+    row_rating,
     running_time,
+    static_load,
 )
+from tribodyn.train.elastic.rolling_bearing import BallRow, BearingRows, outer_conformity
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
 from tribodyn.tribology.oil import LubricantData
 
@@ -78,8 +83,12 @@ def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantDat
         static_rating=table.static_rating,
         static_factor=factor,
         contact_angle=angle,
+        rows=table.thrust_rows,
     )
     numbers["equivalent_load"] = equivalent.load
+    if table.static_rating is not None:
+        static = static_load(table.type, radial, axial, contact_angle=angle, rows=table.thrust_rows)
+        numbers |= {"static_safety": table.static_rating / static} if static > 0.0 else {}
     if table.dynamic_rating is None:
         remarks.append(f"Bearing {name}: no life without dynamic_rating, C of its catalogue.")
     elif speed > 0.0 and equivalent.load > 0.0:
@@ -90,10 +99,13 @@ def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantDat
         if table.contamination_factor is not None and "modified_life" not in numbers and oil is not None:
             needed = "fatigue_load_limit, C_u, or static_rating, C_0 of its catalogue"
             remarks.append(f"Bearing {name}: no modified life without {needed}.")
-    balls = table.type == "deep-groove-ball"
-    if balls and table.static_rating is None:
+    if table.type in BALLS and table.static_rating is None:
+        by_load = table.type == "deep-groove-ball" or (
+            table.type == "angular-contact-ball" and angle < math.radians(20.0)
+        )
+        rest = ", and P with the largest Y" if by_load else ""
         remarks.append(
-            f"Bearing {name}: without static_rating, C_0 of its catalogue, no loss, and P with the largest Y."
+            f"Bearing {name}: without static_rating, C_0 of its catalogue, no static safety and loss{rest}."
         )
     if oil is not None and speed > 0.0 and table.pitch_diameter:
         moment = load_moment(
@@ -103,9 +115,11 @@ def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantDat
             table.pitch_diameter,
             static_rating=table.static_rating,
             contact_angle=angle,
+            rows=table.thrust_rows,
         )
         if moment is not None:
-            drag = BearingDragData(table.pitch_diameter, DRAG_FACTORS[table.type], 1)
+            single = table.arrangement is None and table.rows != 2
+            drag = BearingDragData(table.pitch_diameter, DRAG_FACTORS[table.type], 1 if single else 2)
             idle = palmgren(drag, speed, float(oil.inlet_viscosity), float(oil.density))
             numbers["power_bearing"] = idle.power + moment * speed
     return RatedBearing(name, numbers, tuple(remarks))
@@ -130,10 +144,24 @@ def _modified(
 def _reference_life(bearing: BearingUnderLoad) -> float:
     """L_10r, revolutions, by the loads of the rolling elements."""
     table: Any = bearing.table
-    sizes = table.dynamic_rating, table.element_diameter, table.pitch_diameter, table.contact_angle or 0.0
-    if table.type == "deep-groove-ball":
-        return reference_life_of_balls([load for (load,) in bearing.loads], *sizes)
-    return reference_life_of_rollers(bearing.loads, *sizes)
+    rows = _rows(table)
+    rating = row_rating(table.type, table.dynamic_rating, len(rows))
+    sizes = rating, table.element_diameter, table.pitch_diameter, table.contact_angle or 0.0
+    lives = []
+    for number, row in enumerate(rows):
+        loads = bearing.loads[number * table.elements : (number + 1) * table.elements]
+        if isinstance(row, BallRow):
+            grooves = row.conformity, outer_conformity(row)
+            lives.append(reference_life_of_balls([load for (load,) in loads], *sizes, *grooves))
+        else:
+            lives.append(reference_life_of_rollers(loads, *sizes))
+    return life_of_rows(table.type, lives)
+
+
+def _rows(table: BearingOfShaft) -> tuple[Any, ...]:
+    """Rows of a rolling bearing."""
+    held = held_by(table)
+    return held.rows if isinstance(held, BearingRows) else (held,)
 
 
 def bearing_part(shafts: Sequence[TurningShaft], oil: LubricantData | None = None) -> dict[str, Any]:

@@ -7,6 +7,7 @@ the shaft at the bearing's middle, in the directions of `beam`. Energies are con
 has one equilibrium.
 """
 
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, cast
 
 import numpy as np
@@ -41,6 +42,8 @@ class BallRow(NamedTuple):
     preload: float = 0.0  # axial displacement of the rings against each other when mounted
     conformity: float = CONFORMITY
     located: bool = True  # False: the outer ring slides along z in its housing
+    offset: float = 0.0  # along z, of the row from the bearing's middle
+    aligning: bool = False  # the outer raceway is a sphere about the bearing's middle
 
 
 class RollerRow(NamedTuple):
@@ -55,6 +58,20 @@ class RollerRow(NamedTuple):
     thrust: int = 0  # as of balls; 0: none, of cylindrical rollers
     preload: float = 0.0
     profiled: bool = True  # logarithmic profile of ISO/TS 16281; False: straight
+    located: bool = True  # as of balls
+    offset: float = 0.0
+    aligning: bool = False  # barrels, which stay straight on the raceways when the shaft tilts
+    #: of a barrel: 1/radius of its profile less 1/radius of the raceway's, sum of both raceways, 1/m
+    crown: float = 0.0
+    #: distance between the centres of both raceways' profiles, along which a barrel is pressed: of toroidal
+    #: rollers; of a sphere about the bearing's middle the line stays as it is
+    centres: float = np.inf
+
+
+class BearingRows(NamedTuple):
+    """Rows of balls or of rollers between the same rings."""
+
+    rows: tuple[BallRow | RollerRow, ...]
 
 
 class BearingState(NamedTuple):
@@ -76,16 +93,45 @@ def ball_constant(row: BallRow) -> float:
     """
     modulus, nu = STEEL
     plane = modulus / (1.0 - nu**2)  # E' = 2/((1 − ν²)/E + (1 − ν²)/E)
-    gamma = row.diameter * np.cos(row.contact_angle) / row.pitch_diameter
-    across = 1.0 / (2.0 / row.diameter - 1.0 / (row.conformity * row.diameter))
     yielding = 0.0
-    for side in (-1.0, 1.0):  # inner raceway, outer
-        along = row.diameter / 2.0 * (1.0 + side * gamma)
+    for along, across in _ball_radii(row):
         ellipticity, first, second = _ellipse(across / along)
         mean = along * across / (along + across)
         of_unit = first * (9.0 / (2.0 * second * mean) / (np.pi * ellipticity * plane) ** 2) ** (1.0 / 3.0)
         yielding += of_unit
     return float(yielding**-BALL_EXPONENT)
+
+
+def _ball_radii(row: BallRow) -> tuple[tuple[float, float], tuple[float, float]]:
+    """R_x along the raceway and R_y across it, of a ball on the inner raceway and on the outer one."""
+    gamma = row.diameter * np.cos(row.contact_angle) / row.pitch_diameter
+    inner, outer = (row.diameter / 2.0 * (1.0 + side * gamma) for side in (-1.0, 1.0))
+    across = 1.0 / (2.0 / row.diameter - 1.0 / (row.conformity * row.diameter))
+    return (inner, across), (outer, outer if row.aligning else across)
+
+
+def outer_conformity(row: BallRow) -> float:
+    """Radius of the outer raceway across the rolling direction, over the ball's diameter."""
+    across = 1.0 / (2.0 - row.diameter / _ball_radii(row)[1][1])
+    return float(across) if row.aligning else row.conformity
+
+
+def contact_pressure(row: BallRow | RollerRow, load: float) -> float:
+    """Largest pressure of a rolling element on the inner raceway under a load (N), Pa, by Hertz.
+
+    Ellipse: p = 3 Q/(2 π a b), a = (6 k² ε Q R/(π E'))^⅓ and b = a/k, E' as of `ball_constant`; line contact
+    of a roller, evenly loaded: p = √(q E'/(2 π R)).
+    """
+    modulus, nu = STEEL
+    plane = modulus / (1.0 - nu**2)
+    if isinstance(row, RollerRow):
+        gamma = row.diameter * np.cos(row.contact_angle) / row.pitch_diameter
+        return float(np.sqrt(load / row.length * plane / (np.pi * row.diameter * (1.0 - gamma))))
+    along, across = _ball_radii(row)[0]
+    ellipticity, _, second = _ellipse(across / along)
+    mean = along * across / (along + across)
+    long = (6.0 * ellipticity**2 * second * load * mean / (np.pi * plane)) ** (1.0 / 3.0)
+    return float(1.5 * load * ellipticity / (np.pi * long**2)) if load > 0.0 else 0.0
 
 
 def _ellipse(ratio: float) -> tuple[float, float, float]:
@@ -116,9 +162,23 @@ def roller_constant(row: RollerRow) -> float:
     return ROLLER_CONSTANT * (1e3 * row.length) ** (8.0 / 9.0) * 1e3**ROLLER_EXPONENT
 
 
-def answer(row: BallRow | RollerRow, moved: Float[Array, "5"]) -> BearingState:
+def answer(bearing: BallRow | RollerRow | BearingRows, moved: Float[Array, "5"]) -> BearingState:
     """What a bearing answers to a displacement of the shaft."""
-    return _of_balls(row, moved) if isinstance(row, BallRow) else _of_rollers(row, moved)
+    if isinstance(bearing, BearingRows):
+        return _together([answer(row, moved) for row in bearing.rows])
+    return _of_balls(bearing, moved) if isinstance(bearing, BallRow) else _of_rollers(bearing, moved)
+
+
+def _together(states: Sequence[BearingState]) -> BearingState:
+    """Rows side by side; their elements one row after the other."""
+    slices = [state.slice_load for state in states if state.slice_load is not None]
+    return BearingState(
+        np.sum([state.force for state in states], axis=0),
+        np.sum([state.stiffness for state in states], axis=0),
+        sum(state.energy for state in states),
+        np.concatenate([state.element_load for state in states]),
+        np.concatenate(slices) if slices else None,
+    )
 
 
 def _movements(
@@ -139,48 +199,93 @@ def _movements(
 
 
 def _of_balls(row: BallRow, moved: Float[Array, "5"]) -> BearingState:
-    """Balls: the groove centres of both rings stand A apart, and the ball is compressed by A − A_0."""
-    apart = (2.0 * row.conformity - 1.0) * row.diameter
+    """Balls: the groove centres of both rings stand A apart, and the ball is compressed by A − A_0.
+
+    On a spherical outer raceway, by how far the inner groove's centre comes away from the sphere's.
+    """
     radius = row.pitch_diameter / 2.0 + (row.conformity - 0.5) * row.diameter * np.cos(row.contact_angle)
-    by = _movements(row.elements, np.array([radius]), np.zeros(1))[:, 0]
+    constant = ball_constant(row)
+
+    def law(extended: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+        load, pressed = ball_contact(extended, 0.0, constant)
+        energy = float(np.sum(load * pressed)) / (1.0 + BALL_EXPONENT)
+        return load, BALL_EXPONENT * constant * np.sqrt(pressed), energy
+
+    apart = np.inf if row.aligning else (2.0 * row.conformity - 1.0) * row.diameter
+    return _along_lines(row, moved, radius, apart, law)
+
+
+def _along_lines(
+    row: BallRow | RollerRow,
+    moved: Float[Array, "5"],
+    radius: float,
+    apart: float,
+    law: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, float]],
+) -> BearingState:
+    """Elements pressed along the line between two centres that stand so far apart at rest.
+
+    The line turns with the displacement; infinitely far centres keep it. A spherical raceway lets the shaft
+    tilt: the line goes through the bearing's middle (radius and offset, second order left out). `law` gives
+    load, its slope and the energy of all elements.
+    """
+    normal = np.array([np.cos(row.contact_angle), row.thrust * np.sin(row.contact_angle)])
+    by = _movements(row.elements, np.array([radius]), np.array([row.offset]))[:, 0]
     if not row.located:
         by[:, 1, 2] = 0.0
-    rest = [
-        apart * np.cos(row.contact_angle) - row.clearance / 2.0,
-        row.thrust * (apart * np.sin(row.contact_angle) + row.preload),
-    ]
-    line = rest + by @ moved
-    length = np.hypot(line[:, 0], line[:, 1])
-    constant = ball_constant(row)
-    load, pressed = ball_contact(length, apart, constant)
-    normal = line / length[:, None]
-    along = np.einsum("ei,eij->ej", normal, by)
+    if row.aligning:
+        by[:, :, 3:] = 0.0
+    away = np.array([-row.clearance / 2.0, row.thrust * row.preload]) + by @ moved
+    length = np.full(row.elements, np.inf)
+    extended, normals = away @ normal, np.broadcast_to(normal, away.shape)
+    if np.isfinite(apart):
+        line = apart * normal + away
+        length = np.hypot(line[:, 0], line[:, 1])
+        extended, normals = length - apart, line / length[:, None]
+    load, slope, energy = law(extended)
+    along = np.einsum("ei,eij->ej", normals, by)
     # the load turns with its line: Q/A across it
-    across = np.einsum("ei,eij->ej", np.stack([-normal[:, 1], normal[:, 0]], axis=1), by)
-    slope = BALL_EXPONENT * constant * np.sqrt(pressed)
-    stiffness = np.einsum("e,ei,ej->ij", slope, along, along)
+    across = np.einsum("ei,eij->ej", np.stack([-normals[:, 1], normals[:, 0]], axis=1), by)
+    stiffness = np.einsum("e,ei,ej->ij", np.where(extended > 0.0, slope, 0.0), along, along)
     stiffness += np.einsum("e,ei,ej->ij", load / length, across, across)
-    energy = float(np.sum(load * pressed)) / (1.0 + BALL_EXPONENT)
     return BearingState(load @ along, stiffness, energy, load)
 
 
 def _of_rollers(row: RollerRow, moved: Float[Array, "5"]) -> BearingState:
-    """Rollers in slices, each pressed along the normal of the outer raceway; flanges carry nothing."""
+    """Rollers in slices, each pressed along the normal of the outer raceway; flanges carry nothing.
+
+    Barrels align themselves: all of their slices are pressed alike, less what their profile drops.
+    """
     place = ((np.arange(SLICES) + 0.5) / SLICES - 0.5) * row.length
-    sine, cosine = row.thrust * np.sin(row.contact_angle), np.cos(row.contact_angle)
-    normal = np.array([cosine, sine])
-    by = np.einsum(
-        "i,esij->esj",
-        normal,
-        _movements(row.elements, row.pitch_diameter / 2.0 - place * sine, place * cosine),
-    )
-    rest = abs(sine) * row.preload - cosine * row.clearance / 2.0
+    drop = row.crown * place**2 / 2.0
     if row.profiled:  # both raceways
-        rest = rest + 2.0 * PROFILE * row.diameter * np.log(1.0 - (2.0 * place / row.length) ** 2)
+        drop = drop - 2.0 * PROFILE * row.diameter * np.log(1.0 - (2.0 * place / row.length) ** 2)
     constant = roller_constant(row) / SLICES
+    if row.aligning:
+        return _of_barrels(row, moved, drop, constant)
+    sine, cosine = row.thrust * np.sin(row.contact_angle), np.cos(row.contact_angle)
+    movements = _movements(row.elements, row.pitch_diameter / 2.0 - place * sine, row.offset + place * cosine)
+    if not row.located:
+        movements[:, :, 1, 2] = 0.0
+    by = np.einsum("i,esij->esj", np.array([cosine, sine]), movements)
+    rest = abs(sine) * row.preload - cosine * row.clearance / 2.0 - drop
     load, pressed = roller_contact(rest + by @ moved, constant)
     slope = ROLLER_EXPONENT * constant * pressed ** (ROLLER_EXPONENT - 1.0)
     stiffness = np.einsum("es,esi,esj->ij", np.where(pressed > 0.0, slope, 0.0), by, by)
     force = np.einsum("es,esj->j", load, by)
     energy = float(np.sum(load * pressed)) / (1.0 + ROLLER_EXPONENT)
     return BearingState(force, stiffness, energy, np.sum(load, axis=1), load)
+
+
+def _of_barrels(
+    row: RollerRow, moved: Float[Array, "5"], drop: Float[Array, " slice"], constant: float
+) -> BearingState:
+    slices = np.zeros((row.elements, SLICES))
+
+    def law(extended: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+        slices[:], each = roller_contact(extended[:, None] - drop, constant)
+        slope = ROLLER_EXPONENT * constant * each ** (ROLLER_EXPONENT - 1.0)
+        energy = float(np.sum(slices * each)) / (1.0 + ROLLER_EXPONENT)
+        return np.sum(slices, axis=1), np.sum(np.where(each > 0.0, slope, 0.0), axis=1), energy
+
+    state = _along_lines(row, moved, row.pitch_diameter / 2.0, row.centres, law)
+    return state._replace(slice_load=slices)

@@ -15,7 +15,7 @@ import numpy as np
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.elastic.beam import DIRECTIONS, ShaftMetal, ShaftSection
 from tribodyn.train.elastic.beam_matrices import SIX, matrices
-from tribodyn.train.elastic.rolling_bearing import BallRow, BearingState, RollerRow, answer
+from tribodyn.train.elastic.rolling_bearing import BallRow, BearingRows, BearingState, RollerRow, answer
 
 #: Stiffness matrix of a support, five by five, N/m, N, N m/rad, as rows: hashable.
 Matrix = tuple[tuple[float, ...], ...]
@@ -35,7 +35,7 @@ class PlacedBearing(NamedTuple):
     """A bearing of a shaft."""
 
     position: float  # along the shaft, m
-    held: BallRow | RollerRow | Matrix
+    held: BallRow | RollerRow | BearingRows | Matrix
     seat: str | None = None  # of the housing; None: it stands still
 
 
@@ -161,8 +161,8 @@ def _answers(structure: SystemMatrices, moved: Float[Array, " coordinate"]) -> t
     return tuple(states)
 
 
-def _state(held: BallRow | RollerRow | Matrix, moved: Float[Array, "5"]) -> BearingState:
-    if isinstance(held, BallRow | RollerRow):
+def _state(held: BallRow | RollerRow | BearingRows | Matrix, moved: Float[Array, "5"]) -> BearingState:
+    if isinstance(held, BallRow | RollerRow | BearingRows):
         return answer(held, moved)
     matrix = np.array(held)
     force = matrix @ moved

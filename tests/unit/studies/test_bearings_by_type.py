@@ -1,0 +1,113 @@
+"""Drawn shafts on bearings of every type: equilibrium, lives, safety; sizes that no bearing has."""
+
+from typing import Any
+
+import pytest
+
+from tests.support.drawn_shafts import OVERHUNG, ROLLER
+from tribodyn.errors import InputError
+from tribodyn.gears.rating.bearings import bearing_part
+from tribodyn.input.tables.drawn_bearings import BearingOfShaft, broken_bearing_of_shaft
+from tribodyn.interface.scenario import scenario
+from tribodyn.studies.motion.train.assessable import shafts as shafts_of
+
+RATED = {"dynamic_rating": "60 kN", "static_rating": "50 kN"}
+BALLS = {"elements": 13, "element_diameter": "12 mm", "pitch_diameter": "66 mm"}
+BARRELS = {
+    "elements": 18,
+    "element_diameter": "10 mm",
+    "pitch_diameter": "66 mm",
+    "roller_length": "9 mm",
+}
+ANGULAR = BALLS | RATED | {"type": "angular-contact-ball", "contact_angle": "40 deg"}
+TYPES: dict[str, dict[str, Any]] = {
+    "O": ANGULAR | {"arrangement": "O", "row_distance": "20 mm", "preload": "5 um"},
+    "X": ANGULAR | {"arrangement": "X", "row_distance": "20 mm", "preload": "5 um"},
+    "15": ANGULAR | {"arrangement": "O", "row_distance": "20 mm", "contact_angle": "15 deg"},
+    "four": BALLS | RATED | {"type": "four-point-contact-ball", "contact_angle": "35 deg"},
+    "aligning": BALLS | RATED | {"type": "self-aligning-ball", "contact_angle": "12 deg"},
+    "spherical": BARRELS | RATED | {"type": "spherical-roller", "contact_angle": "12 deg"},
+    "tapered": BARRELS
+    | RATED
+    | {
+        "type": "tapered-roller",
+        "contact_angle": "14 deg",
+        "arrangement": "O",
+        "row_distance": "20 mm",
+    },
+}
+FLOATING = {
+    "toroidal": BARRELS | RATED | {"type": "toroidal-roller", "raceway_radius": "120 mm"},
+    "needle": BARRELS | RATED | {"type": "needle-roller", "rows": 2, "row_distance": "12 mm"},
+    "sliding": TYPES["spherical"] | {"locating": False},
+    "roller": ROLLER | RATED,
+}
+MOTION = {"mesh.slices": 7, "friction.law": "none", "bearings": "rigid-1e9"}
+
+
+def rated(first: dict[str, Any], second: dict[str, Any]) -> dict[str, dict[str, float]]:
+    shaft = OVERHUNG | {"bearing": [first | {"position": "15 mm"}, second | {"position": "85 mm"}]}
+    box = scenario("helical-23-47", MOTION | {"shaft": {"pinion": shaft}})
+    return bearing_part(shafts_of(box), box.pair.lubricant)["bearings"]
+
+
+@pytest.mark.parametrize("name", TYPES)
+def test_a_locating_bearing_takes_the_thrust_and_is_rated(name: str):
+    """Beside a bearing that floats, in statics; lives by rows and by loads are of one size."""
+    other = list(FLOATING)[list(TYPES).index(name) % len(FLOATING)]
+    found = rated(TYPES[name], FLOATING[other])
+    thrust, floating = found["pinion-1"], found["pinion-2"]
+    assert thrust["axial_load"] == pytest.approx(scenario_thrust(), rel=5e-3)
+    assert floating["axial_load"] < 5e-3 * floating["radial_load"]
+    assert thrust["static_safety"] > 1.0
+    for numbers in found.values():
+        assert 0.05 < numbers["reference_life"] / numbers["rating_life"] < 30.0
+    if name in ("aligning", "spherical"):
+        assert thrust["tilting_moment"] < 1e-6
+
+
+def scenario_thrust() -> float:
+    box = scenario("helical-23-47", MOTION | {"shaft": {"pinion": OVERHUNG}})
+    ends = bearing_part(shafts_of(box), None)["bearings"]
+    return abs(ends["pinion-1"]["axial_load"] - ends["pinion-2"]["axial_load"])
+
+
+def refused(bearing: dict[str, Any]) -> list[InputError]:
+    table = BearingOfShaft.model_validate(bearing | {"position": "15 mm"})
+    return list(broken_bearing_of_shaft("bearing.0", table))
+
+
+@pytest.mark.parametrize("bearing", [*TYPES.values(), *FLOATING.values()])
+def test_bearings_of_every_type_are_taken(bearing: dict[str, Any]):
+    assert not refused(bearing)
+
+
+@pytest.mark.parametrize(
+    ("bearing", "key", "words"),
+    [
+        (ANGULAR, "thrust", "missing"),
+        (ANGULAR | {"arrangement": "O"}, "row_distance", 'and arrangement = "O" needs it'),
+        (TYPES["O"] | {"thrust": "+z"}, "thrust", "no effect"),
+        (TYPES["O"] | {"arrangement": "tandem"}, "thrust", "missing"),
+        (TYPES["O"] | {"locating": False}, "locating", "two rows"),
+        (ANGULAR | {"thrust": "+z", "row_distance": "20 mm"}, "row_distance", "no effect"),
+        (TYPES["O"] | {"row_distance": "2 mm"}, "row_distance", "less than the rolling elements need"),
+        (TYPES["O"] | {"contact_angle": "50 deg"}, "contact_angle", "above 45 deg"),
+        (TYPES["O"] | {"clearance": "5 um"}, "clearance", "no effect"),
+        (TYPES["O"] | {"preload": "0.2 mm"}, "preload", "MPa before any load"),
+        (TYPES["tapered"] | {"preload": "0.9 mm"}, "preload", "MPa before any load"),
+        (TYPES["tapered"] | {"preload": "3 mm"}, "preload", "more than 10% of the rolling elements"),
+        (TYPES["spherical"] | {"clearance": "-0.3 mm"}, "clearance", "MPa before any load"),
+        (TYPES["four"] | {"clearance": "1 mm"}, "clearance", "more than 3% of the rolling elements"),
+        (TYPES["spherical"] | {"contact_angle": "3 deg"}, "roller_length", "run into each other"),
+        (TYPES["spherical"] | {"elements": 22}, "elements", "fit side by side"),
+        (FLOATING["toroidal"] | {"raceway_radius": "30 mm"}, "raceway_radius", "not larger"),
+        (FLOATING["needle"] | {"rows": 1}, "row_distance", "no effect"),
+        (BARRELS | {"type": "toroidal-roller"}, "raceway_radius", "missing"),
+        ({"stiffness_x": "1e8 N/m", "arrangement": "O"}, "arrangement", "type is missing"),
+    ],
+)
+def test_one_message_of_what_is_wrong(bearing: dict[str, Any], key: str, words: str):
+    (error,) = refused(bearing)
+    assert error.key == f"bearing.0.{key}"
+    assert words in str(error)
