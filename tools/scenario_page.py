@@ -125,6 +125,8 @@ def _plain(annotation: Any, metadata: list[Any]) -> str:
         inner = _plain(get_args(annotation)[0], [])
         first, *limits = inner.split(" ", 1) if inner not in PLURAL else (inner,)
         return " ".join([f"list of {PLURAL.get(inner, PLURAL.get(first, inner))}", *limits])
+    if annotation == str | float:
+        return "number or text"
     names = {str: "text", bool: "true or false", int: "whole number", float: "number"}
     if annotation not in names:
         return "see there"

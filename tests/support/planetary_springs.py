@@ -151,7 +151,7 @@ def planetary_springs(
         SUN,
         CARRIER,
         pins=[k for k, (_, second_end) in enumerate(links) if second_end == CARRIER],
-        holding=[RING] if given.ring_support else [],
+        holding={RING: 1} if given.ring_support else {},
         frames=1,
         carriers=[CARRIER] * len(meshes),
     )

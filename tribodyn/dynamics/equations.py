@@ -179,14 +179,15 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         of_mesh = layout.mechanical + OF_MESHES + WORKS_OF_MESH * m
         dy[of_mesh + FRICTION] = plain(rate * friction)
         dy[of_mesh + WORK_SLIDING] = plain(rate * sliding)
-    damping_power = damping_power + link_forces(y, model, dy)
+    damping_of_links, put_in, taken_out = link_forces(y, model, dy)
+    damping_power = damping_power + damping_of_links
     if layout.coupled > 0:
         damping_power = damping_power + coupling_forces(y, model, dy)
     if layout.frames > 0:
         add_frame_forces(y, model, dy)
 
     time = (cycle + phase) * nominal_time + y[layout.lag]
-    power_out = zero
+    power_out = taken_out
     for b in range(layout.bodies):
         slip = slip_of_body(b, y, model)
         resisting = bodies.load[b] + bodies.load_damping[b] * slip
@@ -213,10 +214,10 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
     if options.drive == DRIVE_SPEED:
         drive_torque = -dy[half + layout.lag]
         acceleration = zero  # of the reference, rad/s²
-        power_in = drive_torque * reference_speed
+        power_in = put_in + drive_torque * reference_speed
     else:
         acceleration = dy[half + layout.lag] / bodies.inertia[0]
-        power_in = drive_torque * speed_of(driven_body, y, model)
+        power_in = put_in + drive_torque * speed_of(driven_body, y, model)
 
     for b in range(layout.bodies):
         i = turn_of(b, layout)

@@ -2,6 +2,7 @@
 
 from tribodyn.numerics.elementary import last_at_or_below, law, maximum, minimum, sin
 from tribodyn.train.structure import (
+    BRAKES,
     IN_SPACE,
     TURN,
     place_in_space,
@@ -80,10 +81,13 @@ def stretch_in_plane(k, direction, y, model):
 
 @law
 def link_forces(y, model, dy):
-    """Add the forces of all links to those in `dy`; returns the power that they take by damping, W."""
+    """Add the forces of all links to those in `dy`; returns powers, W: lost to damping, put in, taken out.
+
+    The latter two are of what holds bodies at speeds of their own, in proportion to the reference's.
+    """
     layout, links = model.options.layout, model.links
     half = layout.half
-    power = 0.0 * y[0]
+    power, put_in, taken_out = 0.0 * y[0], 0.0 * y[0], 0.0 * y[0]
     for k in range(layout.links):
         first, second = layout.first[k], layout.second[k]
         if joins_in_space(k, layout):
@@ -130,7 +134,13 @@ def link_forces(y, model, dy):
             if second >= 0:
                 j = half + turn_of(second, layout)
                 dy[j] = dy[j] + torque
-    return power
+            if layout.holds[k] > 0:
+                speed = model.bodies.ratio[first] * (model.operation.nominal_speed + slip_of(y, layout))
+                if layout.holds[k] == BRAKES:
+                    taken_out = taken_out + torque * speed
+                else:
+                    put_in = put_in - torque * speed
+    return power, put_in, taken_out
 
 
 @law

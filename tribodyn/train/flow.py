@@ -15,6 +15,7 @@ from tribodyn.train.structure import (
     shift_of,
     turn_of,
 )
+from tribodyn.train.willis import of_coupling, of_mesh, of_speed, reactions
 
 
 class TreeBranch(NamedTuple):
@@ -89,11 +90,12 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
         drive = float(operation.drive_torque)
         largest += float(abs(drive * ratio[layout.input]))
         wanted[layout.input] -= drive
-        wanted = wanted - inertia * ratio * float(wanted @ ratio) / float(inertia @ ratio**2)
     branches = tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0))
     if any(layout.pins):
-        on_driven, on_link = _shared(model, wanted)
+        on_driven, on_link = _shared(model, wanted, inertia * ratio)
         return Flow(branches, on_driven, on_link, largest)
+    if model.options.drive:
+        wanted = wanted - inertia * ratio * float(wanted @ ratio) / float(inertia @ ratio**2)
     through = wanted * ratio  # as on the reference
     for branch in reversed(branches):
         through[branch.nearer] += through[branch.body]
@@ -115,10 +117,13 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
     return Flow(branches, on_driven, on_link, largest)
 
 
-def _shared(model: Any, wanted: Float[Array, " body"]) -> tuple[Float[Array, " mesh"], dict[int, float]]:
+def _shared(
+    model: Any, wanted: Float[Array, " body"], inertia: Float[Array, " body"]
+) -> tuple[Float[Array, " mesh"], dict[int, float]]:
     """Torques of meshes on their driven bodies and of all turning links that bear `wanted` (N m) together.
 
-    Balances every body in x, y and rotation. Flanks press along the pitch tangent alone.
+    Balances every body in x, y and rotation. Flanks press along the pitch tangent alone. Where the reference
+    is free to accelerate, it does, by what is left; `inertia` is then of every body as by its ratio, kg m².
     """
     layout, links = model.options.layout, model.links
     scale = float(np.mean([abs(mesh.driver_radius) for mesh in model.meshes]))
@@ -142,7 +147,11 @@ def _shared(model: Any, wanted: Float[Array, " body"]) -> tuple[Float[Array, " m
     balance = np.array(rows).T
     loads = np.zeros(layout.half)
     loads[[turn_of(body, layout) for body in range(layout.bodies)]] = wanted
-    if not model.options.drive:  # what holds the reference's speed bears the rest
+    if model.options.drive:
+        accelerating = np.zeros((layout.half, 1))
+        accelerating[[turn_of(body, layout) for body in range(layout.bodies)], 0] = inertia
+        balance = np.hstack([balance, accelerating * (scale / np.max(inertia))])
+    else:  # what holds the reference's speed bears the rest
         balance, loads = np.delete(balance, layout.lag, axis=0), np.delete(loads, layout.lag)
     forces, *_ = np.linalg.lstsq(balance, loads)
     radii = np.array([float(mesh.driven_radius) for mesh in model.meshes])
@@ -156,6 +165,8 @@ class Torques(NamedTuple):
     source: float  # on the body at which power enters
     #: of each coupling, on its second body in that body's sense of rotation
     coupling: tuple[float, ...]
+    #: of each body whose speed is given, along its motion: positive where power enters there
+    given: tuple[float, ...] = ()
 
 
 def nominal_torques(
@@ -164,36 +175,38 @@ def nominal_torques(
     couplings: Sequence[tuple[int, int]],
     loads: Sequence[float],
 ) -> Torques:
-    """Balance the loads (N m, of every body against its motion) through meshes and couplings.
+    """Balance the loads (N m, of every body against its motion) through meshes and couplings, without losses.
 
     `teeth` are those of each mesh's driver and driven gear, without signs; couplings join bodies, by their
-    new indices. Bodies that do not turn bear any torque. In a train with loops the balance leaves open how
+    new indices. Held and given bodies bear any torque. In a train with loops the balance leaves open how
     these share the load: here the sum of the squares of all tangential forces, taken over their modules, is
-    least.
+    least, see `willis.reactions`.
     """
     bodies, meshes = len(motion.bodies), len(teeth)
     if (bodies, meshes) == (2, 1) and motion.input == motion.driver[0]:  # without rounding
         driven, driver = (float(loads[body]) for body in (motion.driven[0], motion.driver[0]))
         return Torques((driven,), driver + driven * float(motion.ratio[motion.driven[0]]), ())
     held = [body for body in range(bodies) if motion.ratio[body] == 0]
-    balance = np.zeros((bodies, meshes + len(couplings) + 1 + len(held)))
-    for mesh, (own, other) in enumerate(teeth):
-        driver, driven, carrier = motion.driver[mesh], motion.driven[mesh], motion.carrier[mesh]
-        balance[driver, mesh] -= own
-        balance[driven, mesh] += other
-        if carrier >= 0:  # the pin bears what the planet's forces have about the axis of the set
-            on_both = other * motion.sense[driven] - own * motion.sense[driver]
-            balance[carrier, mesh] -= motion.sense[carrier] * on_both
-    scale = float(np.mean(teeth))  # a coupling's torque counts like that of a gear of the mean size
-    for place, (one, two) in enumerate(couplings, start=meshes):
-        balance[one, place] -= scale
-        balance[two, place] += scale
-    balance[motion.input, meshes + len(couplings)] = scale
-    for place, body in enumerate(held, start=meshes + len(couplings) + 1):
-        balance[body, place] = scale
-    forces, *_ = np.linalg.lstsq(balance, np.asarray(loads, dtype=float), rcond=None)
+    ends = zip(motion.driver, motion.driven, motion.carrier, teeth, strict=True)
+    turns_like = [
+        motion.sense[one] * motion.sense[two] for one, two in zip(motion.driver, motion.driven, strict=True)
+    ]
+    rows = [
+        of_mesh(one, two, (own, -same * other), carrier)
+        for (one, two, carrier, (own, other)), same in zip(ends, turns_like, strict=True)
+    ]
+    rows += [of_coupling(one, two) for one, two in couplings]
+    rows += [of_speed(body) for body in (motion.input, *motion.given, *held)]
+    along = [
+        sense * (1 if ratio >= 0 else -1) for sense, ratio in zip(motion.sense, motion.ratio, strict=True)
+    ]
+    found = reactions(rows, {body: -along[body] * load for body, load in enumerate(loads) if load})
+    on_driven = zip(found, motion.driven, turns_like, teeth, strict=False)
+    outside = dict(zip((motion.input, *motion.given), found[meshes + len(couplings) :], strict=False))
+    on_second = zip(found[meshes:], couplings, strict=False)
     return Torques(
-        tuple(float(force * other) for force, (_, other) in zip(forces[:meshes], teeth, strict=True)),
-        float(forces[meshes + len(couplings)] * scale),
-        tuple(float(torque * scale) for torque in forces[meshes : meshes + len(couplings)]),
+        tuple(-same * force * other * motion.sense[body] for force, body, same, (_, other) in on_driven),
+        outside[motion.input] * along[motion.input],
+        tuple(-torque * motion.sense[two] for torque, (_, two) in on_second),
+        tuple(outside[body] * along[body] for body in motion.given),
     )

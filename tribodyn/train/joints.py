@@ -1,7 +1,7 @@
 """What joins the bodies of a train: meshes, couplings, epicyclic sets; their equations, and their ways."""
 
 from collections import deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from itertools import combinations
 from typing import NamedTuple
@@ -44,6 +44,14 @@ class SetMembers(NamedTuple):
     held_as: str = ""  # what the scenario calls it
 
 
+class GivenSpeed(NamedTuple):
+    """A body that turns at a speed of its own, whatever torque that takes: a second drive, or a brake."""
+
+    key: str  # where it stands in the scenario, dotted
+    body: int
+    speed: Fraction  # over the input's, negative against its sense
+
+
 #: Away from the input by more meshes than any train has: what it does not turn.
 HELD = 1_000_000
 
@@ -57,11 +65,10 @@ def rows_of(
     source: int,
     sense: int,
     sets: Sequence[SetMembers],
-    given: Mapping[int, Fraction],
+    given: Sequence[GivenSpeed],
 ) -> list[tuple[tuple[str, int], Equation]]:
-    """The equations of a train, what fixes speeds first, then joints from the input outward."""
+    """The equations of a train: input and held members, joints from the input outward, given speeds."""
     rows = [(("source", source), of_speed(source, Fraction(sense)))]
-    rows += [(("given", body), of_speed(body, sense * speed)) for body, speed in given.items()]
     rows += [(("held", k), of_speed(one.held)) for k, one in enumerate(sets) if one.held >= 0]
     joined = [
         (min(away[end] for end in coupling.ends), 0, ("coupling", place), of_coupling(*coupling.ends))
@@ -80,7 +87,10 @@ def rows_of(
         )
         for place, (mesh, joint) in enumerate(zip(meshes, joints, strict=True))
     ]
-    return rows + [(what, row) for *_, what, row in sorted(joined, key=lambda one: one[:2])]
+    rows += [(what, row) for *_, what, row in sorted(joined, key=lambda one: one[:2])]
+    return rows + [
+        (("given", place), of_speed(one.body, sense * one.speed)) for place, one in enumerate(given)
+    ]
 
 
 def joined(count: int, pairs: Iterable[tuple[int, int]]) -> list[int]:

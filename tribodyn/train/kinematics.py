@@ -9,13 +9,12 @@ Mesh 0 of the result is the *reference mesh*, the first one that the input's pow
 body's; turns are measured in cycles of that mesh.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
-from types import MappingProxyType
 from typing import NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.train.joints import Joint, Named, SetMembers, Toothed, distances, joined, rows_of
+from tribodyn.train.joints import GivenSpeed, Joint, Named, SetMembers, Toothed, distances, joined, rows_of
 from tribodyn.train.schedule import common_period
 from tribodyn.train.willis import Equation, Speeds, reactions, solve
 
@@ -40,6 +39,7 @@ class TrainSpeeds(NamedTuple):
     rate: tuple[Fraction, ...]  # cycles of each mesh, in the new order, per cycle of the reference mesh
     period: int  # fewest reference cycles after which every mesh is at the phase it began at
     carrier: tuple[int, ...]  # new index of the body that carries each mesh; -1: the housing
+    given: tuple[int, ...] = ()  # new indices of bodies beside the input whose speeds are given
 
     def carried(self, body: int, carrier: int) -> Fraction:
         """Speed of a carrier (new index) over the reference's in the sense of a body; of -1 nothing."""
@@ -57,13 +57,13 @@ def kinematics(
     sense: int,
     sets: Sequence[SetMembers] = (),
     outputs: Sequence[int] = (),
-    given: Mapping[int, Fraction] = MappingProxyType({}),
+    given: Sequence[GivenSpeed] = (),
 ) -> TrainSpeeds:
     """Work out which end of each mesh drives, and how fast and which way every body turns.
 
     `source` is the body at which power enters, `sense` its sense of rotation (+1: counter-clockwise seen from
     +z). `outputs` are bodies at which it leaves, alike where there are several; `given` the speeds of further
-    bodies over the source's, of those that turn against it negative, whose torques follow. Raises InputError
+    bodies, whose torques follow: as many as sets leave open. Raises InputError
     for a gear without a mesh, a mesh of gears that turn together, loops whose ratios or senses contradict
     each other, bodies whose speeds the input does not fix, and a train without a mesh.
     """
@@ -74,6 +74,7 @@ def kinematics(
     _refuse_unreached(bodies, gears, away)
     system = rows_of(gears, meshes, joints, couplings, away, source, sense, sets, given)
     rows = [row for _, row in system]
+    _refuse_given_twice(bodies, given, rows)
     found = solve(len(bodies), rows)
     _refuse_open(bodies, sets, found)
     speed = [Fraction(0) if each is None else each for each in found.speed]
@@ -98,13 +99,14 @@ def kinematics(
     driving = []
     for place, mesh in enumerate(meshes):
         one, two = mesh.ends
-        if mesh.of_set < 0:
+        carried = speed[carrier_of[place]] if mesh.of_set >= 0 else Fraction(0)
+        torque = on_ends["mesh", place] * gears[one].teeth
+        if abs(torque) > 1e-9 * largest * abs(gears[one].teeth) and (mesh.of_set >= 0 or given):
+            first = torque * float(speed[joints[place][0]] - carried) < 0.0
+        elif mesh.of_set < 0:
             first = away[joints[place][0]] < away[joints[place][1]]
         else:
-            torque = on_ends["mesh", place] * gears[one].teeth
-            rolling = float(speed[joints[place][0]] - speed[carrier_of[place]])
-            idle = abs(torque) <= 1e-9 * largest * abs(gears[one].teeth)
-            first = gears[one].body not in sets[mesh.of_set].planets if idle else torque * rolling < 0.0
+            first = gears[one].body not in sets[mesh.of_set].planets
         driving.append((one, two) if first else (two, one))
     nearness = [min(away[end] for end in joint) for joint in joints]
     turning = [place for place, (driver, _) in enumerate(driving) if speed[gears[driver].body]]
@@ -119,7 +121,8 @@ def kinematics(
     first_body = gears[driving[0][0]].body
     if carrier[0] >= 0 and first_body in sets[meshes[reference].of_set].planets and speed[carrier[0]]:
         first_body = carrier[0]
-    if carrier[0] >= 0 and abs(speed[first_body]) != 1:
+    shafts = joined(len(bodies), [coupling.ends for coupling in couplings])
+    if (given and shafts[first_body] != shafts[source]) or (carrier[0] >= 0 and abs(speed[first_body]) != 1):
         first_body = source
     numbers = (first_body, *(body for body in range(len(bodies)) if body != first_body))
     new = {body: index for index, body in enumerate(numbers)} | {-1: -1}
@@ -131,6 +134,10 @@ def kinematics(
         abs(gears[driver].teeth * (speed[gears[driver].body] - (speed[by] if by >= 0 else 0)))
         for (driver, _), by in zip(driving, carrier, strict=True)
     ]
+    for place, each in zip(order, cycles, strict=True):
+        if not each:
+            rule = "turns as one body at these speeds: its teeth do not roll"
+            raise InputError(meshes[place].key, None, rule, "give members other speeds")
     rate = tuple(each / cycles[0] for each in cycles)
     return TrainSpeeds(
         bodies=numbers,
@@ -144,6 +151,7 @@ def kinematics(
         rate=rate,
         period=common_period(rate),
         carrier=tuple(new[by] for by in carrier),
+        given=tuple(new[one.body] for one in given),
     )
 
 
@@ -180,16 +188,26 @@ def _refuse_open(bodies: Sequence[Named], sets: Sequence[SetMembers], found: Spe
         if open_ones := [bodies[body].name for body in members if body in free]:
             names = " and ".join((", ".join(open_ones[:-1]), open_ones[-1]) if open_ones[1:] else open_ones)
             rule = f"the input does not fix how fast {names} turn: {found.freedom} more must be known"
-            first = open_ones[0]
             remedy = (
-                f'hold a member (held = "{first}"), give a [[load]] there its speed, '
-                "or join two members by a [[link]]"
+                'hold one (held = "ring"), give a [[load]] at one its speed_ratio, or join two by a [[link]]'
             )
             raise InputError(one.key, None, rule, remedy)
     body = bodies[free[0]]
     raise InputError(
         body.key, None, "the input does not fix how fast it turns", "add the [[stage]] that does"
     )
+
+
+def _refuse_given_twice(
+    bodies: Sequence[Named], given: Sequence[GivenSpeed], rows: Sequence[Equation]
+) -> None:
+    """Refuse to give a speed that the input, or one given before, fixes: the last rows are of those given."""
+    for place, one in enumerate(given):
+        fixed = solve(len(bodies), rows[: len(rows) - len(given) + place]).speed[one.body]
+        if fixed is not None:
+            rule = f"{bodies[one.body].name} turns at {abs(fixed)} of the input's speed already"
+            remedy = "give it a torque in place of the speed, or leave a member of a stage free: held"
+            raise InputError(one.key, str(one.speed), rule, remedy)
 
 
 def _refuse_moved_held(

@@ -1,6 +1,7 @@
 """What a train consists of, by numbers: where the state keeps its motion, and what meets what."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
 from tribodyn.numerics.elementary import Indices, RuntimeIndices, StaticInt
@@ -26,9 +27,8 @@ class TrainLayout(NamedTuple):
     first: tuple[int, ...]  # this and the next: bodies at the ends of every link; `GROUND`
     second: tuple[int, ...]
     pins: tuple[int, ...]  # of every link 1 where its ends have levers or an offset, else 0
-    holds: tuple[
-        int, ...
-    ]  # of every link 1 where it holds the rotation of its first end against the ground, else 0
+    #: of every link `DRIVES` or `BRAKES` where it holds its first end at its nominal speed, else 0
+    holds: tuple[int, ...]
     frames: int  # 1 where bodies are in a frame that turns, else 0
     input: int  # body that the drive acts on
     output: int  # body that bears the load that varies in time
@@ -57,14 +57,14 @@ def layout_of(
     spatial: int = 0,
     *,
     pins: Sequence[int] = (),
-    holding: Sequence[int] = (),
+    holding: Mapping[int, int] = MappingProxyType({}),
     frames: int = 0,
     carriers: Sequence[int] = (),
     modes: int = 0,
 ) -> TrainLayout:
     """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output.
 
-    `pins` and `holding` are numbers of links, see `TrainLayout`; only bodies that stand still are held.
+    `pins` are numbers of links, `holding` of those that hold what `TrainLayout.holds` says of them.
     `carriers` are those of the meshes; none: all in the housing. `modes`: so many coordinates of no body.
     """
     half = 2 * planar + bodies + 3 * spatial + modes
@@ -90,7 +90,7 @@ def layout_of(
         first=first,
         second=second,
         pins=places([int(link in pins) for link in range(len(links))]),
-        holds=places([int(link in holding) for link in range(len(links))]),
+        holds=places([holding.get(link, 0) for link in range(len(links))]),
         frames=number(frames),
         input=number(drives),
         output=number(loaded),

@@ -28,6 +28,9 @@ IN, OUT, DAMPING, PARAMETRIC, OF_MESHES = range(5)
 FRICTION, SLIDING, WORKS_OF_MESH = 0, 1, 2
 #: A link's second end that stands still.
 GROUND = -1
+#: What `TrainLayout.holds` says of a link that holds a body at its nominal speed, 0 or of its own: whether
+#: its power counts as put in, or, where it brakes, as taken out.
+DRIVES, BRAKES = 1, 2
 #: Directions of a link; and those of one between bodies that move in space, x and y first.
 X, Y, TURN = range(3)
 AXIAL, TILT_X, TILT_Y, IN_SPACE = range(2, 6)

@@ -13,6 +13,7 @@ from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.solve.tolerances import state_scales
+from tribodyn.train.structure import BRAKES, DRIVES
 
 #: Bearings of which no two are alike.
 BEARINGS = np.array([[1.0, 1.2, 0.0], [1.4, 1.6, 0.0]])
@@ -26,15 +27,26 @@ WAVES = {"operating.gear_torque_harmonics": [{"amplitude": "30 N*m", "frequency"
 
 
 @pytest.mark.parametrize(
-    ("more", "evaluations"),
-    [({}, 6), ({"operating.source": "torque"}, 7), (SHAFT | WAVES, 8)],
-    ids=["speed", "torque", "shaft"],
+    ("more", "evaluations", "keeps"),
+    [
+        ({}, 6, 0),
+        ({"operating.source": "torque"}, 7, 0),
+        (SHAFT | WAVES, 8, 0),
+        ({}, 6, DRIVES),
+        ({"operating.source": "torque"}, 7, BRAKES),
+    ],
+    ids=["speed", "torque", "shaft", "two-drives", "brake"],
 )
-def test_every_column_is_that_of_central_differences(prepared, monkeypatch, rng, more, evaluations):
+def test_every_column_is_that_of_central_differences(prepared, monkeypatch, rng, more, evaluations, keeps):
+    """`keeps`: what the link of the gear, which has a bearing, does to its speed."""
     model = prepared("crc-23-47", **more, **{"friction.law": "none"}).model
     shafts = [values[2:] for values in (model.links.stiffness, model.links.damping)]
     links = (np.vstack([size * BEARINGS, own]) for size, own in zip((2e8, 3e3), shafts, strict=True))
     model = altered(model, links=dict(zip(("stiffness", "damping"), links, strict=True)))
+    if keeps:
+        model.links.stiffness[1, 2], model.links.damping[1, 2] = 3e4, 5.0  # arrays of this test
+        layout = model.layout._replace(holds=type(model.layout.holds)([0, keeps]))
+        model = model._replace(options=model.options._replace(layout=layout))
     layout, schedule = model.layout, model.schedule
     states, mechanical, slip = layout.states, layout.mechanical, layout.half + LAG
     make_plain(monkeypatch, jacobian)

@@ -4,11 +4,15 @@ from tribodyn.dynamics.loads import apart_in_space, joins_in_space
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import law, maximum
 from tribodyn.train.structure import (
+    BRAKES,
     DAMPING,
+    IN,
     IN_SPACE,
+    OUT,
     TURN,
     place_in_space,
     shift_of,
+    slip_of,
     turn_of,
     turned,
     turning,
@@ -123,6 +127,12 @@ def differentiate_links(y, scale, model, jacobian):
                 slope, rise = laws.slope(k, twist, by, stiffness, links.own, laws)
                 lost_by_twist = damping * rise * rate * rate
                 stiffness, damping = slope + damping * rise * rate, damping * share
+                if layout.holds[k] > 0 and first > 0:
+                    works = layout.mechanical + (OUT if layout.holds[k] == BRAKES else IN)
+                    speed = model.bodies.ratio[first] * (model.operation.nominal_speed + slip_of(y, layout))
+                    given = speed if layout.holds[k] == BRAKES else -speed
+                    jacobian[works, i] += stiffness * given
+                    jacobian[works, half + i] += damping * given
             if not (turns and first == 0):  # the reference has no micro-rotation
                 jacobian[half + i, i] -= stiffness
                 jacobian[half + i, half + i] -= damping

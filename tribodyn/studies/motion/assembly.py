@@ -1,18 +1,20 @@
 """A train's pairs put together: assemblies and tables, one for equal meshes; masses, phases, damping."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.dynamics.data import matrices_in_space, spring_damping
+from tribodyn.errors import InputError
 from tribodyn.gears.model import tilting_inertia
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.tabulated import table_key
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.motion.case import HOUSING, Gearbox, LinkData
+from tribodyn.studies.motion.case import HOUSING, Gearbox, LinkData, LoadData
 from tribodyn.studies.motion.drivetrain.teeth import engagement
 from tribodyn.train.phases import Engagement, Phases, nominal_phases
 
@@ -108,3 +110,28 @@ def in_space_of(
         return np.diag([*link.stiffness[:2], *nothing]), np.diag([*damping[:2], *nothing])
     body = bodies[link.ends[0]]
     return matrices_in_space(link.bearing, width, body.mass, body.tilting)
+
+
+def loads_in_own_sense(case: Gearbox) -> list[LoadData]:
+    """The loads with torques against the sense of their bodies, of which some turn the other way."""
+    return [
+        replace(
+            load,
+            torque=-load.torque,
+            table=load.table and (load.table[0], -np.asarray(load.table[1])),
+            harmonics=tuple((-amplitude, *rest) for amplitude, *rest in load.harmonics),
+        )
+        if case.bodies[load.body].ratio < 0
+        else load
+        for load in case.loads
+    ]
+
+
+def varying_of(case: Gearbox) -> LoadData:
+    """The load that varies over time, or the first one."""
+    loads = loads_in_own_sense(case)
+    varying = [number for number, load in enumerate(loads) if load.table or load.harmonics]
+    if len(varying) > 1:
+        rule = "two loads vary over time"
+        raise InputError(f"load.{varying[1]}.torque_table", None, rule, "let one of them be constant")
+    return loads[varying[0] if varying else 0] if loads else LoadData(0, 0.0)

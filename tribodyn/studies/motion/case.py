@@ -87,7 +87,8 @@ class LinkData:
     #: lever, offset: of a planet's pin, see `train.structure.Links`: lever of the carrier, m/rad; m
     lever: tuple[float, float] | None = None
     offset: tuple[float, float] = (0.0, 0.0)
-    holds: bool = False  # whether it holds the first end against rotation
+    #: whether it holds the first end at its nominal speed: 0, or `train.structure.DRIVES`, or `BRAKES`
+    holds: int = 0
 
     @classmethod
     def of_bearing(
@@ -136,7 +137,7 @@ class SetData:
     planets: tuple[int, ...]
     angles: tuple[float, ...]  # of the planets, counter-clockwise from x, rad
     teeth: SetTeeth
-    held: str  # the member that does not turn
+    held: str  # the member that does not turn; "": all turn
     frame_forces: bool  # whether Coriolis and centrifugal forces are counted
     in_space: bool = False  # whether its teeth are helical: its bodies then move in space
     rim: RimData | None = None  # of the ring; None: it does not bend

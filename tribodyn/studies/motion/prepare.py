@@ -23,9 +23,11 @@ from tribodyn.studies.motion.assembly import (
     engagements,
     in_space_of,
     link_damping,
+    loads_in_own_sense,
     table_numbers,
+    varying_of,
 )
-from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox, LoadData
+from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
 from tribodyn.studies.motion.planetary.in_space import pins_in_space, tilts_in_frames
 from tribodyn.studies.motion.planetary.rims import pushing_rims, rim_coordinates, rims_of, with_rims
@@ -180,7 +182,7 @@ def _model(
         tilting=np.array([inertias[body].tilting for body in order[: layout.spatial]]),
         **frames_of(case, order[: layout.planar], mass),
     )
-    for load in case.loads:
+    for load in loads_in_own_sense(case):
         bodies.load[new[load.body]] += load.torque
         bodies.load_damping[new[load.body]] += load.damping
     stiffness = [link.stiffness for link in case.links]
@@ -208,7 +210,7 @@ def _model(
         *rims_of(case, tables, layout),
     ]
     layout, couplings = coupled_by(case.system, parts, layout, bodies, new, not drive)
-    varying = _varying(case)
+    varying = varying_of(case)
     first = case.meshes[0].pair
     return parameters.Model(
         pushing_rims(case, tables, meshes),
@@ -273,15 +275,6 @@ def _under_load(model: parameters.Model, case: Gearbox, further: Float[Array, " 
     return model._replace(schedule=schedule)
 
 
-def _varying(case: Gearbox) -> LoadData:
-    """The load that varies over time, or the first one."""
-    varying = [number for number, load in enumerate(case.loads) if load.table or load.harmonics]
-    if len(varying) > 1:
-        rule = "two loads vary over time"
-        raise InputError(f"load.{varying[1]}.torque_table", None, rule, "let one of them be constant")
-    return case.loads[varying[0] if varying else 0] if case.loads else LoadData(0, 0.0)
-
-
 def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
     ends = [
         (new[link.ends[0]], GROUND if link.ends[1] == HOUSING else new[link.ends[1]]) for link in case.links
@@ -298,10 +291,10 @@ def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
         meshes,
         ends,
         count if shaft else source,
-        new[_varying(case).body],
+        new[varying_of(case).body],
         spatial=sum(_held(case, body) and _moves_in_space(case, body) for body in new),
         pins=[number for number, link in enumerate(case.links) if link.lever],
-        holding=[number for number, link in enumerate(case.links) if link.holds],
+        holding={number: link.holds for number, link in enumerate(case.links) if link.holds},
         frames=int(bool(case.sets)),
         carriers=[new.get(mesh.carrier, GROUND) for mesh in case.meshes],
         modes=(case.system.reduced.modes if case.system is not None else 0) + rim_coordinates(case),

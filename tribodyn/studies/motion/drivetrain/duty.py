@@ -1,6 +1,7 @@
 """Speeds and torques of a train as its scenario gives them: each once, at the input or at the output."""
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field
@@ -8,7 +9,7 @@ from pydantic import BeforeValidator, Field
 from tribodyn.errors import InputError, quoted
 from tribodyn.gears.motion.settings import MOST_HARMONICS, Operating, TorqueHarmonic, harmonics_of
 from tribodyn.input import fields, quantity
-from tribodyn.input.quantity import Table, Text, csv_file, written
+from tribodyn.input.quantity import NotNegative, Table, Text, csv_file, written
 from tribodyn.input.tables.duty import broken_duty_rules
 from tribodyn.studies.motion.case import LoadData
 from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics, ends_of
@@ -28,11 +29,29 @@ def _one_place(value: Any) -> Any:
     return value
 
 
+def _speed_ratio(value: Any) -> Any:
+    """A share of the input's speed, as a number or as a fraction in a text: "-1/3"."""
+    try:
+        ratio = Fraction(value if isinstance(value, str) else repr(value))
+    except (ValueError, ZeroDivisionError, TypeError):
+        ratio = Fraction(0)
+    if not ratio or isinstance(value, bool):
+        rule = "not a share of the input's speed other than 0"
+        raise quantity.broken(rule, 'write a number or a fraction like "-1/3", negative against its sense')
+    return value
+
+
+SpeedRatio = Annotated[str | float, BeforeValidator(_speed_ratio)]
+
+
 class LoadTable(Table):
-    """What a gear, a shaft or a body drives beside the output."""
+    """What a gear, a shaft or a body drives beside the output: a torque, or a speed that is kept."""
 
     at: Text
-    torque: fields.Torque
+    torque: fields.Torque | None = None
+    speed_ratio: SpeedRatio | None = None
+    stiffness: fields.TorsionalStiffness | None = None
+    damping_ratio: NotNegative | None = None
     inertia: fields.Inertia = written("0 kg*m**2")
     damping: fields.TorsionalDamping = written("0 N*m*s/rad")
     torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = None
@@ -70,8 +89,10 @@ def broken_duty(scenario: Any) -> Iterator[InputError]:
         yield InputError(
             "operating.input", None, "missing", 'name a gear, a shaft or a body: input = "pinion"'
         )
+    for number, load in enumerate(scenario.load):
+        yield from _broken_load(f"load.{number}", load)
     if output is None:
-        if not scenario.load:
+        if all(load.torque is None for load in scenario.load):
             remedy = 'name a gear, a shaft or a body: output = "wheel"; or add a [[load]]'
             yield InputError("operating.output", None, "missing", remedy)
         for name in (*_OF_OUTPUT, "input_torque", "power") if scenario.load else ():
@@ -81,20 +102,38 @@ def broken_duty(scenario: Any) -> Iterator[InputError]:
     yield from broken_duty_rules(operating.load, load_needed=output is not None)
 
 
+def _broken_load(key: str, load: LoadTable) -> Iterator[InputError]:
+    """A load has a torque, or a speed that whatever torque keeps."""
+    if load.torque is None and load.speed_ratio is None:
+        remedy = 'add torque = "100 N*m", or speed_ratio, of which the torque follows'
+        yield InputError(f"{key}.torque", None, "missing", remedy)
+    of_torque = ("torque", "damping", "torque_table", "torque_harmonics")
+    for name in of_torque if load.speed_ratio is not None else ("stiffness", "damping_ratio"):
+        if getattr(load, name):
+            rule = "contradicts speed_ratio, of which the torque follows"
+            if load.speed_ratio is None:
+                rule = "is of what keeps a speed, and there is no speed_ratio"
+            yield InputError(f"{key}.{name}", None, rule, "leave the one or the other out")
+
+
 def duty_of(scenario: Any, train: TrainKinematics) -> TrainDuty:
     """Return speed and load of a scenario that breaks no rule.
 
-    Torques balance without losses: T_out = (T_in − Σ T_l n_l)/n_out with speeds n over the input's.
+    Torques balance without losses.
     """
     operating: TrainOperating = scenario.operating
     motion, parts, new = train.motion, train.parts, train.numbers
     _, output = ends_of(scenario)
     at = None if output is None else new[parts.body(output)]
-    loads = [_load(load, new[parts.body(load.at)]) for load in scenario.load]
+    loads = [
+        _load(load, load.torque, new[parts.body(load.at)])
+        for load in scenario.load
+        if load.torque is not None
+    ]
     inertias = [(new[parts.body(load.at)], load.inertia) for load in scenario.load]
     speed = operating.input_speed
     if speed is None and at is not None and operating.output_speed is not None:
-        speed = operating.output_speed / float(motion.ratio[at])
+        speed = operating.output_speed / abs(float(motion.ratio[at]))
     assert speed is not None, "refused by the rules"
     if at is not None:
         curve = operating.output_torque_table
@@ -109,10 +148,7 @@ def duty_of(scenario: Any, train: TrainKinematics) -> TrainDuty:
             ),
         )
         inertias.insert(0, (at, operating.load_inertia))
-    against = [0.0] * len(motion.bodies)
-    for load in loads:
-        against[load.body] += load.torque
-    torques = torques_of(train, against)
+    torques = torques_of(train, _against(train, loads))
     least = _NOTHING * max(map(abs, torques.driven))
     driven = tuple(0.0 if abs(torque) <= least else torque for torque in torques.driven)
     return TrainDuty(speed, tuple(loads), tuple(inertias), torques._replace(driven=driven))
@@ -137,16 +173,25 @@ def _output_torque(
     if operating.output_torque is not None:
         return operating.output_torque
     put_in = operating.input_torque if operating.power is None else operating.power / speed
-    ratio = train.motion.ratio
-    drawn_off = sum(load.torque * float(ratio[load.body]) for load in others)
-    return ((put_in or 0.0) - drawn_off) / float(ratio[at])
+    # of the input's torque, which is linear in that of the output
+    others_alone = torques_of(train, _against(train, others)).source
+    per_torque = torques_of(train, _against(train, [LoadData(at, 1.0)])).source
+    return ((put_in or 0.0) - others_alone) / per_torque
 
 
-def _load(load: LoadTable, body: int) -> LoadData:
+def _against(train: TrainKinematics, loads: Sequence[LoadData]) -> list[float]:
+    """Torques of loads against the motion of every body, N m."""
+    against = [0.0] * len(train.motion.bodies)
+    for load in loads:
+        against[load.body] += load.torque
+    return against
+
+
+def _load(load: LoadTable, torque: float, body: int) -> LoadData:
     curve = load.torque_table
     return LoadData(
         body,
-        load.torque,
+        torque,
         load.damping,
         curve.in_si() if curve else None,
         harmonics_of(load.torque_harmonics),

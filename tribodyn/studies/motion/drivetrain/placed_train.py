@@ -1,6 +1,7 @@
 """A train as its scenario draws it: parts, speeds, the pair of every mesh, axes, and room for the gears."""
 
 from collections.abc import Callable
+from fractions import Fraction
 from itertools import count
 from math import pi, remainder
 from typing import Any, NamedTuple, TypeVar
@@ -21,7 +22,7 @@ from tribodyn.studies.motion.drivetrain.structure import (
 )
 from tribodyn.studies.motion.drivetrain.teeth import check_planet, check_same_teeth, engagement
 from tribodyn.studies.motion.planetary.stages import coaxial, refuse_overlap
-from tribodyn.train.joints import joined
+from tribodyn.train.joints import GivenSpeed, joined
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.phases import ToothedShaft, nominal_phases
 from tribodyn.train.positions import Centres, Disc, Distance, check_room, places
@@ -76,8 +77,14 @@ def resolve_kinematics(scenario: Any) -> TrainKinematics:
     """Work out what turns how; the names of the scenario must be sound. InputError where it is no train."""
     parts = structure(scenario)
     source, output = ends_of(scenario)
-    outputs = [parts.body(name) for name in (output, *(load.at for load in scenario.load)) if name]
-    motion = motion_of(parts, parts.body(source), SENSES[scenario.operating.sense], outputs)
+    loads = [load.at for load in scenario.load if load.torque is not None]
+    outputs = [parts.body(name) for name in (output, *loads) if name]
+    given = [
+        GivenSpeed(f"load.{number}.speed_ratio", parts.body(load.at), Fraction(str(load.speed_ratio)))
+        for number, load in enumerate(scenario.load)
+        if load.speed_ratio is not None
+    ]
+    motion = motion_of(parts, parts.body(source), SENSES[scenario.operating.sense], outputs, given)
     if scenario.drive is not None and motion.gears[0] != (0, 1):
         rule = "a drive file says that its pinion drives"
         raise InputError("operating.input", source, rule, f'write input = "{OF_DRIVE[0]}"')

@@ -33,7 +33,7 @@ from tribodyn.studies.motion.planetary.stages import (
     planetary_stages,
     set_of,
 )
-from tribodyn.train.joints import Joint, Named, Toothed
+from tribodyn.train.joints import GivenSpeed, Joint, Named, Toothed
 from tribodyn.train.kinematics import TrainSpeeds, kinematics
 
 #: Names of the gears of a drive file.
@@ -262,7 +262,9 @@ def _named_apart(gears: Sequence[GearPart]) -> tuple[GearPart, ...]:
     return tuple(named)
 
 
-def motion_of(parts: Structure, source: int, sense: int, outputs: Sequence[int]) -> TrainSpeeds:
+def motion_of(
+    parts: Structure, source: int, sense: int, outputs: Sequence[int], given: Sequence[GivenSpeed] = ()
+) -> TrainSpeeds:
     """Speeds and order of a train; raises as `train.kinematics.kinematics` does."""
     return kinematics(
         [Named(body.name, body.key) for body in parts.bodies],
@@ -273,6 +275,7 @@ def motion_of(parts: Structure, source: int, sense: int, outputs: Sequence[int])
         sense,
         [one.turning() for one in parts.sets],
         outputs,
+        given,
     )
 
 

@@ -120,7 +120,7 @@ class PlanetPin(Table):
 
 
 class PlanetaryStage(StageTeeth):
-    """Sun, planets and ring on one axis, and the carrier of the planets; one member of the set is held."""
+    """Sun, planets and ring on one axis, and the carrier of the planets; one may be held."""
 
     type: Literal["planetary"]
     name: PartName
@@ -130,7 +130,7 @@ class PlanetaryStage(StageTeeth):
     carrier: Text
     planets: Annotated[int, Field(strict=True, ge=1, le=12)]
     angles: tuple[Azimuth, ...] = Field((), max_length=12)
-    held: Literal["sun", "ring", "carrier"]
+    held: Literal["sun", "ring", "carrier"] | None = None
     support_stiffness: fields.TorsionalStiffness | None = None
     support_damping_ratio: NotNegative = 0.02
     floating: tuple[Literal["sun", "ring", "carrier"], ...] = Field((), max_length=3)

@@ -1,4 +1,4 @@
-"""Links of planetary sets: pins of the planets, and what holds a member against rotation."""
+"""Links of planetary sets: pins of the planets, what holds members, or keeps them at speeds of their own."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -14,9 +14,12 @@ from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
 from tribodyn.studies.motion.planetary.in_space import along_axis, on_pin
 from tribodyn.studies.motion.planetary.stages import SetPart, pin_offset
 from tribodyn.train.planetary import CARRIER
+from tribodyn.train.structure import BRAKES, DRIVES
 
 #: Stiffness on its pitch circle with which a member is held where none is given, N/m: of a stiff bearing.
 USUAL_SUPPORT = 1e9
+#: Damping ratio of what keeps a speed, where none is given.
+USUAL_DAMPING = 0.02
 
 
 def links_of_set(
@@ -48,18 +51,39 @@ def links_of_set(
         data = along_axis(bearing_of(bearings[body]), gearset.face_width)
         name = f"bearing-{train.parts.bodies[body].name}"
         yield LinkData.of_bearing(name, "bearings", (new[body], HOUSING), data, bearing=data)
-    stiffness = stage.support_stiffness
+    if gearset.held >= 0:
+        support = stage.support_stiffness, stage.support_damping_ratio
+        yield _holding("support", gearset.key, gearset.held, support, train, placed)
+
+
+def links_of_speeds(
+    scenario: Any, train: TrainKinematics, placed: PlacedTrain, given: Sequence[float]
+) -> Iterator[LinkData]:
+    """What keeps bodies at speeds of their own; `given` are the torques (N m) with which it drives them."""
+    keeping = [(number, load) for number, load in enumerate(scenario.load) if load.speed_ratio is not None]
+    for (number, load), torque in zip(keeping, given, strict=True):
+        ratio = USUAL_DAMPING if load.damping_ratio is None else load.damping_ratio
+        body, support = train.parts.body(load.at), (load.stiffness, ratio)
+        holds = DRIVES if torque >= 0.0 else BRAKES
+        yield _holding("drive", f"load.{number}", body, support, train, placed, holds)
+
+
+def _holding(
+    what: str,
+    key: str,
+    body: int,
+    support: tuple[float | None, float],
+    train: TrainKinematics,
+    placed: PlacedTrain,
+    holds: int = DRIVES,
+) -> LinkData:
+    """What holds a body at its nominal speed, by a stiffness, if it is given, and a damping ratio."""
+    stiffness, ratio = support
     if stiffness is None:
-        stiffness = USUAL_SUPPORT * _held_radius(gearset, train, placed) ** 2
-    yield LinkData(
-        f"support-{train.parts.bodies[gearset.held].name}",
-        gearset.key,
-        (new[gearset.held], HOUSING),
-        (0.0, 0.0, stiffness),
-        (0.0, 0.0, 0.0),
-        (0.0, 0.0, stage.support_damping_ratio),
-        holds=True,
-    )
+        stiffness = USUAL_SUPPORT * _radius(body, train, placed) ** 2
+    name, ends = f"{what}-{train.parts.bodies[body].name}", (train.numbers[body], HOUSING)
+    nothing = 0.0, 0.0, 0.0
+    return LinkData(name, key, ends, (0.0, 0.0, stiffness), nothing, (0.0, 0.0, ratio), holds=holds)
 
 
 def behind(data: BearingData, stiffness: float) -> BearingData:
@@ -80,15 +104,18 @@ def _rim(stage: PlanetaryStage) -> RimData | None:
     return RimData(rim.orders, (radial, tangential), rim.damping_ratio)
 
 
-def _held_radius(gearset: SetPart, train: TrainKinematics, placed: PlacedTrain) -> float:
-    """Radius (m) of the pitch circle of the held member; of a carrier that on which the pins are."""
+def _radius(body: int, train: TrainKinematics, placed: PlacedTrain) -> float:
+    """Radius (m) of the pitch circle of a body; of a carrier that on which the pins are, else the largest."""
+    radii = {}
     for mesh, gears in enumerate(train.motion.gears):
         path = placed.assemblies[mesh].path
         for gear, radius in zip(gears, (path.pinion_pitch_radius, path.gear_pitch_radius), strict=True):
-            if train.parts.gears[gear].body == gearset.held:
-                return abs(float(radius))
+            radii.setdefault(train.parts.gears[gear].body, abs(float(radius)))
     centre, new = placed.places.centres, train.numbers
-    return float(np.hypot(*(centre[new[gearset.planets[0]]] - centre[new[gearset.held]])))
+    for gearset in train.parts.sets:
+        carrier = gearset.members[CARRIER]
+        radii[carrier] = float(np.hypot(*(centre[new[gearset.planets[0]]] - centre[new[carrier]])))
+    return radii.get(body, max(radii.values()))
 
 
 def set_data(gearset: SetPart, train: TrainKinematics) -> SetData:
@@ -103,7 +130,7 @@ def set_data(gearset: SetPart, train: TrainKinematics) -> SetData:
         planets,
         stage.placed,
         gearset.teeth,
-        stage.held,
+        stage.held or "",
         stage.frame_forces,
         bool(stage.helix_angle),
         _rim(stage),

@@ -28,13 +28,14 @@ class SetPart(NamedTuple):
 
     @property
     def held(self) -> int:
-        """The body that does not turn."""
-        return self.members[self.table.held]
+        """The body that does not turn; −1: every member turns."""
+        return -1 if self.table.held is None else self.members[self.table.held]
 
     def turning(self) -> SetMembers:
         """The set as its kinematics see it."""
         central = tuple(body for name, body in self.members.items() if name != CARRIER)
-        return SetMembers(self.key, self.members[CARRIER], central, self.planets, self.held, self.table.held)
+        held = self.held, self.table.held or ""
+        return SetMembers(self.key, self.members[CARRIER], central, self.planets, *held)
 
     @property
     def floating(self) -> tuple[int, ...]:
@@ -220,6 +221,8 @@ def _assembly(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputE
 
 def _held(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError]:
     """Refuse power at a member that is held."""
+    if stage.held is None:
+        return
     held, operating = stage.members[stage.held], scenario.operating
     named = [("operating.input", operating.input), ("operating.output", operating.output)]
     named += [(f"load.{number}.at", load.at) for number, load in enumerate(scenario.load)]

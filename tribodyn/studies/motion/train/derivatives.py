@@ -187,12 +187,19 @@ class _Duty:
             if getattr(operating, name) is not None
         ][: 1 if ends_of(scenario)[1] is None else 2]  # an input torque beside a load is the motor's
         self.numbers = {f"operating.{name}": float(getattr(operating, name)) for name in duty_names}
-        self.numbers |= {f"load.{place}.torque": load.torque for place, load in enumerate(scenario.load)}
+        self.numbers |= {
+            f"load.{place}.torque": load.torque
+            for place, load in enumerate(scenario.load)
+            if load.torque is not None
+        }
         self._given = duty_names
         bodies = [load.body for load in case.loads]
         units = np.eye(len(case.bodies))[bodies]
-        self._torques = np.array([torques_of(train, list(unit)).driven for unit in units]).T
-        self._ratio = ratio[bodies]
+        by_load = [torques_of(train, list(unit)) for unit in units]
+        self._torques = np.array([each.driven for each in by_load]).T
+        self._source = np.array([each.source for each in by_load])
+        self._given_torques = np.array([each.given for each in by_load]).T
+        self._ratio, self._given_ratio = np.abs(ratio[bodies]), np.abs(ratio[list(train.motion.given)])
         ends = zip(train.motion.driver, train.motion.carrier, strict=True)
         # of a set against its carrier
         self._driver = np.array([ratio[body] - float(train.motion.carried(body, by)) for body, by in ends])
@@ -209,9 +216,10 @@ class _Duty:
                 speed = speed / self._ratio[0]
             if self._given[-1] in ("power", "input_torque"):
                 put_in = loads[0] / speed if self._given[-1] == "power" else loads[0]
-                loads[0] = (put_in - jnp.stack([0.0, *loads[1:]])[1:] @ self._ratio[1:]) / self._ratio[0]
+                loads[0] = (put_in - jnp.stack([0.0, *loads[1:]])[1:] @ self._source[1:]) / self._source[0]
             torques = jnp.stack(loads)
-            power = torques * self._ratio * speed
+            given = self._given_torques @ torques * self._given_ratio * speed
+            power = jnp.concatenate([torques * self._ratio * speed, -given])
             ends = [jnp.where(sign * power > 0.0, sign * power, 0.0).sum() for sign in (1.0, -1.0)]
             return jnp.concatenate([self._driver * speed, self._torques @ torques, jnp.stack(ends)])
 

@@ -7,6 +7,7 @@ from pydantic import Discriminator, Field, Tag
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.gears.case import LubricatedCase, with_chosen
+from tribodyn.gears.drawn_system import DrawnSystem
 from tribodyn.gears.motion.settings import (
     Friction,
     Mesh,
@@ -66,7 +67,7 @@ from tribodyn.studies.motion.drivetrain.tables import (
     Link,
     TrainGear,
 )
-from tribodyn.studies.motion.planetary.links import links_of_set, set_data
+from tribodyn.studies.motion.planetary.links import links_of_set, links_of_speeds, set_data
 from tribodyn.studies.motion.train.pair_view import losses_of_meshes, own_teeth, pair_view, reference_teeth
 from tribodyn.studies.motion.train.supports import (
     bearings_by_body,
@@ -149,7 +150,7 @@ def case_of(
         **head,
         gears=gears,
         bodies=_bodies(scenario, train, placed, duty),
-        links=_links(scenario, train, placed, held, system.bodies if system is not None else ()),
+        links=_links(scenario, train, placed, held, system, duty.torques.given),
         supports=held,
         system=system,
         meshes=meshes,
@@ -234,9 +235,11 @@ def _links(
     train: TrainKinematics,
     placed: PlacedTrain,
     held: Mapping[int, GearSupport],
-    on_shafts: Sequence[int],
+    system: DrawnSystem | None,
+    given: Sequence[float],
 ) -> tuple[LinkData, ...]:
     new, links = train.numbers, []
+    on_shafts = system.bodies if system is not None else ()
     bearings = bearings_by_body(scenario, train.parts)
     without = {body for gearset in train.parts.sets for body in (*gearset.planets, *gearset.floating)}
     for number, body in enumerate(train.motion.bodies):
@@ -247,6 +250,7 @@ def _links(
             links.append(LinkData.of_bearing(name, "bearings", (number, HOUSING), data, bearing=data))
     for gearset in train.parts.sets:
         links += links_of_set(gearset, train, placed, bearings)
+    links += links_of_speeds(scenario, train, placed, given)
     for link in train.parts.links:
         one, two = (HOUSING if end < 0 else new[end] for end in link.ends)
         ends = (two, one) if one == HOUSING else (one, two)
