@@ -48,7 +48,7 @@ def with_rounding(checked: CheckResult, toml: str) -> CheckResult:
 
 
 #: Factor to the unit that is shown, and that unit, by SI unit.
-_SHOWN = {"Pa s": (1e3, "mPa s"), "1/Pa": (1e9, "1/GPa"), "1": (1.0, ""), "m2/s": (1e6, "mm2/s")}
+_SHOWN = {"Pa s": (1e3, "mPa s"), "1/Pa": (1e9, "1/GPa"), "1": (1.0, ""), "m2/s": (1e6, "mm²/s")}
 
 
 def oil_data(lubricant: LubricantData) -> dict[str, Any]:
@@ -226,9 +226,9 @@ def sheet_and_stiffness(
     line_load = normal_load / width
     table = TextTable(
         f"Stiffness of a single pair at the pitch point, at {line_load * 1e-3:.0f} N/mm",
-        ("by", "N/(mm um)", "N/m"),
+        ("by", "N/(mm µm)", "N/µm"),
         [
-            (name, f"{value['per_width'] * 1e-9:.2f}", f"{value['stiffness']:.4g}")
+            (name, f"{value['per_width'] * 1e-9:.2f}", f"{value['stiffness'] * 1e-6:.4g}")
             for name, value in by.items()
         ],
     )
@@ -260,7 +260,7 @@ def _reference(
     pair = pair_of(assembly, materials, normal_load)
     stiffness = reference_stiffness(pair)
     limits = [*outside(pair), *bodies_outside(assembly)]
-    per_width = "N/(mm um)"
+    per_width = "N/(mm µm)"
     rows = [
         ("c'_th, one pair, theory for steel", f"{stiffness.theoretical * 1e-9:.2f}", per_width),
         ("C_M, correction from measurements", f"{stiffness.correction:g}", ""),
@@ -269,8 +269,8 @@ def _reference(
         ("E/E_St", f"{stiffness.material:.4g}", ""),
         (f"reduction at F_t/b = {pair.line_load * 1e-3:.0f} N/mm", f"{stiffness.load:.4g}", ""),
         ("c', one pair", f"{stiffness.single_pair * 1e-9:.2f}", per_width),
-        ("c_gamma alpha, mean of the mesh", f"{stiffness.mesh * 1e-9:.2f}", per_width),
-        ("c_gamma beta, for the face load factor", f"{stiffness.mesh_face * 1e-9:.2f}", per_width),
+        ("c_γα, mean of the mesh", f"{stiffness.mesh * 1e-9:.2f}", per_width),
+        ("c_γβ, for the face load factor", f"{stiffness.mesh_face * 1e-9:.2f}", per_width),
     ]
     remark = "ISO 6336-1, method B, with K_A = 1"
     remark += ", reduced below 100 N/mm" if stiffness.load < 1.0 else ""

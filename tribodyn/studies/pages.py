@@ -229,6 +229,7 @@ def report(
             study.besides("profiles", record),
             verdict=study.verdict(record),
             mechanism=study.besides("mechanism", record) if record.samples else None,
+            solid=study.besides("solid", record) if record.samples and figures else None,
             parts=study.besides("tables", record) or (),
             sensed=sensed_section(record) if figures else SensedSection(),
             pictures=_pictures_of_sensors(record) if figures and len(records) == 1 else (),

@@ -33,7 +33,7 @@ def rolling_teeth(record: Record) -> dict[str, Any] | None:
     places = _of_the_table(record, cycle) if tabulated else _of_the_roll_angles(record, shape, cycle)
     if places is None or not len(places.roll):
         return None
-    frames, kept = _frames(len(places.roll), MOST_FRAMES)
+    frames, kept = kept_frames(len(places.roll), MOST_FRAMES)
     return {"frames": kept} | _teeth(shape, _Places(*(values[frames] for values in places)))
 
 
@@ -59,7 +59,7 @@ class _Places(NamedTuple):
     angle: np.ndarray
 
 
-def _frames(samples: int, most: int) -> tuple[np.ndarray, str | None]:
+def kept_frames(samples: int, most: int) -> tuple[np.ndarray, str | None]:
     """Samples that are kept, evenly over the run, and as the page reads them: None where all are."""
     frames = np.unique(np.linspace(0, samples - 1, min(samples, most)).round().astype(int))
     return frames, None if len(frames) == samples else packed(frames, "<u4")
@@ -171,7 +171,7 @@ def mechanism_data(mechanism: Mechanism) -> dict[str, Any]:
     """A mechanism as the page reads it."""
     samples = len(mechanism.contacts)
     most = max(_MOST_POSES, _MOST_PLACES // (len(mechanism.bodies) + mechanism.contacts.shape[1]))
-    frames, kept = _frames(samples, most)
+    frames, kept = kept_frames(samples, most)
     x, y, alpha = np.moveaxis(mechanism.contacts[frames], -1, 0)
     bodies = [
         body._asdict() | {"outline": packed(body.outline), "pose": packed(body.pose[frames])}

@@ -43,6 +43,7 @@
       record.profiles.x = numbers(record.profiles.x, Float32Array);
       for (const row of record.profiles.rows) row.y = numbers(row.y, Float32Array);
     }
+    if (record.solid) record.solid = solids.unpacked(record.solid, numbers);
     const teeth = record.teeth;
     if (teeth) {
       teeth.frames = teeth.frames && numbers(teeth.frames, Uint32Array);
@@ -373,6 +374,23 @@
     }
     context.beginPath(); context.arc(x, y, 3.5 * pixel, 0, 7); context.fill();
   }
+  // ---- shafts in space
+  const view = { yaw: -0.6, pitch: 0.3 };
+  let waits = false;
+  function drawSolid() {
+    const record = data.records[which], solid = record.solid;
+    $("solid-section").hidden = !solid;
+    if (!solid || waits) return;
+    waits = true;
+    requestAnimationFrame(() => {
+      waits = false;
+      const found = getComputedStyle(document.documentElement), sample = indexAt(record.axis, at);
+      const times = solid.times * Number($("solid-factor").value);
+      $("solid-times").textContent = times ? "displacements × " + written(times).replace(/\.?0+$/, "") : "displacements not drawn";
+      solids.draw($("solid"), solid, solid.frames ? indexAt(solid.frames, sample) : sample, times, view, (name) => found.getPropertyValue(name).trim());
+      document.body.dataset.solid = String(sample);
+    });
+  }
   function read() {
     const table = $("readings"), record = data.records[which];
     $("where").textContent = data.axis + " " + written(at);
@@ -387,12 +405,12 @@
       }
     }
   }
-  function redraw() { draw(); drawTeeth(); drawMaps(); drawProfiles(); }
+  function redraw() { draw(); drawTeeth(); drawSolid(); drawMaps(); drawProfiles(); }
   function move(value, fromSlider) {
     const [low, high] = span();
     at = Math.min(high, Math.max(low, value));
     if (!fromSlider) $("cursor").value = String(Math.round(1000 * (at - range[0]) / (range[1] - range[0])));
-    mark(); drawTeeth(); read(); markMaps(); moveProfiles();
+    mark(); drawTeeth(); drawSolid(); read(); markMaps(); moveProfiles();
     document.body.dataset.at = String(at);
     document.body.dataset.line = $("line").style.left;
   }
@@ -431,6 +449,14 @@
   $("view").onchange = (event) => { range = event.target.value === "all" ? span() : first.window; draw(); move(Math.max(range[0], Math.min(range[1], at))); };
   $("color").onchange = drawTeeth;
   $("sight").onchange = drawTeeth;
+  $("solid-factor").onchange = drawSolid;
+  $("solid").onpointerdown = (event) => $("solid").setPointerCapture(event.pointerId);
+  $("solid").onpointermove = (event) => {
+    if (!event.buttons) return;
+    view.yaw += event.movementX / 150;
+    view.pitch = Math.min(1.5, Math.max(-1.5, view.pitch + event.movementY / 150));
+    drawSolid();
+  };
   $("which").onchange = (event) => { which = Number(event.target.value); looks(); move(at); };
   $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; redraw(); };
   document.addEventListener("keydown", (event) => {
@@ -444,6 +470,7 @@
   if (first.window[0] <= span()[0] && first.window[1] >= span()[1]) $("view").parentElement.hidden = true;
   choose($("color"), first.series.filter((one) => one.curves.length > 1).map((one) => [one.name, one.short]));
   if (first.byName[data.load]) $("color").value = data.load;
+  choose($("solid-factor"), [["1", "as proposed"], ["4", "four times that"], ["0.25", "a quarter of that"], ["0", "none"]]);
   choose($("which"), data.records.map((one, k) => [String(k), one.label]));
   const looks = () => {
     const sights = (data.records[which].teeth || {}).sights || [];
@@ -454,7 +481,7 @@
   looks();
   $("which-label").hidden = data.records.length < 2;
   if (first.teeth && first.teeth.title) $("teeth-title").textContent = first.teeth.title;
-  const moving = data.records.some((one) => one.teeth || one.profiles || (one.maps || []).length);
+  const moving = data.records.some((one) => one.teeth || one.solid || one.profiles || (one.maps || []).length);
   if (!moving) document.querySelector(".controls").hidden = true;
   $("color").parentElement.hidden = !first.byName[data.load];
   if (first.teeth && first.teeth.turning) {

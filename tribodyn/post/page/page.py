@@ -25,6 +25,7 @@ from tribodyn.post.page.data import (
 from tribodyn.post.page.document import assembled
 from tribodyn.post.page.motion import LOAD, Mechanism, mechanism_data, rolling_teeth
 from tribodyn.post.page.sensors import SensedSection
+from tribodyn.post.page.solid import Solid, solid_data
 from tribodyn.post.report import EXCEEDED
 from tribodyn.post.style import inline
 from tribodyn.quantities.quantity import Quantity, Reported
@@ -35,6 +36,8 @@ from tribodyn.record.withheld_efficiency import reasons, warnings
 
 #: Figures that are shown at first where a study names none.
 FIGURES = 4
+#: Characters of a cell of a table that is not broken.
+SHORT_CELL = 15
 
 
 class PageContent(NamedTuple):
@@ -54,6 +57,7 @@ class PageContent(NamedTuple):
     found: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
     titles: Mapping[str, str] = MappingProxyType({})  # of datasets, in place of those of the record
     mechanism: Mechanism | None = None  # what moves, where it is no pair of gears
+    solid: Solid | None = None  # what bends and turns in space
     sensed: SensedSection = SensedSection()  # what its sensors gave
     #: tables as above of parts of what the summary is about, below it
     parts: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
@@ -71,6 +75,8 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
             series["title"] = content.titles.get(series["name"], series["title"])
         if content.mechanism:
             entry["teeth"] = mechanism_data(content.mechanism)
+        if content.solid and figures:
+            entry["solid"] = solid_data(content.solid)
         if figures:
             entry["maps"] = [map_data(record, page_map) for page_map in content.maps]
             over_places: set[str] = set()
@@ -251,10 +257,12 @@ def _sheets(records: Sequence[Record], contents: Sequence[PageContent]) -> str:
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A table with a heading."""
+    """A table with a heading; short cells, a number with its unit or a name, stay on one line."""
 
     def cells(tag: str, row: Sequence[str]) -> str:
-        return "<tr>" + "".join(f"<{tag}>{escape(str(cell))}</{tag}>" for cell in row) + "</tr>"
+        kinds = (f"{tag} class=short" if len(str(cell)) <= SHORT_CELL else tag for cell in row)
+        texts = zip(kinds, map(escape, map(str, row)), strict=True)
+        return "<tr>" + "".join(f"<{kind}>{cell}</{tag}>" for kind, cell in texts) + "</tr>"
 
     body = cells("th", columns) + "".join(cells("td", row) for row in rows)
     return f'<div class="wide"><h3>{escape(title)}</h3><table>{body}</table></div>'

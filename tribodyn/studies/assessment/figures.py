@@ -187,7 +187,7 @@ def _safeties(axes: Axes, record: Record) -> None:
     axes.set_ylim(-0.5, 1.35 * len(groups))  # room for the legend
     axes.set(title="Safeties of the worst mesh; dashed: required")
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="upper center", ncol=2, fontsize=6)
+        axes.legend(loc="upper center", ncol=2, fontsize=6, frameon=True, framealpha=1.0, edgecolor="none")
 
 
 _OF_GEARBOX = (_factors, _efficiency, _losses, _safeties)

@@ -58,6 +58,7 @@ def page(record: Record) -> str:
     what = "Assessment of a train" if MESHES in summary else "Assessment"
     subject = case.subject
     sheets = subject.study.check(subject.case, allow_large=True).every if subject else check(case).tables
+    sheets = [sheet for sheet in sheets if sheet.title != "Bearings"]  # they have a section of their own
     return first_page.written(record, what, front, body, sheets)
 
 

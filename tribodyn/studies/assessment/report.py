@@ -88,7 +88,9 @@ def groups_of(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, list[str]]:
 
 def of_mesh(mesh: Mapping[str, Any], part: str, name: str) -> Any:
     """What a mesh has, simulated or by the standards: a margin, else by its name, else of its motion."""
-    places = [mesh.get("margins", {}).get(part, {}), mesh.get(part, {}), mesh if part == "simulated" else {}]
+    places = [mesh.get("margins", {}).get(part, {}), mesh.get(part, {})]
+    if part == "simulated" and name not in SAFETIES.values():  # which are the smaller of both
+        places.append(mesh)
     return next((place[name] for place in places if place.get(name) is not None), None)
 
 
@@ -125,7 +127,8 @@ def mesh_table(summary: Mapping[str, Any], part: str) -> TextTable:
     ]
     factors = [float(mesh["load_factors"]["K_A"]) for mesh in meshes.values() if "load_factors" in mesh]
     by = {"simulated": "simulated, stresses, temperatures and safeties", "iso": "by the standards"}[part]
-    heading = f"Each mesh, {by} with K_A {max(factors, default=1.0):g}; of several planets the worst"
+    heading = f"Each mesh, {by} with K_A {max(factors, default=1.0):g}"
+    heading += "; of several planets the worst" if len(groups) < len(meshes) else ""
     return TextTable(heading, ("", *groups, ""), [row for row in rows if set(row[1:-1]) - {"–"}])
 
 
@@ -161,6 +164,7 @@ def verdict(record: Record) -> list[str]:
 def shown(summary: Mapping[str, Any]) -> Iterator[str]:
     """What moves, presses and is lost, and which mesh is the worst."""
     least, named = summary.get("worst_of", {}), MESHES in summary
+    in_bearings = sum(one.get("power_bearing", 0.0) for one in summary.get("bearings", {}).values())
     summary = numbers(summary)
     names = [name for name in SAFETIES.values() if name in summary and name in least]
     if names:
@@ -179,6 +183,9 @@ def shown(summary: Mapping[str, Any]) -> Iterator[str]:
     span = f"; by other friction laws {' to '.join(f'{100.0 * end:.2f}' for end in ends)} %" if ends else ""
     if named and "efficiency" in summary:
         lost = with_unit("power_friction_mean", summary["power_friction_mean"])
+        if in_bearings and "power_in_mean" in summary:
+            left = 100.0 * (summary["efficiency"] - in_bearings / summary["power_in_mean"])
+            span += f"; with {with_unit('power_bearing', in_bearings)} of its rolling bearings {left:.2f} %"
         yield (
             f"The teeth lose {lost}; by tooth friction alone, without bearings, seals and churning, the "
             f"train is {100.0 * summary['efficiency']:.2f} % efficient{span}."

@@ -25,7 +25,7 @@ from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import MESHES
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.studies.assessment.case import AssessmentCase, RatedPair, layout_of
-from tribodyn.studies.assessment.findings import GearboxFindings, findings_of
+from tribodyn.studies.assessment.findings import GearboxFindings, MeshFindings, findings_of
 from tribodyn.studies.assessment.parts import DUTY, AssessmentParts, assessment_parts, speeds_of
 from tribodyn.studies.assessment.results.conclusion import by_standard
 from tribodyn.studies.assessment.results.margins import LocalValues
@@ -160,7 +160,7 @@ def assessed(
         **_losses(case, found.run, done),
         **bearing_part(case.shafts, case.oil),
         "not_judged": not_judged(case.limits, case.oil.fzg),
-        "in_doubt": numbered(_in_doubt(found.run)),
+        "in_doubt": numbered([*_in_doubt(found.run), *_too_short(found.meshes)]),
     }
     scattered = [mesh for mesh in meshes.values() if mesh.samples is not None]
     if scattered:
@@ -239,6 +239,13 @@ def _in_doubt(run: Mapping[str, Any]) -> list[str]:
             if "in doubt" in line:
                 meshes_by_line.setdefault(line, []).append(name)
     return [f"Mesh {', '.join(names)}: {line[0].lower()}{line[1:]}" for line, names in meshes_by_line.items()]
+
+
+def _too_short(meshes: Mapping[str, MeshFindings]) -> list[str]:
+    """Which meshes have no simulated strength, as the run at the duty holds no whole cycle of theirs."""
+    short = [name for name, mesh in meshes.items() if mesh.rated and mesh.along and not mesh.loads]
+    what = "no whole cycle of it was run, so no S_H and S_F are simulated; raise solver.cycles"
+    return [f"Mesh {', '.join(short)}: {what}."] if any(short) else []
 
 
 def _outside(meshes: Mapping[str, Mapping[str, Any]]) -> list[str]:

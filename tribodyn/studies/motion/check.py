@@ -240,6 +240,11 @@ def _mode_table(prepared: PreparedGearbox, mode_set: Modes, kinds: Sequence[str]
     return TextTable(title, ("Hz", *(("kind",) if kinds else ()), "bodies"), rows)
 
 
+def _rpm(speed: float) -> str:
+    """A speed with four digits, written out."""
+    return f"{float(f'{speed:.4g}'):g}"
+
+
 def _campbell_table(prepared: PreparedGearbox, modes_of: Modes) -> TextTable:
     """Speeds of the input at which harmonics of the meshes meet the modes."""
     speed = float(_speeds(prepared)[prepared.model.layout.input]) * 30.0 / pi
@@ -250,8 +255,8 @@ def _campbell_table(prepared: PreparedGearbox, modes_of: Modes) -> TextTable:
         }
     meets |= {name: (frequency, 1) for name, frequency in passes(prepared) if frequency}
     rows = [
-        (f"{mode:.5g}", *(f"{mode / (order * frequency) * speed:.4g}" for frequency, order in meets.values()))
+        (f"{mode:.5g}", *(_rpm(mode / (order * frequency) * speed) for frequency, order in meets.values()))
         for mode in modes_of.frequency
     ]
-    title = f"Campbell: input speed (rpm) at which a mesh meets a mode; now {speed:.4g}"
+    title = f"Campbell: input speed (rpm) at which a mesh meets a mode; now {_rpm(speed)}"
     return TextTable(title, ("mode (Hz)", *meets), rows)

@@ -21,7 +21,7 @@ from tribodyn.numerics.parameter import Variable
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.drivetrain.shaft_lines import SHAFT_GEOMETRY, shaft_arrays
+from tribodyn.studies.motion.drivetrain.shaft_lines import HOUSING_GEOMETRY, SHAFT_GEOMETRY, shaft_arrays
 from tribodyn.studies.motion.prepare import PreparedGearbox, geometry_of
 
 _TIME, _BODY, _MESH, _PAIRS = ("time",), ("time", "body"), ("time", "mesh"), ("time", "mesh", "pair")
@@ -228,7 +228,8 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
         new = {body: number for number, body in enumerate(prepared.order)}
         widths = [gear.face_width for gear in case.gears]
         groups["geometry"] |= shaft_arrays(case.system, new, widths)
-        tables["geometry"] = TRAIN_GEOMETRY | SHAFT_GEOMETRY
+        of_housing = {} if case.system.housing is None else HOUSING_GEOMETRY
+        tables["geometry"] = TRAIN_GEOMETRY | SHAFT_GEOMETRY | of_housing
     for mesh, part in zip(meshes, case.meshes, strict=True):
         tables[f"{MESHES}/{part.name}/mesh_cycle"] = _cycle(mesh.cycle.slices)
         tables[f"{MESHES}/{part.name}/geometry"] = GEOMETRY

@@ -17,12 +17,14 @@ from tribodyn.gears.motion.extremes import on_extremes
 from tribodyn.gears.sensing.signal_quantities import sensor_tables
 from tribodyn.post import verdict as of_any
 from tribodyn.post.page.motion import Mechanism
+from tribodyn.post.page.solid import Solid
 from tribodyn.post.report import on_closures, on_energy, on_methods
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.withheld_efficiency import reasons
 from tribodyn.studies.motion.drivetrain.mesh_groups import between, groups_of, together
+from tribodyn.studies.motion.pictures.deflected_gearbox import deflected_gearbox
 from tribodyn.studies.motion.pictures.rolling_train import rolling_train
 
 #: Of several meshes the worst where it is not of all together.
@@ -106,6 +108,11 @@ def tables(record: Record) -> list[TextTable]:
 def mechanism(record: Record) -> Mechanism | None:
     """The train that rolls on a page; a pair has the page's own picture."""
     return rolling_train(record) if record.names_meshes else None
+
+
+def solid(record: Record) -> Solid | None:
+    """Drawn shafts and what they carry, bent at every moment; None where none are drawn."""
+    return deflected_gearbox(record)
 
 
 def _stages(summary: Mapping[str, Any]) -> Iterable[TextTable]:

@@ -67,7 +67,8 @@ class Study:
                   optional); ``SHORT``, short names of quantities, ``PANELS``, datasets that a page shows at
                   first, ``TOP``, quantities at the top of what is printed as JSON (all optional); of a
                   record ``tables`` of its parts, ``maps`` over the face, ``profiles`` at the cursor, and its
-                  ``mechanism``, bodies in motion that are no pair of gears (all optional)
+                  ``mechanism``, bodies in motion that are no pair of gears, ``solid``, what bends and
+                  turns in space (all optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `protocol.batch.Batch`
@@ -255,8 +256,10 @@ class Study:
         """Datasets that a page shows at first; none: the first ones."""
         return self._part("report", "PANELS", optional=True) or ()
 
-    def besides(self, what: Literal["tables", "maps", "profiles", "mechanism"], record: "Record") -> Any:
-        """What is shown of a record besides: `TextTable`s, `PageMap`s, `Profiles`, a `Mechanism`; or None."""
+    def besides(
+        self, what: Literal["tables", "maps", "profiles", "mechanism", "solid"], record: "Record"
+    ) -> Any:
+        """What is shown of a record besides, such as `TextTable`s or a `Mechanism`; or None."""
         part = self._part("report", what, optional=True)
         return part(record) if part else None
 

@@ -70,6 +70,7 @@ class SystemMatrices(NamedTuple):
     turns: tuple[int, ...]  # coordinates of the rotation of shafts about z
     nodal: int  # coordinates that are six of a node or a seat; behind them those of the housing's modes
     length: float  # of the longest shaft, m
+    along: tuple[tuple[float, ...], ...]  # of every shaft the places of its nodes along it, m
 
 
 class Settled(NamedTuple):
@@ -107,7 +108,7 @@ class Reduced(NamedTuple):
 
 def structure_of(system: ShaftSystem, elements: int = 1) -> SystemMatrices:
     """Put shafts and housing together, of so many elements to each shaft at least."""
-    parts, points, nodes, bearings, turns, count = [], [], [], [], [], 0
+    parts, points, nodes, bearings, turns, along, count = [], [], [], [], [], [], 0
     for shaft in system.shafts:
         ends = np.cumsum([0.0, *(section.length for section in shaft.sections)])
         finest = ends[-1] / elements
@@ -131,6 +132,7 @@ def structure_of(system: ShaftSystem, elements: int = 1) -> SystemMatrices:
         ]
         bearings += shaft.bearings
         turns += [count + SIX * node + 5 for node in range(len(places))]
+        along.append(tuple(map(float, places)))
         count += SIX * len(places)
     housing = system.housing
     if housing is not None:
@@ -148,7 +150,7 @@ def structure_of(system: ShaftSystem, elements: int = 1) -> SystemMatrices:
     length = max(sum(section.length for section in shaft.sections) for shaft in system.shafts)
     places = tuple(points), tuple(nodes), tuple(seats), tuple(bearings), tuple(turns)
     nodal = count if housing is None else count + SIX * len(housing.seats)
-    return SystemMatrices(whole[0], whole[1], whole[2], *places, nodal, length)
+    return SystemMatrices(whole[0], whole[1], whole[2], *places, nodal, length, tuple(along))
 
 
 def _answers(structure: SystemMatrices, moved: Float[Array, " coordinate"]) -> tuple[BearingState, ...]:

@@ -15,6 +15,7 @@ from tribodyn.gears.motion.tooth_loads import ToothLoads, tooth_loads
 from tribodyn.gears.prepare import assembled
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.parts import assessment_parts
+from tribodyn.studies.assessment.report import of_mesh
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.tasks import case_of
 
@@ -217,6 +218,14 @@ def test_a_ring_that_drives_is_pressed_as_by_its_planet():
     assert back.roll_angle.tolist() == [[-1.0, -1.5], [-0.5, -1.0]]
     assert back.normal_load.tolist() == [[[8.0, 7.0], [6.0, 5.0]]]
     assert not every["third"].turned
+
+
+def test_a_mesh_that_was_not_run_has_no_simulated_safety_of_the_standard():
+    margins = {"iso": {"S_H": 1.24}, "simulated": {"S_B": 8.3}}
+    mesh = {"S_H": 1.24, "S_B": 3.6, "margins": margins, "dynamic_factor": 1.01}
+    shown = {name: of_mesh(mesh, "simulated", name) for name in ("S_H", "S_B", "dynamic_factor")}
+    assert shown == {"S_H": None, "S_B": 8.3, "dynamic_factor": 1.01}
+    assert of_mesh(mesh, "iso", "S_H") == 1.24
 
 
 def test_loads_of_a_slower_mesh_are_those_of_its_teeth():

@@ -17,9 +17,12 @@ from tribodyn.post.page.page import summary_tables, table, verdict_list, warning
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import scatter
 from tribodyn.record.reader import Record
-from tribodyn.studies.pages import overview
+from tribodyn.studies.pages import drawable, figure, overview
 from tribodyn.studies.protocol.study import Study
 from tribodyn.tribology.oil import LubricantData
+
+#: The figure of a run that stands beside its overview where it is to be had.
+_SHAFTS = "shafts"
 
 
 def header(record: Record, what: str) -> str:
@@ -198,6 +201,8 @@ def part_section(study: Study, title: str, done: Sequence[TaskResult]) -> str:
             continue
         with Record(result.path) as record:
             picture = f'<div class="pictures">{inline(overview(record), title)}</div>'
+            if _SHAFTS in drawable([record]):
+                picture += f'<div class="pictures">{inline(figure(_SHAFTS, [record]), _SHAFTS)}</div>'
             tables = summary_tables([record], [study.reported()])
         return f"<section><h2>{escape(title)}</h2>{picture}{tables}</section>"
     return ""

@@ -7,6 +7,9 @@ import numpy as np
 
 from tribodyn.gears.drawn_system import DrawnSystem
 from tribodyn.numerics.parameter import Variable
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.record.reader import Record
+from tribodyn.train.elastic.beam_matrices import SIX
 
 #: Of drawn shafts, in the group "geometry"; numbers of shafts count from 0.
 SHAFT_GEOMETRY: dict[str, Variable] = {
@@ -20,6 +23,14 @@ SHAFT_GEOMETRY: dict[str, Variable] = {
     "station_moved": Variable(
         ("station", "axis"), "m", "displacement of each station in x, y under the mean loads"
     ),
+    "station_follows": Variable(
+        ("station", "direction", "place", "motion"),
+        "1",
+        "displacement of each station in x, y, z by x, y, z, tilt_x, tilt_y of each carried body; no modes",
+    ),
+    "station_at_rest": Variable(
+        ("station", "direction"), "m", "displacement of each station where no carried body is displaced"
+    ),
     "carried_body": Variable(("place",), "1", "number of each body that a drawn shaft carries"),
     "carried_z": Variable(("place",), "m", "z of each body that a drawn shaft carries"),
     "seat_z": Variable(("seat",), "m", "z of each bearing of a drawn shaft, as bearing_names are in order"),
@@ -31,10 +42,26 @@ SHAFT_GEOMETRY: dict[str, Variable] = {
 }
 
 
+#: And of a housing that gives.
+HOUSING_GEOMETRY: dict[str, Variable] = {
+    "housing_place": Variable(("spot", "direction"), "m", "x, y, z of each seat of the housing"),
+    "housing_follows": SHAFT_GEOMETRY["station_follows"]._replace(
+        dims=("spot", "direction", "place", "motion"),
+        long_name="displacement of each seat of the housing, likewise",
+    ),
+    "housing_at_rest": SHAFT_GEOMETRY["station_at_rest"]._replace(
+        dims=("spot", "direction"), long_name="displacement of each seat of the housing, likewise"
+    ),
+}
+
+
 def shaft_arrays(
     system: DrawnSystem, numbers: Mapping[int, int], face_widths: list[float]
 ) -> dict[str, np.ndarray]:
-    """Arrays of `SHAFT_GEOMETRY`; `numbers` are the record's of bodies by the case's."""
+    """Arrays of `SHAFT_GEOMETRY`, and of `HOUSING_GEOMETRY` where there is one.
+
+    `numbers` are the record's of bodies by the case's.
+    """
     rows: dict[str, list[Any]] = {name: [] for name in SHAFT_GEOMETRY}
     settled = system.settled
     ends = _stations(system)
@@ -57,22 +84,47 @@ def shaft_arrays(
         for bearing in shaft.drawing.bearing:
             rows["seat_shaft"].append(number)
             rows["seat_z"].append(shaft.start + bearing.position)
+    firsts = [first for of_shaft in ends for _, first in of_shaft]
+    rows["station_follows"], rows["station_at_rest"] = _followed(system, firsts)
+    housing = system.housing
+    if housing is not None:
+        start = len(settled.moved) - housing.coordinates
+        rows["housing_place"] = list(housing.places)
+        rows["housing_follows"], rows["housing_at_rest"] = _followed(
+            system, [start + housing.seat(name) for name in housing.seats]
+        )
     rows["seat_force"] = [bearing.force[:3] for bearing in settled.bearings]
     rows["face_width"] = list(face_widths)
     return {name: np.array(values) for name, values in rows.items()}
 
 
+def deflections(record: Record, what: str = "station") -> Float[Array, "time spot 3"]:
+    """Displacement of every station of the shafts, or of every seat of the housing, in x, y and z, m."""
+    parts = record.geometry
+    bodies = np.asarray(parts["carried_body"], int)
+    moved = np.stack([record[name][:, bodies] for name in ("x", "y", "z", "tilt_x", "tilt_y")], axis=-1)
+    return parts[f"{what}_at_rest"] + np.einsum("ndbi,tbi->tnd", parts[f"{what}_follows"], moved)
+
+
 def _stations(system: DrawnSystem) -> list[list[tuple[float, int]]]:
-    """Of every shaft the places where its motion is known, and their first coordinates in the structure."""
-    structure, point, bearing = system.settled.structure, 0, 0
-    found = []
-    for shaft in system.shafts:
-        points, seats = shaft.points, shaft.drawing.bearing
-        known = dict(
-            zip((place for _, place in points), structure.points[point : point + len(points)], strict=True)
-        )
-        nodes = structure.nodes[bearing : bearing + len(seats)]
-        known |= dict(zip((seat.position for seat in seats), nodes, strict=True))
-        found.append(sorted(known.items()))
-        point, bearing = point + len(points), bearing + len(seats)
+    """Of every shaft the places of its nodes, and their first coordinates in the structure."""
+    count, found = 0, []
+    for places in system.settled.structure.along:
+        found.append([(place, SIX * (count + node)) for node, place in enumerate(places)])
+        count += len(places)
     return found
+
+
+def _followed(system: DrawnSystem, firsts: list[int]) -> tuple[Any, Any]:
+    """Displacements of nodes, by their first coordinates, from those of the carried bodies; and at rest."""
+    settled, bodies = system.settled, len(system.bodies)
+    nodes = np.add.outer(firsts, np.arange(3))
+    follows = system.reduced.recovery[nodes, : SIX * bodies].reshape(len(firsts), 3, bodies, SIX)[..., :-1]
+    rest = settled.moved[nodes] - np.einsum("ndbi,bi->nd", follows, settled.points[:, :-1])
+    return follows, rest
+
+
+def rounded_down(times: float) -> float:
+    """A magnification as 1, 2 or 5 times a power of ten that is no larger."""
+    power = 10.0 ** np.floor(np.log10(times))
+    return float(max(digit for digit in (1.0, 2.0, 5.0) if digit * power <= times * (1.0 + 1e-9)) * power)

@@ -11,6 +11,7 @@ from tribodyn.post.figures.gears_in_mesh import GEAR_FILL, MILLIMETRE, PINION_FI
 from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
+from tribodyn.studies.motion.drivetrain.shaft_lines import rounded_down
 
 #: Largest deflection as drawn, as a share of the height of the picture; length of the largest force.
 _BENT, _ARROW = 0.06, 0.11
@@ -68,7 +69,7 @@ def _draw(axes: Axes, record: Record, along: np.ndarray, seen: np.ndarray) -> fl
         high = max(high, of_shaft[int(number)] + diameter / 2.0 / MILLIMETRE)
     moved = np.asarray(parts["station_moved"]) @ seen
     largest = float(np.max(np.abs(moved)))
-    times = _rounded(_BENT * (high - low) * MILLIMETRE / largest) if largest > 0.0 else 1.0
+    times = rounded_down(_BENT * (high - low) * MILLIMETRE / largest) if largest > 0.0 else 1.0
     for number, middle in of_shaft.items():
         own = shaft == number
         z, bent = np.asarray(parts["station_z"])[own], moved[own]
@@ -76,7 +77,9 @@ def _draw(axes: Axes, record: Record, along: np.ndarray, seen: np.ndarray) -> fl
         over = np.linspace(z[0], z[-1], 101)
         curve = CubicSpline(z, bent)(over) if len(z) > 2 else np.interp(over, z, bent)
         axes.plot(over / MILLIMETRE, middle + times * curve / MILLIMETRE, color="#cc0000", linewidth=1.6)
-        axes.plot(z / MILLIMETRE, middle + times * bent / MILLIMETRE, ".", color="#cc0000", markersize=4)
+        held = np.isin(z, np.concatenate([parts["carried_z"], parts["seat_z"]]))
+        marks = middle + times * bent[held] / MILLIMETRE
+        axes.plot(z[held] / MILLIMETRE, marks, ".", color="#cc0000", markersize=4)
     _forces(axes, record, seen, of_shaft, _ARROW * (high - low))
     z = np.concatenate([parts["section_start"], parts["section_end"]]) / MILLIMETRE
     room = _ROOM * max(high - low, float(np.ptp(z)))
@@ -166,9 +169,3 @@ def _name(axes: Axes, z: float, at: float, name: str, up: float = 4.0) -> None:
         fontsize=6,
         color=INK,
     )
-
-
-def _rounded(times: float) -> float:
-    """A magnification as 1, 2 or 5 times a power of ten that is no larger."""
-    power = 10.0 ** np.floor(np.log10(times))
-    return float(max(digit for digit in (1.0, 2.0, 5.0) if digit * power <= times * (1.0 + 1e-9)) * power)
