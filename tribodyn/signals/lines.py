@@ -48,7 +48,7 @@ def lines_of_pair(first: str, second: str, teeth: tuple[int, int]) -> tuple[Sign
 class SetFrequencies(NamedTuple):
     """What repeats in a planetary set, in the unit of the mesh frequency that it is made of."""
 
-    mesh: float
+    mesh: float  # of the sun with the planets
     carrier_against_ring: float  # turns of the carrier as the ring sees it
     planet_pass: float  # planets that pass a tooth of the ring
     sun_fault: float  # a tooth of the sun meets a planet
@@ -56,19 +56,25 @@ class SetFrequencies(NamedTuple):
     ring_fault: float  # a tooth of the ring meets a planet
 
 
-def set_frequencies(sun: int, planet: int, ring: int, planets: int, mesh: float) -> SetFrequencies:
+def set_frequencies(
+    sun: int, planet: int, ring: int, planets: int, mesh: float, ring_mesh: float | None = None
+) -> SetFrequencies:
     """Frequencies of a planetary set of so many teeth, by that of its meshes, whichever member is held.
+
+    `planet` are the teeth of the gear that meshes with the sun, at the frequency `mesh`; `ring_mesh` is that
+    of the ring, of stepped planets another one.
 
     In the frame of the carrier all gears mesh with f_mesh = z abs(n − n_c), so that each turns there with
     f_mesh/z, and meets `planets` mates in a turn; a planet meets sun and ring with opposite flanks.
     """
+    at_ring = mesh if ring_mesh is None else ring_mesh
     return SetFrequencies(
         mesh,
-        mesh / ring,
-        planets * mesh / ring,
+        at_ring / ring,
+        planets * at_ring / ring,
         planets * mesh / sun,
         mesh / planet,
-        planets * mesh / ring,
+        planets * at_ring / ring,
     )
 
 

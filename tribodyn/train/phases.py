@@ -33,6 +33,9 @@ class ToothedShaft(NamedTuple):
     teeth: int  # negative of an internal gear
     sense: int  # +1 counter-clockwise seen from +z, −1 clockwise; of a gear of a set against its carrier
     tooth_angle: float = 0.0  # of one of its teeth from the shaft's mark, counter-clockwise, rad
+    #: places, evenly about its axis, in which its shaft may stand while the shaft's other gear stays in its
+    #: gaps: of a stepped planet that gear's teeth
+    places: int = 1
 
     @property
     def signed_sense(self) -> int:
@@ -79,6 +82,7 @@ def nominal_phases(gears: Sequence[ToothedShaft], meshes: Sequence[Engagement]) 
             if place in phases or (driver.shaft not in marks and driven.shaft not in marks):
                 continue
             if driver.shaft in marks:
+                _fit_planet(gears, mesh, marks)
                 phase = driver_phase(driver, mesh, marks[driver.shaft])
                 if driven.shaft in marks:
                     _check_loop(gears, mesh, phase, marks)
@@ -169,11 +173,32 @@ def _driven_mark(gears: Sequence[ToothedShaft], mesh: Engagement, phase: float) 
     return mesh.azimuth + pi + driven.signed_sense * place - driven.signed_angle
 
 
+def _fit_planet(gears: Sequence[ToothedShaft], mesh: Engagement, marks: dict[int, float]) -> None:
+    """Turn a stepped planet, by pitches of the gear that stands in its gaps, to where the other fits best."""
+    turned = next((gears[end] for end in mesh.gears if gears[end].places > 1), None)
+    if turned is None or any(gears[end].shaft not in marks for end in mesh.gears):
+        return
+    places = [marks[turned.shaft] + 2.0 * pi * k / turned.places for k in range(turned.places)]
+    driver = gears[mesh.gears[0]]
+
+    def missed(place: float) -> float:
+        at = marks | {turned.shaft: place}
+        return round(abs(_missed(gears, mesh, driver_phase(driver, mesh, at[driver.shaft]), at)), 9)
+
+    marks[turned.shaft] = min(places, key=missed)
+
+
+def _missed(gears: Sequence[ToothedShaft], mesh: Engagement, phase: float, marks: dict[int, float]) -> float:
+    """Cycles by which the driver, at this phase, is ahead of the driven gear."""
+    driven = gears[mesh.gears[1]]
+    return (phase - driven_phase(gears, mesh, marks[driven.shaft]) + 0.5) % 1.0 - 0.5
+
+
 def _check_loop(
     gears: Sequence[ToothedShaft], mesh: Engagement, phase: float, marks: dict[int, float]
 ) -> None:
     driven = gears[mesh.gears[1]]
-    missed = (phase - driven_phase(gears, mesh, marks[driven.shaft]) + 0.5) % 1.0 - 0.5
+    missed = _missed(gears, mesh, phase, marks)
     if abs(missed) <= LOOP_TOLERANCE:
         return
     rule = (

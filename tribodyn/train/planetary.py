@@ -1,15 +1,18 @@
 """One planetary set: its teeth, its assembly, and what its meshes excite."""
 
-from collections.abc import Sequence
-from math import pi
+from collections.abc import Iterator, Sequence
+from math import gcd, pi
 from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.shapes import Array, Float
 
 SUN, RING, CARRIER = "sun", "ring", "carrier"
 MEMBERS = (SUN, RING, CARRIER)
+#: Sorts of sets: every planet has one gear, or two beside each other.
+SETS = SIMPLE, STEPPED = ("planetary", "stepped")
 #: Pitches by which planets may stand beside their gaps: angles are given with few decimals.
 ASSEMBLY_TOLERANCE = 0.01
 
@@ -20,27 +23,54 @@ class SetTeeth(NamedTuple):
     sun: int
     planet: int
     ring: int  # < 0
+    second_planet: int = 0  # on the pins of the first ones, between these and the ring; 0: none
+
+    def loops(self) -> Iterator["Loop"]:
+        """The loops of teeth that close over every planet, each from the sun to another gear of the axis."""
+        if self.second_planet:
+            step = gcd(self.planet, self.second_planet)
+            whole = (self.sun * self.second_planet - self.ring * self.planet) // step
+            sums = f"({self.sun} · {self.second_planet} + {-self.ring} · {self.planet})"
+            sums += f"/{step}" if step > 1 else ""
+            yield Loop(whole, step / self.planet, sums)
+        else:
+            yield Loop(self.sun - self.ring, 1.0, f"({self.sun} + {-self.ring})")
+
+
+class Loop(NamedTuple):
+    """A planet turned by an angle about the set's axis closes it where `whole` times this is whole turns."""
+
+    whole: int
+    pitches: float  # by which its last teeth miss where the product is one turn off
+    sums: str  # the whole number as the numbers of teeth make it
 
 
 def check_assembly(teeth: SetTeeth, angles: Sequence[float], key: str) -> None:
     """Raise InputError where planets at these angles (rad) do not fit between the teeth of sun and ring."""
-    whole = teeth.sun - teeth.ring
-    places = whole * (np.asarray(angles, dtype=float) - angles[0]) / (2.0 * pi)
-    missed = np.abs(places - np.round(places))
-    apart = np.flatnonzero(missed > ASSEMBLY_TOLERANCE)
-    if not len(apart):
-        return
-    first = int(apart[0])
-    near = np.degrees(angles[0] + 2.0 * pi * np.round(places[first]) / whole) % 360.0
-    rule = (
-        f"planet {first + 1} stands {missed[first]:.3g} pitches beside the gaps of sun and ring: "
-        f"({teeth.sun} + {-teeth.ring}) times its angle from the first one is no whole number of turns"
-    )
-    remedy = f"stand it at {near:.6g} deg"
-    if others := nearest_teeth(teeth, angles):
-        named = " or ".join(f"{sun} and {-ring}" for sun, ring in others)
-        remedy += f", or give sun and ring {named} teeth"
-    raise InputError(key, f"{np.degrees(angles[first]):.6g} deg", rule, remedy)
+    turns = (np.asarray(angles, dtype=float) - angles[0]) / (2.0 * pi)
+    for loop in teeth.loops():
+        missed = _missed(loop, turns)
+        apart = np.flatnonzero(missed > ASSEMBLY_TOLERANCE)
+        if not len(apart):
+            continue
+        first = int(apart[0])
+        whole = gcd(*(each.whole for each in teeth.loops()))
+        near = np.degrees(angles[0] + 2.0 * pi * np.round(whole * turns[first]) / whole) % 360.0
+        rule = (
+            f"planet {first + 1} stands {missed[first]:.3g} pitches beside the gaps of sun and ring: "
+            f"{loop.sums} times its angle from the first one is no whole number of turns"
+        )
+        remedy = f"stand it at {near:.6g} deg"
+        if others := nearest_teeth(teeth, angles):
+            named = " or ".join(f"{sun} and {-ring}" for sun, ring in others)
+            remedy += f", or give sun and ring {named} teeth"
+        raise InputError(key, f"{np.degrees(angles[first]):.6g} deg", rule, remedy)
+
+
+def _missed(loop: Loop, turns: Float[Array, " planet"]) -> Float[Array, " planet"]:
+    """Pitches by which the teeth of planets miss that are so many turns from the first one."""
+    places = loop.whole * turns
+    return loop.pitches * np.abs(places - np.round(places))
 
 
 def nearest_teeth(teeth: SetTeeth, angles: Sequence[float], most: int = 12) -> list[tuple[int, int]]:
@@ -51,8 +81,8 @@ def nearest_teeth(teeth: SetTeeth, angles: Sequence[float], most: int = 12) -> l
     turns = (np.asarray(angles, dtype=float) - angles[0]) / (2.0 * pi)
 
     def fits(sun: int, ring: int) -> bool:
-        places = (sun - ring) * turns
-        return bool(np.all(np.abs(places - np.round(places)) <= ASSEMBLY_TOLERANCE))
+        loops = teeth._replace(sun=sun, ring=ring).loops()
+        return all(np.all(_missed(loop, turns) <= ASSEMBLY_TOLERANCE) for loop in loops)
 
     for change in range(most + 1):
         steps = {(0, change), (0, -change), (change, 0), (-change, 0)}

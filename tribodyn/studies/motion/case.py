@@ -46,6 +46,7 @@ class GearData:
     meshes: tuple[tuple[int, Side], ...]
     face_width: float = 0.0  # m
     axial_position: float = 0.0  # z of the middle of its face from its body's centre, m
+    places: int = 1  # see `train.phases.ToothedShaft`
 
 
 @dataclass(frozen=True)
@@ -298,7 +299,9 @@ class Gearbox(CaseHead):
     def toothed_shafts(self) -> tuple[ToothedShaft, ...]:
         """The gears as `train.phases` puts them together."""
         return tuple(
-            ToothedShaft(gear.name, gear.shaft, gear.teeth, self.bodies[gear.body].sense, gear.tooth_angle)
+            ToothedShaft(
+                gear.name, gear.shaft, gear.teeth, self.bodies[gear.body].sense, gear.tooth_angle, gear.places
+            )
             for gear in self.gears
         )
 

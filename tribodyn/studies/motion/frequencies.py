@@ -14,7 +14,8 @@ from tribodyn.signals.lines import (
     lines_of_pair,
     set_frequencies,
 )
-from tribodyn.studies.motion.drivetrain.mesh_groups import together
+from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of, together
+from tribodyn.studies.motion.planetary.results import meshes_of_member
 from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.planetary import CARRIER, RING, SUN
 
@@ -27,11 +28,18 @@ def mesh_frequencies(prepared: PreparedGearbox) -> list[float]:
 
 
 def distinct_meshes(prepared: PreparedGearbox) -> Iterator[tuple[str, float]]:
-    """Frequencies of the meshes, Hz, equal ones once; those of a planetary set by its name."""
+    """Frequencies of the meshes, Hz, equal ones once; those of a planetary set by its name.
+
+    Where its meshes have several, by the member too.
+    """
     case, of_rate = prepared.case, {}
     sets = {gearset.members[CARRIER]: gearset.name for gearset in case.sets}
-    for mesh, frequency in zip(case.meshes, mesh_frequencies(prepared), strict=True):
-        of_rate.setdefault(mesh.rate, (frequency, []))[1].append(sets.get(mesh.carrier, mesh.name))
+    several = {
+        carrier for carrier in sets if len({mesh.rate for mesh in case.meshes if mesh.carrier == carrier}) > 1
+    }
+    for mesh, frequency, alike in zip(case.meshes, mesh_frequencies(prepared), alike_of(case), strict=True):
+        name = alike if mesh.carrier in several else sets.get(mesh.carrier, mesh.name)
+        of_rate.setdefault(mesh.rate, (frequency, []))[1].append(name)
     for frequency, names in of_rate.values():
         yield together(names), frequency
 
@@ -56,10 +64,9 @@ def of_sets(prepared: PreparedGearbox) -> dict[str, SetFrequencies]:
     case, by_set = prepared.case, {}
     each = mesh_frequencies(prepared)
     for gearset in case.sets:
-        carrier = gearset.members[CARRIER]
-        mesh = next(each[m] for m, mesh in enumerate(case.meshes) if mesh.carrier == carrier)
+        at_sun, at_ring = (each[meshes_of_member(case, gearset, member)[0]] for member in (SUN, RING))
         teeth = gearset.teeth.sun, gearset.teeth.planet, abs(gearset.teeth.ring)
-        by_set[gearset.name] = set_frequencies(*teeth, len(gearset.planets), mesh)
+        by_set[gearset.name] = set_frequencies(*teeth, len(gearset.planets), at_sun, at_ring)
     return by_set
 
 

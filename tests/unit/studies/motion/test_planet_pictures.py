@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.path import Path as Closed
 
+from tests.support.epicyclic_sets import stepped_set
 from tests.support.outlines import distance, turned
 from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case
 from tests.support.soak_parameters import all_in_soak
@@ -37,21 +38,25 @@ CHORD = 1e-6
 STIFFNESS = 3e7
 #: Of pins, N/m, as `planet_set` has them.
 PIN_STIFFNESS = 3e8
-#: (held, input, output): the sun drives the planets, and the ring does.
-FLOWS = {"from sun": ("ring", ("sun", "carrier")), "from ring": ("sun", ("ring", "carrier"))}
+#: Teeth, held, input and output: the sun drives the planets, and the ring does; stepped planets that fit
+#: where they are turned by single pitches.
+FLOWS = {
+    "from sun": (planet_set, SEQUENTIAL, 3, "ring", ("sun", "carrier")),
+    "from ring": (planet_set, SEQUENTIAL, 3, "sun", ("ring", "carrier")),
+    "stepped": (stepped_set, (25, 35, 20, 80), 3, "carrier", ("sun", "ring")),
+}
 
 
-@pytest.fixture(scope="module", params=all_in_soak(FLOWS, ("from ring",)))
+@pytest.fixture(scope="module", params=all_in_soak(FLOWS, ("from ring", "stepped")))
 def record(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Record:
-    held, ends = FLOWS[request.param]
-    case = set_case(
-        SEQUENTIAL,
-        3,
-        held,
-        ends,
-        floating=["sun"],
-        solver={"cycles": 8},
-        mesh={"damping_ratio": 0.2, "stiffness": f"{STIFFNESS} N/m"},
+    make, *given = FLOWS[request.param]
+    case = case_of_table(
+        make(
+            *given,
+            floating=["sun"],
+            solver={"cycles": 8},
+            mesh={"damping_ratio": 0.2, "stiffness": f"{STIFFNESS} N/m"},
+        )
     )
     folder: Path = tmp_path_factory.mktemp("set")
     return Record(run(case, folder / "set.h5").path)
@@ -110,13 +115,14 @@ def test_planets_ride_on_the_carrier(record: Record):
     """Their angle about its axis grows as the carrier's does, but for what the pins give."""
     (own,) = sets_of(record)
     stand = gear_poses(record)
-    gear = {int(body): number for number, body in enumerate(record.geometry["gear_body"])}
+    bodies = list(enumerate(record.geometry["gear_body"]))
+    gear = {int(body): number for number, body in reversed(bodies)}  # of two the one in the sun's plane
     turning = record.geometry["sense"][own.carrier] * record["angle"][:, own.carrier]
     for planet in own.planets:
         x, y = (stand[gear[planet], :, :2] - record.geometry["centre"][own.carrier]).T
         apart = np.unwrap(np.arctan2(y, x)) - np.arctan2(y[0], x[0]) - turning
         assert np.ptp(apart) < 0.002
-    assert abs(turning[-1]) > 0.2
+    assert (abs(turning[-1]) > 0.2) == (record.geometry["carried"][own.carrier] != 0)
 
 
 def test_loads_push_the_driven_gears_on(record: Record):

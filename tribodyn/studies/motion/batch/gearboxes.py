@@ -16,11 +16,10 @@ from tribodyn.record.sweep_schema import OF_MESH as OF_MESH
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
 from tribodyn.studies.motion.case import Gearbox, refuse_long_period
 from tribodyn.studies.motion.planetary.frames import rolling_of
-from tribodyn.studies.motion.planetary.results import meshes_of_member, stage_quantities, worst_stage
+from tribodyn.studies.motion.planetary.results import meshes_of_set, stage_quantities, worst_stage
 from tribodyn.studies.motion.prepare import PreparedGearbox, structure_of
 from tribodyn.studies.motion.summary import concluded, meshes_of_run, steady_quantities
 from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
-from tribodyn.train.planetary import RING, SUN
 
 #: What a sweep keeps of every mesh; the name of the dataset is that of the quantity and `OF_MESH`.
 KEPT = (
@@ -129,7 +128,7 @@ def quantities_over(
     of_meshes = {}
     if prepared.case.named:
         for gearset in prepared.case.sets:
-            for m in (m for member in (SUN, RING) for m in meshes_of_member(prepared.case, gearset, member)):
+            for m in meshes_of_set(prepared.case, gearset):
                 each[m]["mesh_load_factor"] = stages[gearset.name]["mesh_load_factor"]
         of_meshes = {
             name + OF_MESH: np.array([mesh.get(name, np.nan) for mesh in each], dtype=float) for name in KEPT

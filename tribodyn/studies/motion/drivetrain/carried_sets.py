@@ -10,6 +10,9 @@ from tribodyn.numerics.shapes import Array, Int
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
 
+#: Distance from a set's axis below which a body turns about it, m.
+_ON_AXIS = 1e-9
+
 
 class CarriedSet(NamedTuple):
     """A planetary set of a record; bodies and meshes by number, planets in the order of their meshes."""
@@ -17,7 +20,9 @@ class CarriedSet(NamedTuple):
     name: str
     carrier: int
     planets: tuple[int, ...]
-    meshes: dict[int, tuple[int, ...]]  # of the bodies on its axis, with every planet
+    meshes: dict[int, tuple[int, ...]]  # of the bodies on its axis, with every planet that they meet
+    met: dict[int, tuple[int, ...]]  # these planets
+    between: tuple[int, ...]  # meshes of planets with each other
 
 
 def carriers(record: Record) -> Int[Array, " body"]:
@@ -42,31 +47,41 @@ def sets_of(record: Record) -> list[CarriedSet]:
         return []
     carried, centre = carriers(record), record.geometry["centre"]
     by_carrier: dict[int, dict[int, dict[int, int]]] = {}
+    between: dict[int, list[int]] = {}
     for m in range(len(record.meshes)):
         ends = driver_of(record, m), driver_of(record, m, "driven")
         carrier = int(carried[ends[0]])
         if carrier < 0:
             continue
         central, planet = sorted(ends, key=lambda body: np.hypot(*(centre[body] - centre[carrier])))
-        by_carrier.setdefault(carrier, {}).setdefault(central, {})[planet] = m
+        if np.hypot(*(centre[central] - centre[carrier])) > _ON_AXIS:
+            between.setdefault(carrier, []).append(m)
+        else:
+            by_carrier.setdefault(carrier, {}).setdefault(central, {})[planet] = m
     sets = []
     for carrier, meshes in by_carrier.items():
-        planets = tuple(next(iter(meshes.values())))
-        each = {body: tuple(mesh_of[planet] for planet in planets) for body, mesh_of in meshes.items()}
+        planets = tuple(dict.fromkeys(planet for mesh_of in meshes.values() for planet in mesh_of))
+        met = {body: tuple(planet for planet in planets if planet in of) for body, of in meshes.items()}
+        each = {body: tuple(meshes[body][planet] for planet in of) for body, of in met.items()}
         name = record.meshes[next(iter(each.values()))[0]].rsplit("-", 2)[0]
-        sets.append(CarriedSet(name, carrier, planets, each))
+        sets.append(CarriedSet(name, carrier, planets, each, met, tuple(between.get(carrier, ()))))
     return sets
 
 
 def mesh_labels(record: Record) -> list[str]:
     """Names of the meshes, one for all that a member of a set has with its planets."""
-    return _labels(list(record.meshes), [group for each in sets_of(record) for group in each.meshes.values()])
+    groups = [group for each in sets_of(record) for group in (*each.meshes.values(), each.between)]
+    return _labels(list(record.meshes), groups)
 
 
 def body_labels(record: Record) -> list[str]:
-    """Names of the bodies, one for all planets of a set."""
-    names = record["body"] if "body" in record else SIDES
-    return _labels(list(map(str, names)), [carried.planets for carried in sets_of(record)])
+    """Names of the bodies, one for all planets of a set that are alike."""
+    names = list(map(str, record["body"] if "body" in record else SIDES))
+    groups: dict[tuple[int, str], list[int]] = {}
+    for number, carried in enumerate(sets_of(record)):
+        for planet in carried.planets:
+            groups.setdefault((number, names[planet].rpartition("-")[0]), []).append(planet)
+    return _labels(names, list(groups.values()))
 
 
 def _labels(names: list[str], groups: Sequence[Sequence[int]]) -> list[str]:

@@ -23,7 +23,7 @@ def broken_names(scenario: Any) -> Iterator[InputError]:
             yield InputError(key, quoted(name), "has a meaning of its own", "use another name")
         elif name in names[:place]:
             yield InputError(key, quoted(name), "names two parts of the train", "use another name")
-    of_planets = [stage.planet for _, stage in planetary_stages(scenario)]
+    of_planets = [name for _, stage in planetary_stages(scenario) for name in stage.planet_gears]
     for number, stage in enumerate(scenario.stage):
         if not isinstance(stage, PlanetaryStage):
             single = [name for name in gears if name not in of_planets]
@@ -113,7 +113,7 @@ def _ends(scenario: Any, names: list[str]) -> Iterator[InputError]:
 
 def _compliant(scenario: Any, key: str, name: str) -> Iterator[InputError]:
     for _, stage in planetary_stages(scenario):
-        if name == stage.planet:
+        if name in stage.planet_gears:
             rule = f"is a planet, of which there are {stage.planets}"
             yield InputError(key, quoted(name), rule, "name the sun, the ring, the carrier or another body")
     for shaft in listed(scenario.shaft):

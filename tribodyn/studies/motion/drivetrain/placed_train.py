@@ -132,8 +132,8 @@ def place_train(train: TrainKinematics) -> PlacedTrain:
         for number, (gear, plane) in enumerate(zip(parts.gears, planes, strict=True))
     ]
     for own in parts.sets:
-        disc = next(disc for disc in discs if disc.body == new[own.planets[0]])
-        refuse_overlap(own, disc.tip_radius, axes.centres[[new[planet] for planet in own.planets]])
+        largest = max(disc.tip_radius for disc in discs if disc.body == new[own.planets[0]])
+        refuse_overlap(own, largest, axes.centres[[new[planet] for planet in own.planets]])
     check_room(discs, axes.centres, [mesh.gears for mesh in parts.meshes])
     shafts = joined(len(parts.bodies), couplings)
     found = PlacedTrain(assemblies, axes, planes, tuple(shafts[new[gear.body]] for gear in parts.gears))
@@ -225,8 +225,15 @@ def _check_phases(train: TrainKinematics, placed: PlacedTrain) -> None:
     """Raise InputError where the teeth of a loop do not meet."""
     parts, motion, new = train.parts, train.motion, train.numbers
     shafts = [
-        ToothedShaft(gear.name, shaft, gear.teeth, motion.sense[new[gear.body]], gear.tooth_angle)
-        for gear, shaft in zip(parts.gears, placed.shafts, strict=True)
+        ToothedShaft(
+            gear.name,
+            placed.shafts[number],
+            gear.teeth,
+            motion.sense[new[gear.body]],
+            gear.tooth_angle,
+            parts.places_of_planet(number),
+        )
+        for number, gear in enumerate(parts.gears)
     ]
     nominal_phases(
         shafts,

@@ -11,7 +11,6 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from tribodyn.gears.motion.settings import Mesh
 from tribodyn.geometry.families import family
 from tribodyn.input.quantity import Printed
 from tribodyn.input.tables.gears.drive_data import drive_of
@@ -75,6 +74,7 @@ class MeshPart(NamedTuple):
     azimuth: float | None  # from the first gear's axis to the second's, rad
     table: Stage | PlanetaryStage | BareMesh | DriveTable
     of_set: int = -1  # number of its planetary set; −1: none
+    member: str = ""  # which of the set's gears it is a mesh of
 
 
 class LinkPart(NamedTuple):
@@ -104,6 +104,12 @@ class Structure(NamedTuple):
         """The body of that name; of a compliant shaft the first."""
         return self.places[name][0]
 
+    def places_of_planet(self, gear: int) -> int:
+        """Places in which a planet may stand while the other of its two gears stays in its gaps; else 1."""
+        body = self.gears[gear].body
+        others = [one.teeth for k, one in enumerate(self.gears) if one.body == body and k != gear]
+        return others[0] if others and any(body in one.planets for one in self.sets) else 1
+
     def couplings(self) -> list[tuple[LinkPart, tuple[int, int]]]:
         """Links that make two bodies turn alike."""
         return [(link, link.ends) for link in self.links if link.stiffness[2] > 0.0]
@@ -114,7 +120,8 @@ def structure(scenario: Any) -> Structure:
     if isinstance(scenario.mesh, tuple):
         return _bare(scenario)
     stages = planetary_stages(scenario)
-    of_planets, with_hands = {stage.planet for _, stage in stages}, gears_with_hands(scenario)
+    of_planets = {name for _, stage in stages for name in stage.planet_gears}
+    with_hands = gears_with_hands(scenario)
     tables: dict[str, Gear] = {name: gear for name, gear in with_hands.items() if name not in of_planets}
     if scenario.drive is not None:
         tables = dict(zip(OF_DRIVE, (scenario.drive.pinion, scenario.drive.gear), strict=True))
@@ -133,15 +140,17 @@ def structure(scenario: Any) -> Structure:
     _own_bodies(scenario, bodies, places)
     for _, stage in stages:
         places[stage.planet] = tuple(range(len(bodies), len(bodies) + stage.planets))
-        bodies += [BodyPart(name, f"gear.{stage.planet}", 0.0, 0.0) for name in planet_names(stage)]
+        names = planet_names(stage, stage.planet)
+        bodies += [BodyPart(name, f"gear.{stage.planet}", 0.0, 0.0) for name in names]
+        places |= dict.fromkeys(stage.planet_gears, places[stage.planet])
     springs: list[LinkPart] = []
     for number, shaft in shafts:
         if shaft.stiffness is not None:
             springs.append(_spring(number, shaft, places))
             for end in springs[-1].ends:  # half of the shaft turns with either gear
-                body = bodies[end]
-                bodies[end] = body._replace(
-                    mass=body.mass + shaft.mass / 2, inertia=body.inertia + shaft.inertia / 2
+                half = bodies[end]
+                bodies[end] = half._replace(
+                    mass=half.mass + shaft.mass / 2, inertia=half.inertia + shaft.inertia / 2
                 )
             places[shaft.name] = springs[-1].ends
         elif not shaft.rigid:
@@ -153,8 +162,9 @@ def structure(scenario: Any) -> Structure:
             places[shaft.name] = tuple(places[name][0] for name in in_order(shaft))
     gears = [_gear(name, _gear_key(scenario, name), places[name][0], table) for name, table in tables.items()]
     for _, stage in stages:
-        each = zip(planet_names(stage), places[stage.planet], strict=True)
-        gears += [_gear(name, f"gear.{stage.planet}", body, with_hands[stage.planet]) for name, body in each]
+        for planet in stage.planet_gears:
+            each = zip(planet_names(stage, planet), places[planet], strict=True)
+            gears += [_gear(name, f"gear.{planet}", body, with_hands[planet]) for name, body in each]
     return Structure(
         tuple(bodies),
         tuple(gears),
@@ -189,8 +199,8 @@ def _stages(scenario: Any, gears: Sequence[GearPart]) -> Iterator[MeshPart]:
     for place, stage in enumerate(scenario.stage):
         key = f"stage.{place}"
         if isinstance(stage, PlanetaryStage):
-            for name, one, two, angle in meshes_of_set(stage):
-                yield MeshPart(name, key, (numbers[one], numbers[two]), angle, stage, sets)
+            for member, name, one, two, angle in meshes_of_set(stage):
+                yield MeshPart(name, key, (numbers[one], numbers[two]), angle, stage, sets, member)
             sets += 1
         else:
             ends = numbers[stage.gears[0]], numbers[stage.gears[1]]
@@ -286,7 +296,7 @@ def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, dr
         return table
     pinion, gear = parts.gears[driver].table, parts.gears[driven].table
     common = {
-        "module": table.module,
+        "module": table.module_at(mesh.member) if isinstance(table, PlanetaryStage) else table.module,
         "pressure_angle": table.pressure_angle,
         "mean_roughness": scenario.mean_roughness,
         "material": scenario.material,
@@ -313,28 +323,3 @@ def _distance_of_set(scenario: Any, parts: Structure, mesh: MeshPart) -> Printed
     with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
         path = family(cast(PlanetaryStage, at_sun.table).family).working_path(drive)
     return Printed(float(path.pinion_pitch_radius + path.gear_pitch_radius), 0.0)
-
-
-def stiffness_key(mesh: str, planetary: str = "") -> str:
-    """Which key of a stage gives the stiffness of a mesh; `planetary` is the name of a planetary stage."""
-    if not planetary:
-        return "stiffness"
-    return "sun_stiffness" if mesh.startswith(f"{planetary}-sun-") else "ring_stiffness"
-
-
-def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
-    """The table [mesh] that holds for a mesh."""
-    table = mesh.table
-    if isinstance(table, BareMesh):
-        plain = Mesh.model_validate({"damping_ratio": 0.0})
-        keys = {name: getattr(table, name) for name in ("stiffness", "table", "damping_ratio", "backlash")}
-        compliance = "constant" if table.table is None else "table"
-        return plain.model_copy(update=keys | {"compliance": compliance})
-    values = {}
-    if isinstance(table, (Stage, PlanetaryStage)):
-        values = {name: getattr(table, name) for name in ("damping_ratio", "backlash")}
-        planetary = table.name if isinstance(table, PlanetaryStage) else ""
-        values["stiffness"] = getattr(table, stiffness_key(mesh.name, planetary))
-    return scenario.mesh.model_copy(
-        update={name: value for name, value in values.items() if value is not None}
-    )

@@ -38,7 +38,7 @@ from tribodyn.input.tables.gears.model_files import (
 )
 from tribodyn.input.tables.laws import LinkTable
 from tribodyn.train.elastic.pin import Pin, pin_stiffness
-from tribodyn.train.planetary import CARRIER, RING, SUN
+from tribodyn.train.planetary import CARRIER, RING, SETS, SUN
 
 #: Stages, bodies, links, meshes and loads, each: as many as any train has.
 MOST_PARTS = 100
@@ -80,7 +80,7 @@ class StageTeeth(Table):
 class Stage(StageTeeth):
     """Two gears that mesh; the pinion of a drive file is the gear that drives."""
 
-    type: Literal["pair", "planetary"] = "pair"
+    type: Literal["pair", "planetary", "stepped"] = "pair"
     stiffness: Stiffness | None = None
     name: PartName | None = None
     gears: tuple[Text, ...] = Field(min_length=2, max_length=2)
@@ -122,10 +122,12 @@ class PlanetPin(Table):
 class PlanetaryStage(StageTeeth):
     """Sun, planets and ring on one axis, and the carrier of the planets; one may be held."""
 
-    type: Literal["planetary"]
+    type: Literal["planetary", "stepped"]
     name: PartName
     sun: Text
     planet: Text
+    second_planet: Text | None = None
+    second_module: Length | None = None
     ring: Text
     carrier: Text
     planets: Annotated[int, Field(strict=True, ge=1, le=12)]
@@ -148,6 +150,25 @@ class PlanetaryStage(StageTeeth):
         return {SUN: self.sun, RING: self.ring, CARRIER: self.carrier}
 
     @property
+    def planet_gears(self) -> tuple[str, ...]:
+        """Names of the planets' gears, those that mesh with the sun first."""
+        return (self.planet,) if self.second_planet is None else (self.planet, self.second_planet)
+
+    @property
+    def meshing(self) -> tuple[tuple[str, str, str], ...]:
+        """Which gears mesh: what is at one end, and the names of both, seen outwards."""
+        return (SUN, self.sun, self.planet), (RING, self.planet_gears[-1], self.ring)
+
+    def module_at(self, member: str) -> float:
+        """Module of the gears that mesh at a member, m."""
+        return self.second_module if member == RING and self.second_module is not None else self.module
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Names of members and planets."""
+        return (*self.members.values(), *self.planet_gears)
+
+    @property
     def placed(self) -> tuple[float, ...]:
         """Angles of the planets, rad."""
         return self.angles or tuple(2.0 * pi * i / self.planets for i in range(self.planets))
@@ -156,7 +177,7 @@ class PlanetaryStage(StageTeeth):
 def _stage_type(stage: Any) -> str:
     """Which of both a [[stage]] is."""
     if isinstance(stage, dict):
-        planetary = stage.get("type") == "planetary" or "planet" in stage
+        planetary = stage.get("type") in SETS or "planet" in stage
     else:
         planetary = isinstance(stage, PlanetaryStage)
     return "(planetary)" if planetary else "(pair)"

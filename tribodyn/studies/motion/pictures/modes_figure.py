@@ -46,12 +46,12 @@ def _draw_campbell(axes: Axes, record: Record, modes: np.ndarray) -> None:
     low, high = ROOM[0] * float(ends.min()), ROOM[1] * float(ends.max())
     at = np.array(SPEEDS)
     alike: dict[float, list[str]] = {}
-    sets = {
-        record.meshes[m]: gearset.name
-        for gearset in sets_of(record)
-        for of in gearset.meshes.values()
-        for m in of
-    }
+    sets = {}
+    for gearset in sets_of(record):
+        own = [m for of in (*gearset.meshes.values(), gearset.between) for m in of]
+        several = np.ptp([rates[m] for m in own]) > 1e-6
+        for name in (record.meshes[m] for m in own):
+            sets[name] = name.rpartition("-")[0] if several else gearset.name
     for name, rate in zip(record.meshes, rates, strict=True):
         alike.setdefault(round(float(rate), 6), []).append(literal(sets.get(name, name)))
     for number, (rate, names) in enumerate(alike.items()):
@@ -99,10 +99,10 @@ def _passes(record: Record) -> list[tuple[str, float]]:
     return [
         (
             literal(f"{gearset.name}: planets pass {record['body'][body]}"),
-            len(gearset.planets) * abs(float(turning[gearset.carrier] - turning[body])),
+            len(meshes) * abs(float(turning[gearset.carrier] - turning[body])),
         )
         for gearset in sets_of(record)
-        for body in gearset.meshes
+        for body, meshes in gearset.meshes.items()
     ]
 
 

@@ -36,8 +36,8 @@ def planet_load_figure(records: Sequence[Record], view: View) -> Figure:
         _Panel(
             f"{_named(record, gearset, body)}: load of the teeth of every planet",
             planet_loads(record, meshes),
-            [str(record["body"][planet]) for planet in gearset.planets],
-            len(gearset.planets),
+            [str(record["body"][planet]) for planet in gearset.met[body]],
+            len(meshes),
         )
         for gearset in sets_of(record)
         for body, meshes in gearset.meshes.items()

@@ -101,11 +101,10 @@ def _draw_carriers(axes: Axes, record: Record, sample: int) -> None:
 def _name_axes(axes: Axes, record: Record, sample: int) -> None:
     """Write the names of the bodies at their axes, those of one axis in one plane on lines of their own."""
     of_axis: dict[tuple[float, ...], list[str]] = {}
-    planets = {
-        planet: number for gearset in sets_of(record) for number, planet in enumerate(gearset.planets, 1)
-    }
+    planets = {planet for gearset in sets_of(record) for planet in gearset.planets}
     for body, centre in enumerate(axes_of(record, sample)):
-        name = str(planets.get(body, record["body"][body]))
+        name = str(record["body"][body])
+        name = name.rpartition("-")[2] if body in planets else name
         of_axis.setdefault(tuple(np.round(centre, 6)), []).append(literal(name))
     for (x, y), names in of_axis.items():
         box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.dynamics.modes import Modes, mode_kinds
 from tribodyn.studies.motion.case import Gearbox, SetData
 from tribodyn.studies.motion.prepare import PreparedGearbox
-from tribodyn.train.planetary import RING, SUN
+from tribodyn.train.planetary import CARRIER, SUN
 
 
 def meshes_of_member(case: Gearbox, gearset: SetData, member: str) -> list[int]:
@@ -21,6 +21,11 @@ def meshes_of_member(case: Gearbox, gearset: SetData, member: str) -> list[int]:
         if one == body and other in gearset.planets
     }
     return [mesh_of_planet[planet] for planet in gearset.planets]
+
+
+def meshes_of_set(case: Gearbox, gearset: SetData) -> list[int]:
+    """All meshes of a set."""
+    return [m for m, mesh in enumerate(case.meshes) if mesh.carrier == gearset.members[CARRIER]]
 
 
 def stage_quantities(
@@ -46,11 +51,11 @@ def _of_stage(
     each: Sequence[Mapping[str, Any]],
 ) -> dict[str, Any]:
     case = prepared.case
-    at = {member: meshes_of_member(case, gearset, member) for member in (SUN, RING)}
+    at = {member: meshes_of_member(case, gearset, member) for member in gearset.members if member != CARRIER}
     torque = np.array([_on_planet(case, gearset, m, windows[m]) for m in at[SUN]])
     mean = np.mean(torque, axis=1)
     whole = float(np.mean(mean))
-    lost = sum(float(each[m]["power_friction_mean"]) for meshes in at.values() for m in meshes)
+    lost = sum(float(each[m]["power_friction_mean"]) for m in meshes_of_set(case, gearset))
     put_in = sum(max(power, 0.0) for power in _powers(prepared, gearset, at, windows))
     quantities = {
         "mesh_load_factor": float(np.max(mean)) / whole if whole else np.nan,
@@ -73,16 +78,16 @@ def _powers(
     at: Mapping[str, list[int]],
     windows: Sequence[Mapping[str, np.ndarray]],
 ) -> list[float]:
-    """Mean powers that go into a set at sun, ring and carrier, W; they add up to its losses."""
+    """Mean powers that go into a set at its gears and its carrier, W; they add up to its losses."""
     case = prepared.case
     reference = float(prepared.model.operation.nominal_speed)
     powers, on_carrier = [], 0.0
-    carrier = case.bodies[gearset.members["carrier"]]
-    for member in (SUN, RING):
+    carrier = case.bodies[gearset.members[CARRIER]]
+    for member, meshes in at.items():
         body = gearset.members[member]
         turning = case.bodies[body]
         on_body = 0.0  # in its own sense
-        for m in at[member]:
+        for m in meshes:
             driven = case.meshes[m].driven == body
             on_body += float(np.mean(windows[m]["driven_torque" if driven else "driver_torque"])) * (
                 1.0 if driven else -1.0
@@ -107,7 +112,7 @@ def planet_pass(prepared: PreparedGearbox) -> dict[str, float]:
     reference = float(prepared.model.operation.nominal_speed)
     return {
         gearset.name: len(gearset.planets)
-        * float(prepared.case.bodies[gearset.members["carrier"]].ratio)
+        * float(prepared.case.bodies[gearset.members[CARRIER]].ratio)
         * reference
         / (2.0 * np.pi)
         for gearset in prepared.case.sets

@@ -13,7 +13,7 @@ from tribodyn.input.tables.shafts import listed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
 from tribodyn.train.joints import SetMembers
-from tribodyn.train.planetary import CARRIER, MEMBERS, SetTeeth, check_assembly
+from tribodyn.train.planetary import CARRIER, MEMBERS, STEPPED, SetTeeth, check_assembly
 
 
 class SetPart(NamedTuple):
@@ -49,15 +49,15 @@ def planetary_stages(scenario: Any) -> list[tuple[str, PlanetaryStage]]:
     return [(key, stage) for key, stage in stages if isinstance(stage, PlanetaryStage)]
 
 
-def planet_names(stage: PlanetaryStage) -> list[str]:
-    """Names of the planets, which are gears and bodies: planet-1, planet-2."""
-    return [f"{stage.planet}-{number}" for number in range(1, stage.planets + 1)]
+def planet_names(stage: PlanetaryStage, gear: str) -> list[str]:
+    """Names of the planets' gears, by the first of which their bodies are called: planet-1, planet-2."""
+    return [f"{gear}-{number}" for number in range(1, stage.planets + 1)]
 
 
 def teeth_of_set(scenario: Any, stage: PlanetaryStage) -> SetTeeth:
     """Numbers of teeth of a stage whose names are sound."""
-    sun, planet, ring = (scenario.gear[name].teeth for name in (stage.sun, stage.planet, stage.ring))
-    return SetTeeth(sun, planet, -ring)
+    sun, ring, *planets = (scenario.gear[name].teeth for name in (stage.sun, stage.ring, *stage.planet_gears))
+    return SetTeeth(sun, planets[0], -ring, *planets[1:])
 
 
 def set_of(scenario: Any, key: str, stage: PlanetaryStage, places: dict[str, tuple[int, ...]]) -> SetPart:
@@ -67,16 +67,15 @@ def set_of(scenario: Any, key: str, stage: PlanetaryStage, places: dict[str, tup
     return SetPart(key, stage, members, places[stage.planet], teeth_of_set(scenario, stage), width)
 
 
-def meshes_of_set(stage: PlanetaryStage) -> Iterator[tuple[str, str, str, float]]:
-    """The meshes of a stage: name, both gears, direction from the first one's axis to the second's, rad.
+def meshes_of_set(stage: PlanetaryStage) -> Iterator[tuple[str, str, str, str, float]]:
+    """The meshes of a stage: what is at one end, name, both gears, direction between their axes, rad.
 
     First those of the sun with every planet, then those of the planets with the ring.
     """
-    each = list(zip(planet_names(stage), stage.placed, strict=True))
-    for number, (planet, angle) in enumerate(each, start=1):
-        yield f"{stage.name}-sun-{number}", stage.sun, planet, angle
-    for number, (planet, angle) in enumerate(each, start=1):
-        yield f"{stage.name}-ring-{number}", planet, stage.ring, angle
+    for member, one, two in stage.meshing:
+        for number, angle in enumerate(stage.placed, start=1):
+            ends = [f"{name}-{number}" if name in stage.planet_gears else name for name in (one, two)]
+            yield member, f"{stage.name}-{member}-{number}", ends[0], ends[1], angle
 
 
 def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
@@ -84,8 +83,11 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
     of_sets: dict[str, str] = {}
     bodies = [body.name for body in scenario.body]
     for key, stage in planetary_stages(scenario):
-        for name in ("sun", "planet", "ring"):
+        yield from _sort(key, stage)
+        for name in ("sun", "planet", "second_planet", "ring"):
             gear = getattr(stage, name)
+            if gear is None:
+                continue
             if gear not in gears:
                 yield unknown_name(f"{key}.{name}", gear, gears, "gear")
                 continue
@@ -96,22 +98,39 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
                 yield InputError(f"{key}.{name}", quoted(gear), f"must be {kind} gear", remedy)
         if stage.carrier not in bodies:
             yield unknown_name(f"{key}.carrier", stage.carrier, bodies, "[[body]]")
-        for name in ("sun", "planet", "ring", "carrier"):
+        for name in ("sun", "planet", "second_planet", "ring", "carrier"):
             gear = getattr(stage, name)
-            if (
-                of_sets.setdefault(gear, key) != key
-                or [*stage.members.values(), stage.planet].count(gear) > 1
-            ):
+            if gear and (of_sets.setdefault(gear, key) != key or stage.parts.count(gear) > 1):
                 rule = f"{gear} is named twice in planetary stages"
                 yield InputError(f"{key}.{name}", quoted(gear), rule, "use a gear of its own for each")
         yield from _counts(key, stage)
         yield from _elastic(scenario, key, stage)
-        if all(name in gears for name in (stage.sun, stage.planet, stage.ring)):
+        if all(name in gears for name in stage.parts if name != stage.carrier):
             yield from _assembly(scenario, key, stage)
             yield from _hands(scenario, stage)
         yield from _held(scenario, key, stage)
     yield from _joined_rigidly(scenario, of_sets)
     yield from _bearings(scenario, of_sets)
+
+
+def _sort(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
+    """Refuse keys that a sort of stages does not have, and ask for those that it needs."""
+    stepped = stage.type == STEPPED
+    if stepped and stage.second_planet is None:
+        remedy = 'add second_planet = "step", the gear of every planet that meshes with the ring'
+        yield InputError(f"{key}.second_planet", None, "missing", remedy)
+    for name in ("second_planet", "second_module"):
+        if not stepped and getattr(stage, name) is not None:
+            rule = f"is of stepped planets, and type is {quoted(stage.type)}"
+            yield InputError(f"{key}.{name}", None, rule, f"write type = {quoted(STEPPED)}, or leave it out")
+    if not stepped:
+        return
+    if stage.family != "involute":
+        rule = "stepped planets have involutes"
+        yield InputError(f"{key}.family", quoted(stage.family), rule, "leave family out")
+    if stage.helix_angle:
+        rule = "stepped planets are modelled with spur gears"
+        yield InputError(f"{key}.helix_angle", None, rule, "leave helix_angle out")
 
 
 def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
@@ -238,6 +257,9 @@ def _bearings(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
     by_name = scenario.bearings.by_name
     for _, stage in planetary_stages(scenario):
         floating = {stage.members[name] for name in stage.floating}
+        if stage.second_planet in by_name:
+            rule = f"turns on the pins of {stage.planet}, and has their bearings"
+            yield InputError(f"bearings.{stage.second_planet}", None, rule, f"name {stage.planet}")
         moves = f"missing: {{}} of the planetary stage {stage.name} moves in x and y"
         if stage.helix_angle:  # a member that floats is held along the axis and against tilts
             floating, moves = set(), f"missing: teeth push {{}} of the planetary stage {stage.name} along z"
@@ -273,10 +295,10 @@ def _joined_rigidly(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputErr
 def coaxial(sets: tuple[SetPart, ...]) -> list[tuple[int, int]]:
     """Bodies on one axis, in pairs."""
     return [
-        (gearset.members["carrier"], body)
+        (gearset.members[CARRIER], body)
         for gearset in sets
         for name, body in gearset.members.items()
-        if name != "carrier"
+        if name != CARRIER
     ]
 
 

@@ -14,23 +14,19 @@ from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
-from tribodyn.studies.motion.drivetrain.structure import stiffness_key
-from tribodyn.studies.motion.planetary.results import meshes_of_member
+from tribodyn.studies.motion.train.pair_view import stiffness_key
 from tribodyn.studies.protocol.load import load_data
-from tribodyn.train.planetary import RING, SUN
+from tribodyn.train.planetary import CARRIER
 
 
 def meshes(case: Gearbox) -> list[MeshAtDuty]:
     """Every mesh with its pair; those of a planetary set with its name."""
-    stages = {
-        m: gearset.name
-        for gearset in case.sets
-        for member in (SUN, RING)
-        for m in meshes_of_member(case, gearset, member)
-    }
+    stages = {gearset.members[CARRIER]: gearset.name for gearset in case.sets}
     return [
-        MeshAtDuty(mesh.name, mesh.pair, alike, stages.get(m, ""), _meshing(case, mesh), _distance(mesh))
-        for m, (mesh, alike) in enumerate(zip(case.meshes, alike_of(case), strict=True))
+        MeshAtDuty(
+            mesh.name, mesh.pair, alike, stages.get(mesh.carrier, ""), _meshing(case, mesh), _distance(mesh)
+        )
+        for mesh, alike in zip(case.meshes, alike_of(case), strict=True)
     ]
 
 
@@ -134,6 +130,8 @@ def pair_tables(case: Gearbox, mesh: TrainMesh, table: Mapping[str, Any]) -> dic
     for side, number in zip(SIDES, mesh.gears, strict=True):
         gear = table.get("gear", {}).get(case.gears[number].key.removeprefix("gear."), {})
         drive[side] = {name: value for name, value in gear.items() if name in Gear.model_fields}
+    if "second_module" in stage and mesh.name.startswith(f"{stage['name']}-ring-"):
+        drive["module"] = stage["second_module"]
     distance = mesh.pair.drive.centre_distance
     if "planet" in stage and mesh.pair.drive.helix_angle:
         drive["hand"] = "right" if mesh.pair.drive.helix_angle > 0.0 else "left"

@@ -17,7 +17,8 @@ from tribodyn.input.tables.losses import LossesTable, broken_losses
 from tribodyn.mesh.teeth.fields import CARRYING, OwnTeeth
 from tribodyn.studies.motion.drivetrain.duty import TrainOperating
 from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics
-from tribodyn.studies.motion.drivetrain.structure import mesh_table
+from tribodyn.studies.motion.drivetrain.structure import MeshPart
+from tribodyn.studies.motion.drivetrain.tables import BareMesh, PlanetaryStage, Stage
 from tribodyn.tribology.losses import LossData
 
 
@@ -40,7 +41,7 @@ class PairView(NamedTuple):
 def pair_view(scenario: Any, train: TrainKinematics, mesh: int) -> PairView:
     """Look at a mesh, by its number in the train's order, as at a pair of gears."""
     part = train.parts.meshes[train.motion.meshes[mesh]]
-    table, helical = mesh_table(scenario, part), [bool(drive.helix_angle) for drive in train.drives]
+    table, helical = _mesh_table(scenario, part), [bool(drive.helix_angle) for drive in train.drives]
     if any(helical) and not helical[mesh] and table.compliance != "fem":
         # slices are of the helical meshes
         table = table.model_copy(update={"slices": None, "slice_coupling": True})
@@ -55,6 +56,31 @@ def pair_view(scenario: Any, train: TrainKinematics, mesh: int) -> PairView:
         scenario.film,
         scenario.friction,
         scenario.temperature,
+    )
+
+
+def stiffness_key(mesh: str, planetary: str = "") -> str:
+    """Which key of a stage gives the stiffness of a mesh; `planetary` is the name of a planetary stage."""
+    if not planetary:
+        return "stiffness"
+    return "sun_stiffness" if mesh.startswith(f"{planetary}-sun-") else "ring_stiffness"
+
+
+def _mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
+    """The table [mesh] that holds for a mesh."""
+    table = mesh.table
+    if isinstance(table, BareMesh):
+        plain = Mesh.model_validate({"damping_ratio": 0.0})
+        keys = {name: getattr(table, name) for name in ("stiffness", "table", "damping_ratio", "backlash")}
+        compliance = "constant" if table.table is None else "table"
+        return plain.model_copy(update=keys | {"compliance": compliance})
+    values = {}
+    if isinstance(table, (Stage, PlanetaryStage)):
+        values = {name: getattr(table, name) for name in ("damping_ratio", "backlash")}
+        planetary = table.name if isinstance(table, PlanetaryStage) else ""
+        values["stiffness"] = getattr(table, stiffness_key(mesh.name, planetary))
+    return scenario.mesh.model_copy(
+        update={name: value for name, value in values.items() if value is not None}
     )
 
 

@@ -171,7 +171,7 @@ def _bearings(scenario: Scenario) -> Iterator[InputError]:
 def _of_sets(scenario: Scenario) -> set[str]:
     """Names of what is in planetary stages, and of the shafts that join it."""
     stages = [stage for stage in scenario.stage if isinstance(stage, PlanetaryStage)]
-    names = {name for stage in stages for name in (*stage.members.values(), stage.planet)}
+    names = {name for stage in stages for name in stage.parts}
     return names | {shaft.name for shaft in listed(scenario.shaft) if names & set(shaft.gears)}
 
 

@@ -188,6 +188,7 @@ def _gears(train: TrainKinematics, placed: PlacedTrain) -> tuple[GearData, ...]:
                 meshes,
                 float(gear.table.face_width),
                 gear.axial_position,
+                train.parts.places_of_planet(number),
             )
         )
     return tuple(gears)

@@ -1,0 +1,161 @@
+"""Epicyclic sets with two planets on every arm: speeds, torques, teeth, forces, energy, by second methods."""
+
+from fractions import Fraction
+from itertools import permutations
+from math import pi
+
+import numpy as np
+import pytest
+
+from tests.support.epicyclic_sets import STEPPED, stepped_set
+from tests.support.train_scenarios import case_of_table
+from tribodyn.errors import InputError
+from tribodyn.gears.case import STAGES
+from tribodyn.record.reader import Record
+from tribodyn.studies.motion.frequencies import of_sets
+from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.run import run
+from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly
+
+LOAD = 600.0
+
+
+def turning(case):
+    """Speeds of the bodies by their names, counter-clockwise, over the input's."""
+    signed = {body.name: body.ratio * body.sense for body in case.bodies}
+    source = signed[case.bodies[case.source.body].name]
+    return {name: speed / source for name, speed in signed.items()}
+
+
+def willis_of_stepped(teeth):
+    """Factors by which speeds add up to nothing, and to which torques are in proportion."""
+    sun, planet, step, ring = teeth
+    factors = {"sun": sun * step, "ring": ring * planet}
+    return factors | {"carrier": -sum(factors.values())}
+
+
+@pytest.mark.parametrize(("held", "driving"), list(permutations(MEMBERS, 2)))
+def test_stepped_planets_turn_by_willis(held, driving):
+    (driven,) = (member for member in MEMBERS if member not in (held, driving))
+    factors = willis_of_stepped(STEPPED)
+    case = case_of_table(stepped_set(STEPPED, held=held, ends=(driving, driven)))
+    speeds = turning(case)
+    assert speeds[held] == 0
+    assert speeds[driven] == Fraction(-factors[driving], factors[driven])
+    assert speeds["planet-2"] - speeds["carrier"] == -Fraction(STEPPED[0], STEPPED[1]) * (
+        speeds["sun"] - speeds["carrier"]
+    )
+    # torques: in, and through all meshes at the sun and at the ring, of what is on the output
+    torque = LOAD / abs(factors[driven])
+    assert case.source.torque == pytest.approx(torque * abs(factors[driving]), rel=1e-9)
+    for member, teeth in (("sun", STEPPED[0]), ("ring", STEPPED[3])):
+        meshes = [mesh for mesh in case.meshes if f"-{member}-" in mesh.name]
+        ratio = {m.name: abs(case.gears[m.gears[1]].teeth) / teeth for m in meshes}
+        on_member = sum(float(mesh.pair.operating.gear_torque) / ratio[mesh.name] for mesh in meshes)
+        assert on_member == pytest.approx(torque * abs(factors[member]), rel=1e-9)
+
+
+def test_stepped_planets_have_two_mesh_frequencies():
+    case = case_of_table(stepped_set(STEPPED))
+    speeds = turning(case)
+    expected = {
+        name: 15.0 * teeth * abs(float(speeds[name] - speeds["carrier"]))
+        for name, teeth in (("sun", STEPPED[0]), ("ring", STEPPED[3]))
+    }
+    found = of_sets(prepare(case))["set"]
+    assert found.mesh == pytest.approx(expected["sun"], rel=1e-12)
+    assert found.planet_pass == pytest.approx(3 * expected["ring"] / STEPPED[3], rel=1e-12)
+    assert found.planet_pass == pytest.approx(3 * 15.0 * float(speeds["carrier"]), rel=1e-12)
+    rates = {mesh.name[4:7]: float(mesh.rate) for mesh in case.meshes}
+    assert rates["rin"] / rates["sun"] == pytest.approx(expected["ring"] / expected["sun"], rel=1e-12)
+
+
+def test_stepped_planets_fit_where_one_of_their_places_does(rng):
+    """Every place of a planet tried: turned about its axis by pitches, with its first gear in its gaps."""
+    fitted = 0
+    for _ in range(200):
+        sun, planet, step = (int(teeth) for teeth in rng.integers(12, 40, 3))
+        ring, count = int(rng.integers(60, 130)), int(rng.integers(2, 6))
+        about = 2.0 * pi / count
+        turned = (sun * about + 2.0 * pi * np.arange(planet)) / planet
+        beside = (step * turned + ring * about) / (2.0 * pi)
+        missed = float(np.min(np.abs(beside - np.round(beside))))
+        teeth = SetTeeth(sun, planet, -ring, step)
+        if abs(missed - 0.01) < 1e-9:
+            continue
+        if missed < 0.01:
+            fitted += 1
+            check_assembly(teeth, [0.0, about], "planets")
+        else:
+            with pytest.raises(InputError, match="pitches beside the gaps"):
+                check_assembly(teeth, [0.0, about], "planets")
+    assert 10 < fitted < 190
+
+
+SETS = {"stepped": stepped_set((25, 35, 20, 80), frame_forces=False, solver={"cycles": 14})}
+
+
+@pytest.fixture(scope="module", params=list(SETS))
+def record(request, tmp_path_factory):
+    case = case_of_table(SETS[request.param])
+    result = run(case, tmp_path_factory.mktemp("set") / "set.h5")
+    assert result.status == "complete"
+    return case, Record(result.path)
+
+
+def test_energy_closes_and_planets_share(record):
+    _, found = record
+    summary = found.summary
+    stage = summary[STAGES]["set"]
+    assert abs(summary["energy_residual"]) < 1e-6
+    assert stage["power_friction_mean"] == pytest.approx(summary["power_friction_mean"], rel=1e-9)
+    np.testing.assert_allclose(stage["planet_shares"], 1.0 / 3.0, atol=2e-3)
+
+
+def test_pins_bear_what_the_carrier_passes_on(record):
+    """Their moment about the axis is the carrier's torque, and their sum no force."""
+    case, found = record
+    names = [str(name) for name in found["bearing"]]
+    bodies = {body.name: body for body in case.bodies}
+    part = slice(-(found.samples // 2), None)
+    moment, push = 0.0, np.zeros(2)
+    for place, name in enumerate(names):
+        if name.startswith("pin-"):
+            x, y = bodies[name.removeprefix("pin-")].centre
+            force = np.array([np.mean(found[f"bearing_force_{way}"][part, place]) for way in "xy"])
+            moment += x * force[1] - y * force[0]
+            push += force
+    torque = abs(moment)
+    assert torque == pytest.approx(LOAD, rel=2e-2)
+    assert np.hypot(*push) < 1e-2 * LOAD / 0.09
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "said"),
+    [
+        ({"second_planet": None}, "stage.0.second_planet", "missing"),
+        ({"type": "planetary"}, "stage.0.second_planet", "is of stepped planets"),
+        ({"helix_angle": "10 deg"}, "stage.0.helix_angle", "spur gears"),
+        ({"family": "cycloidal"}, "stage.0.family", "involutes"),
+        ({"second_planet": "planet"}, "stage.0.planet", "named twice"),
+        ({"second_planet": "ring"}, "stage.0.second_planet", "external gear"),
+        ({"second_planet": "steps"}, "stage.0.second_planet", "step"),
+        (
+            {"planets": 4, "angles": ["0 deg", "90 deg", "180 deg", "270.2 deg"]},
+            "stage.0.angles",
+            "270.316 deg",
+        ),
+        ({"planets": 5}, "stage.0.planets", "overlap"),
+        ({"bearings": {"step": {"stiffness_x": "1e8 N/m"}}}, "bearings.step", "name planet"),
+        ({"operating": {"output": "step"}}, "operating.output", "is a planet"),
+    ],
+)
+def test_what_is_no_stepped_set_is_refused(changes, key, said):
+    changes = {name: value for name, value in changes.items() if value is not None}
+    table = stepped_set(STEPPED, **changes)
+    if not changes:
+        del table["stage"][0]["second_planet"]
+    with pytest.raises(InputError) as caught:
+        case_of_table(table)
+    assert key in str(caught.value)
+    assert said in str(caught.value)
