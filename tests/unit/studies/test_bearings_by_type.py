@@ -7,7 +7,8 @@ import pytest
 from tests.support.drawn_shafts import OVERHUNG, ROLLER
 from tribodyn.errors import InputError
 from tribodyn.gears.rating.bearings import bearing_part
-from tribodyn.input.tables.drawn_bearings import BearingOfShaft, broken_bearing_of_shaft
+from tribodyn.input.tables.drawn_bearing_rules import broken_bearing_of_shaft
+from tribodyn.input.tables.drawn_bearings import BearingOfShaft
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
 
@@ -42,6 +43,14 @@ FLOATING = {
     "sliding": TYPES["spherical"] | {"locating": False},
     "roller": ROLLER | RATED,
 }
+#: A 6206.
+CATALOGUE = {
+    "type": "deep-groove-ball",
+    "bore": "30 mm",
+    "outside_diameter": "62 mm",
+    "static_rating": "11.2 kN",
+    "dynamic_rating": "20.3 kN",
+}
 MOTION = {"mesh.slices": 7, "friction.law": "none", "bearings": "rigid-1e9"}
 
 
@@ -66,6 +75,17 @@ def test_a_locating_bearing_takes_the_thrust_and_is_rated(name: str):
         assert thrust["tilting_moment"] < 1e-6
 
 
+def test_a_bearing_by_its_catalogue_beside_the_same_by_its_inside():
+    """A 6206 has nine balls of 9.525 mm on 46 mm."""
+    inside = {key: CATALOGUE[key] for key in ("type", "static_rating", "dynamic_rating")} | {
+        "elements": 9,
+        "element_diameter": "9.525 mm",
+        "pitch_diameter": "46 mm",
+    }
+    found, known = (rated(bearing, FLOATING["roller"])["pinion-1"] for bearing in (CATALOGUE, inside))
+    assert found == pytest.approx(known, rel=0.02, abs=1e-3)
+
+
 def scenario_thrust() -> float:
     box = scenario("helical-23-47", MOTION | {"shaft": {"pinion": OVERHUNG}})
     ends = bearing_part(shafts_of(box), None)["bearings"]
@@ -77,7 +97,7 @@ def refused(bearing: dict[str, Any]) -> list[InputError]:
     return list(broken_bearing_of_shaft("bearing.0", table))
 
 
-@pytest.mark.parametrize("bearing", [*TYPES.values(), *FLOATING.values()])
+@pytest.mark.parametrize("bearing", [*TYPES.values(), *FLOATING.values(), CATALOGUE])
 def test_bearings_of_every_type_are_taken(bearing: dict[str, Any]):
     assert not refused(bearing)
 
@@ -85,6 +105,18 @@ def test_bearings_of_every_type_are_taken(bearing: dict[str, Any]):
 @pytest.mark.parametrize(
     ("bearing", "key", "words"),
     [
+        (CATALOGUE | {"elements": 9}, "elements", "contradicts bore and outside_diameter"),
+        (CATALOGUE | {"static_rating": "200 kN"}, "static_rating", "which no bearing of 30 x 62 mm has"),
+        (CATALOGUE | {"outside_diameter": "30 mm"}, "outside_diameter", "not larger than the bore"),
+        ({key: CATALOGUE[key] for key in ("type", "bore", "static_rating")}, "outside_diameter", "missing"),
+        (
+            {key: CATALOGUE[key] for key in ("type", "bore", "outside_diameter")},
+            "static_rating",
+            "estimated from it",
+        ),
+        (CATALOGUE | {"type": "needle-roller"}, "bore", "no estimate of needle roller"),
+        (CATALOGUE | {"type": "spherical-roller"}, "contact_angle", "missing"),
+        (CATALOGUE | {"type": "spherical-roller", "contact_angle": "90 deg"}, "contact_angle", "thrust"),
         (ANGULAR, "thrust", "missing"),
         (ANGULAR | {"arrangement": "O"}, "row_distance", 'and arrangement = "O" needs it'),
         (TYPES["O"] | {"thrust": "+z"}, "thrust", "no effect"),

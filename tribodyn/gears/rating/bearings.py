@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from tribodyn.gears.case import GearCase
 from tribodyn.gears.supports import BearingUnderLoad, GearSupport
 from tribodyn.geometry.drive import SIDES
-from tribodyn.input.tables.drawn_bearings import BearingOfShaft, held_by
+from tribodyn.input.tables.drawn_bearings import BearingOfShaft, held_by, sized
 from tribodyn.quantities.load import BEARINGS
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards.rolling_bearings import (
@@ -69,7 +69,7 @@ def rated_bearings(
 
 
 def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantData | None) -> RatedBearing:
-    table, force = bearing.table, bearing.force
+    table, force = sized(bearing.table), bearing.force
     radial, axial = math.hypot(force[0], force[1]), abs(force[2])
     numbers = {"radial_load": radial, "axial_load": axial, "tilting_moment": math.hypot(force[3], force[4])}
     if table.type is None:  # springs and matrices have no life
@@ -143,7 +143,7 @@ def _modified(
 
 def _reference_life(bearing: BearingUnderLoad) -> float:
     """L_10r, revolutions, by the loads of the rolling elements."""
-    table: Any = bearing.table
+    table: Any = sized(bearing.table)
     rows = _rows(table)
     rating = row_rating(table.type, table.dynamic_rating, len(rows))
     sizes = rating, table.element_diameter, table.pitch_diameter, table.contact_angle or 0.0

@@ -10,14 +10,8 @@ from tribodyn.errors import InputError
 from tribodyn.input import units
 from tribodyn.input.fields import PartName
 from tribodyn.input.quantity import InUnit, NotNegative, Table, written
-from tribodyn.input.tables.drawn_bearings import (
-    LOCATING,
-    BearingOfShaft,
-    Place,
-    Size,
-    broken_bearing_of_shaft,
-    shown_length,
-)
+from tribodyn.input.tables.drawn_bearing_rules import LOCATING, broken_bearing_of_shaft, shown_length
+from tribodyn.input.tables.drawn_bearings import BearingOfShaft, Place, Size
 
 Frequency = Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY), "5 kHz")]
 

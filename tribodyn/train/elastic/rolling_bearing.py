@@ -117,21 +117,23 @@ def outer_conformity(row: BallRow) -> float:
 
 
 def contact_pressure(row: BallRow | RollerRow, load: float) -> float:
-    """Largest pressure of a rolling element on the inner raceway under a load (N), Pa, by Hertz.
+    """Largest pressure of a rolling element on its raceways under a load (N), Pa, by Hertz.
 
     Ellipse: p = 3 Q/(2 π a b), a = (6 k² ε Q R/(π E'))^⅓ and b = a/k, E' as of `ball_constant`; line contact
-    of a roller, evenly loaded: p = √(q E'/(2 π R)).
+    of a roller on the inner raceway, evenly loaded: p = √(q E'/(2 π R)).
     """
     modulus, nu = STEEL
     plane = modulus / (1.0 - nu**2)
     if isinstance(row, RollerRow):
         gamma = row.diameter * np.cos(row.contact_angle) / row.pitch_diameter
         return float(np.sqrt(load / row.length * plane / (np.pi * row.diameter * (1.0 - gamma))))
-    along, across = _ball_radii(row)[0]
-    ellipticity, _, second = _ellipse(across / along)
-    mean = along * across / (along + across)
-    long = (6.0 * ellipticity**2 * second * load * mean / (np.pi * plane)) ** (1.0 / 3.0)
-    return float(1.5 * load * ellipticity / (np.pi * long**2)) if load > 0.0 else 0.0
+    highest = 0.0
+    for along, across in _ball_radii(row):
+        ellipticity, _, second = _ellipse(across / along)
+        mean = along * across / (along + across)
+        of_unit = (6.0 * ellipticity**2 * second * mean / (np.pi * plane)) ** (1.0 / 3.0)
+        highest = max(highest, 1.5 * ellipticity / (np.pi * of_unit**2))
+    return float(highest * load ** (1.0 / 3.0))
 
 
 def _ellipse(ratio: float) -> tuple[float, float, float]:

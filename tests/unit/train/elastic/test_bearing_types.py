@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from tribodyn.train.elastic.bearing_sizes import estimated, static_rating
 from tribodyn.train.elastic.bearing_types import (
     four_point,
     paired,
@@ -191,3 +192,55 @@ def test_the_toroidal_bearing_of_a_catalogue():
     share = 6.5e-3 / (2.0 * raceway - diameter)
     assert loaded.force[2] == pytest.approx(share * np.sum(loaded.element_load), rel=1e-3)
     assert loaded.force[2] < 0.01 * loaded.force[0]
+
+
+@pytest.mark.parametrize(
+    ("gamma", "aligning", "factor"),
+    [(0.09, False, 16.5), (0.18, False, 14.4), (0.26, False, 12.5), (0.1, True, 2.4), (0.2, True, 2.8)],
+)
+def test_the_static_rating_of_balls_has_the_factors_of_the_standard(gamma, aligning, factor):
+    """ISO 76, table 1: f_0 of C_0 = f_0 Z D² cos α, N and mm."""
+    row = BallRow(10, 10e-3, 10e-3 / gamma, conformity=0.53 if aligning else 0.52, aligning=aligning)
+    assert static_rating(row) == pytest.approx(factor * 10 * 10.0**2, rel=0.03)
+
+
+def test_the_static_rating_of_rollers_has_the_factor_of_the_standard():
+    """ISO 76: C_0 = 44 (1 − γ) Z l D cos α."""
+    row = RollerRow(16, 9e-3, 12e-3, 60e-3, contact_angle=0.25)
+    by_hand = 44.0 * (1.0 - 9.0 * np.cos(0.25) / 60.0) * 16 * 12.0 * 9.0 * np.cos(0.25)
+    assert static_rating(row) == pytest.approx(by_hand, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("kind", "bore", "outside", "rating", "inside"),
+    [
+        ("deep-groove-ball", 25, 52, 7.8e3, (9, 7.94, 38.5)),  # 6205
+        ("deep-groove-ball", 30, 62, 11.2e3, (9, 9.525, 46)),  # 6206
+        ("deep-groove-ball", 50, 90, 23.2e3, (10, 12.7, 70)),  # 6210
+        ("deep-groove-ball", 40, 90, 24.0e3, (8, 15.08, 65)),  # 6308
+        ("angular-contact-ball", 90, 160, None, (16, 22.225, 125.26)),  # 218 of Harris
+        ("cylindrical-roller", 25, 52, None, (13, 7.5, 38.5, 9)),  # N 205
+        ("cylindrical-roller", 40, 80, 53e3, (14, 11, 60, 11)),  # NU 208
+        ("cylindrical-roller", 45, 85, None, (14, 10, 65, 9.6)),  # 209 of Harris
+        ("spherical-roller", 85, 180, None, (14, 25, 135.077, 20.762)),  # 22317 of Harris
+    ],
+)
+def test_estimated_insides_beside_published_ones(kind, bore, outside, rating, inside):
+    """Stiffness under a tenth of C_0, which is a catalogue's, or that of the inside itself."""
+    angle = {"angular-contact-ball": np.radians(40.0), "spherical-roller": np.radians(12.0)}.get(kind, 0.0)
+    rows = 2 if kind == "spherical-roller" else 1
+    given = RollerRow(14, 1e-3, 1e-3, 1.0) if len(inside) == 4 else BallRow(14, 1e-3, 1.0)
+    names = ("elements", "diameter", "pitch_diameter", "length")
+    sizes = (inside[0], *(1e-3 * size for size in inside[1:]))
+    given = given._replace(contact_angle=angle, **dict(zip(names, sizes, strict=False)))
+    rating = rows * static_rating(given) if rating is None else rating
+    found = estimated(kind, 1e-3 * bore, 1e-3 * outside, rating, angle, rows)
+    sizes = {name: getattr(found, name) for name in names[: len(inside)]}
+
+    def stiffness(row: BallRow | RollerRow) -> float:
+        bearing = spherical_rollers(row) if rows == 2 else row
+        if kind == "angular-contact-ball":
+            bearing = paired(row._replace(preload=1e-5), 20e-3, "O")
+        return float(answer(bearing, settles(bearing, 0, rating / 10.0)).stiffness[0, 0])
+
+    assert stiffness(given._replace(**sizes)) == pytest.approx(stiffness(given), rel=0.1)
