@@ -126,6 +126,13 @@ def test_bearings_of_every_type_are_taken(bearing: dict[str, Any]):
         (TYPES["O"] | {"row_distance": "2 mm"}, "row_distance", "less than the rolling elements need"),
         (TYPES["O"] | {"contact_angle": "50 deg"}, "contact_angle", "above 45 deg"),
         (TYPES["O"] | {"clearance": "5 um"}, "clearance", "no effect"),
+        (TYPES["O"] | {"preload_force": "300 N"}, "preload", "contradicts preload_force"),
+        (FLOATING["needle"] | {"preload_force": "300 N"}, "preload_force", "no effect"),
+        (
+            TYPES["15"] | {"preload_force": "400 kN"},
+            "preload_force",
+            "MPa before any load",
+        ),
         (TYPES["O"] | {"preload": "0.2 mm"}, "preload", "MPa before any load"),
         (TYPES["tapered"] | {"preload": "0.9 mm"}, "preload", "MPa before any load"),
         (TYPES["tapered"] | {"preload": "3 mm"}, "preload", "more than 10% of the rolling elements"),

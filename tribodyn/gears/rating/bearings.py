@@ -89,6 +89,10 @@ def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantDat
     if table.static_rating is not None:
         static = static_load(table.type, radial, axial, contact_angle=angle, rows=table.thrust_rows)
         numbers |= {"static_safety": table.static_rating / static} if static > 0.0 else {}
+        if static > table.static_rating:
+            remarks.append(
+                f"Bearing {name}: the static load is above C_0: elements dent the raceways (ISO 76)."
+            )
     if table.dynamic_rating is None:
         remarks.append(f"Bearing {name}: no life without dynamic_rating, C of its catalogue.")
     elif speed > 0.0 and equivalent.load > 0.0:

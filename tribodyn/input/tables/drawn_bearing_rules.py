@@ -40,12 +40,19 @@ _NEEDED: dict[str, tuple[str, ...]] = {
 }
 _OPTIONAL: dict[str, tuple[str, ...]] = {
     "deep-groove-ball": ("clearance", "static_factor"),
-    "angular-contact-ball": ("thrust", "arrangement", "row_distance", "preload", "static_factor"),
+    "angular-contact-ball": (
+        "thrust",
+        "arrangement",
+        "row_distance",
+        "preload",
+        "preload_force",
+        "static_factor",
+    ),
     "four-point-contact-ball": ("clearance",),
     "self-aligning-ball": ("clearance",),
     "cylindrical-roller": ("clearance", "rows", "row_distance"),
     "needle-roller": ("clearance", "rows", "row_distance"),
-    "tapered-roller": ("thrust", "arrangement", "row_distance", "preload"),
+    "tapered-roller": ("thrust", "arrangement", "row_distance", "preload", "preload_force"),
     "spherical-roller": ("clearance",),
     "toroidal-roller": ("clearance",),
 }
@@ -68,7 +75,7 @@ _EXAMPLES = {
     "rows": "2",
 }
 #: What else is a rolling bearing's alone.
-_RATINGS = "dynamic_rating", "static_rating", "fatigue_load_limit", "contamination_factor"
+_RATINGS = "preload_force", "dynamic_rating", "static_rating", "fatigue_load_limit", "contamination_factor"
 
 
 def broken_bearing_of_shaft(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
@@ -151,7 +158,7 @@ def _broken_keys(key: str, bearing: BearingOfShaft, kind: str) -> Iterator[Input
             yield InputError(
                 f"{key}.{name}", rule=f"missing: {what} needs it", remedy=f"add {name} = {_EXAMPLES[name]}"
             )
-    for name in ("matrix_units", *_EXAMPLES, "clearance", "preload", "static_factor"):
+    for name in ("matrix_units", *_EXAMPLES, "clearance", "preload", "preload_force", "static_factor"):
         if getattr(bearing, name) and name not in (*needed, *optional):
             rule = f"has no effect with {what}"
             yield InputError(f"{key}.{name}", None, rule, f"leave {name} out")
@@ -179,6 +186,9 @@ def _broken_sizes(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
         if abs(fit) > most * (size or 0.0):
             rule = f"is more than {most:.0%} of the rolling elements' diameter, {1e3 * (size or 0.0):g} mm"
             yield InputError(f"{key}.{name}", shown_length(fit), rule, "check its unit: fits are micrometres")
+    if bearing.preload and bearing.preload_force is not None:
+        rule = "contradicts preload_force, from which it follows"
+        yield InputError(f"{key}.preload", shown_length(bearing.preload), rule, "give the one or the other")
     angle = bearing.contact_angle
     if angle is not None:
         shown = f"{math.degrees(angle):.6g} deg"
@@ -221,9 +231,13 @@ def _broken_sizes(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
 
 def _overloaded(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
     """Refuse what preload alone presses beyond the static rating of ISO 76."""
-    held: Any = held_by(bearing)
-    load = float(np.max(answer(held, np.zeros(5)).element_load))
+    force = bearing.preload_force
+    held: Any = held_by(bearing.model_copy(update={"preload_force": None}))
     row = held.rows[0] if isinstance(held, BearingRows) else held
+    if force is None:
+        load = float(np.max(answer(held, np.zeros(5)).element_load))
+    else:
+        load = force / (row.elements * math.sin(row.contact_angle))
     pressure = contact_pressure(row, load)
     most = static_pressure(row)
     if pressure > most:
@@ -232,6 +246,9 @@ def _overloaded(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
             f"presses the rolling elements with {pressure / 1e6:,.0f} MPa before any load, above "
             f"{most / 1e6:,.0f} MPa at which ISO 76 rates the static load"
         )
+        if force is not None:
+            yield InputError(f"{key}.preload_force", f"{force:g} N", rule, "check its unit")
+            return
         remedy = "check its unit: fits are micrometres"
         yield InputError(f"{key}.{name}", shown_length(getattr(bearing, name)), rule, remedy)
 

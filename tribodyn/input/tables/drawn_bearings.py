@@ -13,6 +13,7 @@ from tribodyn.train.elastic.bearing_types import (
     Arrangement,
     four_point,
     paired,
+    preload_of_force,
     self_aligning_balls,
     spherical_rollers,
     toroidal_rollers,
@@ -65,6 +66,7 @@ class BearingOfShaft(Table):
     raceway_radius: Size | None = None
     clearance: Fit = written("0 um")
     preload: Fit = written("0 um")
+    preload_force: Rating | None = None
     locating: Switch = True
     seat: Text | None = None
     dynamic_rating: Rating | None = None
@@ -128,7 +130,9 @@ def held_by(table: BearingOfShaft) -> BallRow | RollerRow | BearingRows | Matrix
 
 
 def _pair(row: BallRow | RollerRow, table: BearingOfShaft) -> BallRow | RollerRow | BearingRows:
-    """One row, or two of them."""
+    """One row, or two of them, preloaded."""
+    if table.preload_force is not None:
+        row = row._replace(preload=preload_of_force(row, table.preload_force))
     if table.arrangement is None and table.rows != 2:
         return row
     return paired(row, table.row_distance or 0.0, table.arrangement or "tandem")

@@ -22,7 +22,14 @@ class BearingDrag(Table):
     """The bearings of a shaft, alike."""
 
     type: Literal[
-        "deep-groove-ball", "angular-contact-ball", "cylindrical-roller", "tapered-roller", "needle-roller"
+        "deep-groove-ball",
+        "angular-contact-ball",
+        "cylindrical-roller",
+        "tapered-roller",
+        "needle-roller",
+        "self-aligning-ball",
+        "spherical-roller",
+        "four-point-contact-ball",
     ]
     mean_diameter: Annotated[float, InUnit(units.positive(units.LENGTH), "60 mm")]
     drag_factor: Positive | None = None

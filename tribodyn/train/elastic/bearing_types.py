@@ -1,10 +1,10 @@
 """Rolling bearings by type, as rows of rolling elements; the sizes are those of one row."""
 
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 
-from tribodyn.train.elastic.rolling_bearing import BallRow, BearingRows, RollerRow
+from tribodyn.train.elastic.rolling_bearing import BallRow, BearingRows, RollerRow, answer
 
 #: Pairs: lines of contact meet the axis outside the rows (O, back to back), between them (X, face to face),
 #: or run side by side.
@@ -21,6 +21,18 @@ def paired(row: BallRow | RollerRow, distance: float, arrangement: Arrangement) 
     lower, upper = {"O": (1, -1), "X": (-1, 1), "tandem": (row.thrust, row.thrust)}[arrangement]
     ends = ((lower, -distance / 2.0), (upper, distance / 2.0))
     return BearingRows(tuple(row._replace(thrust=thrust, offset=offset) for thrust, offset in ends))
+
+
+def preload_of_force(row: BallRow | RollerRow, force: float) -> float:
+    """Axial displacement of the rings against each other under an axial force (N), m."""
+    from scipy.optimize import brentq  # heavy, and most pairs have no such bearing
+
+    alone = row._replace(thrust=1, preload=0.0)
+
+    def missing(displacement: float) -> float:
+        return float(answer(alone, np.array([0.0, 0.0, displacement, 0.0, 0.0])).force[2]) - force
+
+    return cast(float, brentq(missing, 0.0, row.diameter))
 
 
 def four_point(row: BallRow) -> BearingRows:

@@ -8,6 +8,7 @@ from tribodyn.train.elastic.bearing_sizes import estimated, static_rating
 from tribodyn.train.elastic.bearing_types import (
     four_point,
     paired,
+    preload_of_force,
     self_aligning_balls,
     spherical_rollers,
     toroidal_rollers,
@@ -104,6 +105,18 @@ def test_tilting_stiffness_of_a_pair_by_its_effective_span(arrangement):
     assert stiffness[3, 3] == pytest.approx(stiffness[0, 0] * (span / 2.0) ** 2, rel=1e-6)
     assert stiffness[4, 4] == pytest.approx(stiffness[3, 3], rel=1e-9)
     assert abs(stiffness[0, 4]) < 1e-9 * stiffness[0, 0]
+
+
+@pytest.mark.parametrize("row", [ANGULAR, TAPERED._replace(profiled=False)])
+def test_a_preload_as_a_force(row):
+    """Both rows of a pair are pressed together by it; to lift one off takes 2^1.5 of it, or 2^(10/9)."""
+    pair = paired(row._replace(preload=preload_of_force(row, 500.0)), 30e-3, "X")
+    rows = [answer(one, np.zeros(5)).force[2] for one in pair.rows]
+    assert rows == pytest.approx([-500.0, 500.0], rel=1e-6)
+    assert answer(pair, np.zeros(5)).force == pytest.approx(np.zeros(5), abs=1e-6)
+    free = brentq(lambda z: answer(pair.rows[0], along(2, z)).force[2] + 1e-3, 0.0, 1e-3)
+    needed = answer(pair, along(2, free)).force[2] / 500.0
+    assert needed == pytest.approx(2.0**1.5 if row is ANGULAR else 2.0 ** (10.0 / 9.0), rel=0.15)
 
 
 def test_a_pair_holds_thrust_both_ways_and_a_tandem_one_way():
