@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
+from scipy.optimize import brentq, root
 
 from tribodyn.standards.rolling_bearings import (
     basic_life,
@@ -21,7 +21,8 @@ from tribodyn.standards.rolling_bearings import (
     running_time,
     static_load,
 )
-from tribodyn.train.elastic.rolling_bearing import BallRow, answer
+from tribodyn.train.elastic.bearing_types import paired, self_aligning_balls
+from tribodyn.train.elastic.rolling_bearing import BallRow, answer, outer_conformity
 
 BALL, ROLLER, TAPERED = "deep-groove-ball", "cylindrical-roller", "tapered-roller"
 
@@ -182,6 +183,37 @@ def test_two_rows_of_catalogues():
     assert static_load("angular-contact-ball", 1e3, 3e3, contact_angle=forty) == pytest.approx(1280.0)
     assert static_load("angular-contact-ball", 1e3, 3e3, contact_angle=forty, rows=2) == pytest.approx(2560.0)
     assert static_load("toroidal-roller", 1e3, 5.0) == 1e3
+
+
+@pytest.mark.parametrize(
+    ("kind", "degrees", "axial", "within"),
+    [
+        ("self-aligning-ball", 11.0, 0.0, (0.97, 1.0)),
+        ("angular-contact-ball", 15.0, 0.0, (0.95, 1.0)),
+        ("angular-contact-ball", 15.0, 1.0, (1.3, 1.7)),
+        ("angular-contact-ball", 40.0, 0.0, (0.8, 0.9)),
+        ("angular-contact-ball", 40.0, 1.0, (0.9, 1.1)),
+    ],
+)
+def test_reference_life_of_two_rows_beside_their_rating_life(kind, degrees, axial, within):
+    """L_10r of the loads of all balls over L_10 by X and Y, whose fixed α leaves some per cent."""
+    angle, radial = math.radians(degrees), 3e3
+    row = BallRow(14, 12e-3, 60e-3, contact_angle=angle)
+    bearing = self_aligning_balls(row) if kind == "self-aligning-ball" else paired(row, 18e-3, "O")
+
+    def missing(moved):
+        state = answer(bearing, np.array([moved[0], 0.0, moved[1], 0.0, 0.0]))
+        return [state.force[0] / radial - 1.0, state.force[2] / radial - axial]
+
+    moved = root(missing, [2e-5, 1e-5 * axial]).x
+    loads = answer(bearing, np.array([moved[0], 0.0, moved[1], 0.0, 0.0])).element_load.reshape(2, -1)
+    rating = row_rating(kind, 60e3, 2)
+    grooves = bearing.rows[0].conformity, outer_conformity(bearing.rows[0])
+    sizes = rating, 12e-3, 60e-3, angle
+    lives = [reference_life_of_balls(each.tolist(), *sizes, *grooves) for each in loads]
+    load = equivalent_load(kind, radial, axial * radial, static_rating=60e3, contact_angle=angle, rows=2).load
+    ratio = life_of_rows(kind, lives) / basic_life(kind, 60e3, load)
+    assert within[0] < ratio < within[1]
 
 
 def test_rows_share_their_rating():

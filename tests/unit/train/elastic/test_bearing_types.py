@@ -119,6 +119,16 @@ def test_a_preload_as_a_force(row):
     assert needed == pytest.approx(2.0**1.5 if row is ANGULAR else 2.0 ** (10.0 / 9.0), rel=0.15)
 
 
+@pytest.mark.parametrize(("row", "factor"), [(ANGULAR, 1.216), (TAPERED._replace(thrust=1), 1.260)])
+def test_thrust_of_half_a_row_under_load(row, factor: float):
+    """F_a = 1.216 F_r tan α of balls, 1.260 of rollers, with the rings not displaced along the axis (NSK)."""
+    many = row._replace(elements=120, diameter=2e-3, preload=0.0)
+    if isinstance(many, RollerRow):
+        many = many._replace(profiled=False)
+    force = answer(many, along(0, 1e-7)).force
+    assert force[2] == pytest.approx(factor * force[0] * np.tan(row.contact_angle), rel=0.01)
+
+
 def test_a_pair_holds_thrust_both_ways_and_a_tandem_one_way():
     for arrangement in ("O", "X"):
         pair = paired(ANGULAR, 30e-3, arrangement)
