@@ -124,6 +124,8 @@ def test_bearings_of_every_type_are_taken(bearing: dict[str, Any]):
         (TYPES["O"] | {"locating": False}, "locating", "two rows"),
         (ANGULAR | {"thrust": "+z", "row_distance": "20 mm"}, "row_distance", "no effect"),
         (TYPES["O"] | {"row_distance": "2 mm"}, "row_distance", "less than the rolling elements need"),
+        (TYPES["O"] | {"row_distance": "20 m"}, "row_distance", "draw two bearings"),
+        (FLOATING["roller"] | {"roller_length": "14 cm"}, "roller_length", "more than 10 times"),
         (TYPES["O"] | {"contact_angle": "50 deg"}, "contact_angle", "above 45 deg"),
         (TYPES["O"] | {"clearance": "5 um"}, "clearance", "no effect"),
         (TYPES["O"] | {"preload_force": "300 N"}, "preload", "contradicts preload_force"),

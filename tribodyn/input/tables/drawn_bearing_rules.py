@@ -23,6 +23,8 @@ from tribodyn.train.elastic.rolling_bearing import BearingRows, answer, contact_
 #: Clearance and preload over the diameter of the rolling elements, at most: beyond the greatest clearance
 #: class of ISO 5753, and what a ball takes up between its grooves.
 LARGEST_CLEARANCE, LARGEST_FIT = 0.03, 0.1
+#: Length of a roller over its diameter: beyond it is no needle; distance of rows over the pitch diameter.
+_LONGEST, _FARTHEST = 10.0, 2.0
 #: Contact angles of angular contact ball bearings by ISO 281.
 _LEAST_ANGLE, _MOST_ANGLE = math.radians(10.0), math.radians(45.0)
 
@@ -203,6 +205,13 @@ def _broken_sizes(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
                 f"{key}.contact_angle", shown, rule, "write 10 to 45 deg, as the catalogue has it"
             )
     length, distance = bearing.roller_length, bearing.row_distance
+    if length is not None and size and length > _LONGEST * size:
+        rule = f"is more than {_LONGEST:g} times the rollers' diameter, {shown_length(size)}"
+        yield InputError(f"{key}.roller_length", shown_length(length), rule, "check both, and their units")
+    if distance is not None and pitch and distance > _FARTHEST * pitch:
+        rule = f"is more than twice the pitch diameter, {shown_length(pitch)}"
+        remedy = "check its unit, or draw two bearings"
+        yield InputError(f"{key}.row_distance", shown_length(distance), rule, remedy)
     needed = (length or size or 0.0) * math.cos(angle or 0.0)
     if distance is not None and distance < needed:
         rule = f"is less than the rolling elements need, {shown_length(needed)}"
