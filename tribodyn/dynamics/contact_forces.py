@@ -32,7 +32,10 @@ from tribodyn.dynamics.approach import (
     sliced,
 )
 from tribodyn.dynamics.parameters import HERTZ_POWER_LAW, SLIDING_DYNAMIC
-from tribodyn.dynamics.smooth import (
+from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.mesh.teeth.lookup import deflect_apart
+from tribodyn.numerics.elementary import law, maximum, skippable, sqrt, where
+from tribodyn.numerics.smooth import (
     load_with_damping,
     mean_sign,
     onset,
@@ -42,9 +45,6 @@ from tribodyn.dynamics.smooth import (
     ramp,
     sign,
 )
-from tribodyn.mesh.cycle import CHANNELS
-from tribodyn.mesh.teeth.lookup import deflect_apart
-from tribodyn.numerics.elementary import law, maximum, skippable, sqrt, where
 from tribodyn.tribology.contact import averaged_radius, local_contact
 from tribodyn.tribology.law import ActiveLaw
 

@@ -21,13 +21,6 @@ from tribodyn.dynamics.contact_forces import coupled, elastic_loads
 from tribodyn.dynamics.loads import frame_energy, link_energy
 from tribodyn.dynamics.mesh_motion import latest_teeth, locate, motion_of
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT, HERTZ_POWER_LAW
-from tribodyn.dynamics.smooth import (
-    onset_integral,
-    positive_part_integral,
-    power_law_force,
-    power_law_stiffness,
-    power_law_work,
-)
 from tribodyn.numerics.elementary import (
     by_chain_rule,
     independent,
@@ -37,6 +30,13 @@ from tribodyn.numerics.elementary import (
     sqrt,
     truncate,
     where,
+)
+from tribodyn.numerics.smooth import (
+    onset_integral,
+    positive_part_integral,
+    power_law_force,
+    power_law_stiffness,
+    power_law_work,
 )
 from tribodyn.train.coupling import coupling_energy
 from tribodyn.train.structure import shift_of, slip_of, speed_of

@@ -23,7 +23,7 @@ from tribodyn.dynamics.approach import (
 )
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.energy import parametric_torque
-from tribodyn.dynamics.loads import add_frame_forces, carried_along, link_forces, load_torque
+from tribodyn.dynamics.loads import add_frame_forces, carried_along, clutch_forces, link_forces, load_torque
 from tribodyn.dynamics.mesh_motion import motion_of, on_body, place_in_mesh
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.numerics.elementary import by_chain_rule, independent, law, plain
@@ -179,14 +179,16 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         of_mesh = layout.mechanical + OF_MESHES + WORKS_OF_MESH * m
         dy[of_mesh + FRICTION] = plain(rate * friction)
         dy[of_mesh + WORK_SLIDING] = plain(rate * sliding)
+    time = (cycle + phase) * nominal_time + y[layout.lag]
     damping_of_links, put_in, taken_out = link_forces(y, model, dy)
     damping_power = damping_power + damping_of_links
+    if layout.clutches > 0:
+        clutch_forces(time, rate, y, model, dy)
     if layout.coupled > 0:
         damping_power = damping_power + coupling_forces(y, model, dy)
     if layout.frames > 0:
         add_frame_forces(y, model, dy)
 
-    time = (cycle + phase) * nominal_time + y[layout.lag]
     power_out = taken_out
     for b in range(layout.bodies):
         slip = slip_of_body(b, y, model)

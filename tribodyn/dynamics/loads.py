@@ -1,6 +1,8 @@
 """What acts on the bodies beside the meshes: links, and the load that varies in time. For all compilers."""
 
-from tribodyn.numerics.elementary import last_at_or_below, law, maximum, minimum, sin
+from tribodyn.numerics.elementary import last_at_or_below, law, maximum, minimum, plain, sin
+from tribodyn.numerics.smooth import cubic_rise
+from tribodyn.train.clutches import clutch_friction, work_of_clutch
 from tribodyn.train.structure import (
     BRAKES,
     IN_SPACE,
@@ -28,10 +30,7 @@ def load_torque(time, operation):
         u = minimum(maximum((time - times[i]) / width, 0.0), 1.0)
         start, end = operation.load_torques[i], operation.load_torques[i + 1]
         out, back = operation.load_slopes[i] * width, operation.load_slopes[i + 1] * width
-        rise = end - start
-        torque = (
-            torque + start + u * (out + u * (3.0 * rise - 2.0 * out - back + u * (out + back - 2.0 * rise)))
-        )
+        torque = torque + start + cubic_rise(u, end - start, out, back)
     return torque
 
 
@@ -141,6 +140,25 @@ def link_forces(y, model, dy):
                 else:
                     put_in = put_in - torque * speed
     return power, put_in, taken_out
+
+
+@law
+def clutch_forces(time, rate, y, model, dy):
+    """Add the friction of clutches and brakes to the torques in `dy`, and put what it takes among the works.
+
+    `rate`: s per reference cycle.
+    """
+    layout = model.options.layout
+    half = layout.half
+    for c in range(layout.clutches):
+        first, second = layout.clutch_first[c], layout.clutch_second[c]
+        slip, torque, _ = clutch_friction(c, time, y, model)
+        i = half + turn_of(first, layout)
+        dy[i] = dy[i] - torque
+        if second >= 0:
+            j = half + turn_of(second, layout)
+            dy[j] = dy[j] + torque
+        dy[work_of_clutch(c, layout)] = plain(rate * torque * slip)
 
 
 @law

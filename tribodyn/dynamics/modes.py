@@ -9,9 +9,10 @@ from tribodyn.dynamics.loads import joins_in_space
 from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.train.coupling import own_mass
 from tribodyn.train.flow import flow, link_row
+from tribodyn.train.joints import joined
 from tribodyn.train.links.chain import tangent_stiffness
 from tribodyn.train.structure import (
     ACROSS,
@@ -49,22 +50,33 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
     turn, and where a torque drives, the rigid rotation is not among the modes. Stiffness is the tangent at
     the static load, the mean over the mesh cycle: at every phase of those driving pairs that carry when the
     load is shared by compliances, gaps and the bearings' give, each at its own load where the Hertz contact
-    stiffens with it; so is that of a link with a law, unless it closes a loop: that at rest. No friction.
+    stiffens with it; so is that of a link with a law, unless it closes a loop: that at rest. No friction but
+    that of clutches, which are closed; brakes are open.
     """
     layout = model.layout
     mass, stiffness = linearised(model, cycles)
     free = np.arange(layout.half) if model.options.drive else np.delete(np.arange(layout.half), layout.lag)
-    kept = np.ix_(free, free)
-    root = np.linalg.inv(np.linalg.cholesky(mass[kept]))
-    squared, vectors = np.linalg.eigh(root @ stiffness[kept] @ root.T)
+    closed = _closed_clutches(model, free) if layout.clutches else np.eye(layout.half)[:, free]
+    mass_of_free, stiffness_of_free = (closed.T @ matrix @ closed for matrix in (mass, stiffness))
+    root = np.linalg.inv(np.linalg.cholesky(mass_of_free))
+    squared, vectors = np.linalg.eigh(root @ stiffness_of_free @ root.T)
     if model.options.drive:
         squared, vectors = squared[1:], vectors[:, 1:]
-    shape = np.zeros((len(squared), layout.half))
-    shape[:, free] = (root.T @ vectors).T
+    shape = np.ascontiguousarray((closed @ (root.T @ vectors)).T)
     energy = shape * (shape @ mass)
     owner = np.array([_body_of(place, model) for place in range(layout.half)])
     share = np.stack([np.sum(energy[:, owner == body], axis=1) for body in range(layout.bodies)], axis=1)
     return Modes(np.sqrt(np.maximum(squared, 0.0)) / (2 * np.pi), shape, share)
+
+
+def _closed_clutches(model: Model, free: Int[Array, " free"]) -> Float[Array, "coordinate free"]:
+    """What the coordinates are of those that are left where the ends of every clutch turn alike."""
+    layout = model.layout
+    ends = zip(layout.clutch_first, layout.clutch_second, strict=True)
+    alike = joined(layout.half, [(turn_of(a, layout), turn_of(b, layout)) for a, b in ends if b >= 0])
+    held = {alike[i] for i in set(range(layout.half)) - set(free.tolist())}
+    left = np.array([one for one in dict.fromkeys(alike) if one not in held])
+    return (np.array(alike)[:, None] == left).astype(float)
 
 
 def linearised(

@@ -3,6 +3,7 @@
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.clutches import Clutches
 from tribodyn.train.layout import TrainLayout
 from tribodyn.train.links.chain import BY_TABLE
 from tribodyn.train.schedule import Schedule
@@ -68,6 +69,7 @@ class Operation(NamedTuple):
     load_amplitudes: Float[Array, " harmonic"]  # this and the next two: its harmonics, N m, rad/s, rad
     load_frequencies: Float[Array, " harmonic"]
     load_phases: Float[Array, " harmonic"]
+    clutches: Clutches = Clutches()
 
 
 class Model(NamedTuple):

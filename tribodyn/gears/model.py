@@ -152,14 +152,14 @@ def varying_load(
     return {
         "load_times": times,
         "load_torques": torques,
-        "load_slopes": _monotone_slopes(times, torques),
+        "load_slopes": resting_slopes(times, torques),
         "load_amplitudes": np.ascontiguousarray(rows[:, 0]),
         "load_frequencies": np.ascontiguousarray(rows[:, 1]),
         "load_phases": np.ascontiguousarray(rows[:, 2]) + np.pi / 2.0,  # cosines, as a scenario gives them
     }
 
 
-def _monotone_slopes(times: np.ndarray, values: np.ndarray) -> np.ndarray:
+def resting_slopes(times: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Slopes of the C1 curve through the points that never overshoots; flat at both ends."""
     if len(times) < 2:
         return np.zeros_like(times)

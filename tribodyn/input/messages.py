@@ -81,12 +81,12 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
 
 
 def names_gears(name: str, value: Any) -> bool:
-    """Whether an unknown key is a table of a train: [gear.NAME], [[body]] or [[link]]."""
+    """Whether an unknown key is a table of a train: [gear.NAME], [[body]], [[link]] or [[clutch]]."""
     if name == "gear":
         return (
             isinstance(value, dict) and bool(value) and all(isinstance(one, dict) for one in value.values())
         )
-    return name in ("body", "link") and isinstance(value, list)
+    return name in ("body", "link", "clutch") and isinstance(value, list)
 
 
 Key = tuple[str | int, ...]

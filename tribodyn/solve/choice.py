@@ -4,12 +4,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIDING_KINEMATIC, Model
+from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, SLIDING_KINEMATIC, Model
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.initial import accelerations
 from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF, SWITCHING
 from tribodyn.solve.tolerances import state_scales
+from tribodyn.train.clutches import friction_torque
 from tribodyn.train.schedule import intervals, place_of
 
 _DISTANCE = CHANNELS.index("signed_distance")
@@ -53,6 +54,21 @@ def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
         cycles, radius = _spectral_radii(model, state, REVERSAL)
     whole = float(np.sum(0.5 * np.diff(cycles) * (radius[1:] + radius[:-1])))
     return whole / float(cycles[-1] - cycles[0]) / REAL_STABILITY
+
+
+def _closing_steps(model: Model) -> float:
+    """Steps per mesh cycle for stability of the clutch that closes most stiffly, over all of the run."""
+    layout, operation, clutches = model.layout, model.operation, model.operation.clutches
+    rates = [0.0]
+    for c, ends in enumerate(zip(layout.clutch_first, layout.clutch_second, strict=True)):
+        largest = float(np.max(np.asarray(clutches.capacity)[c]))
+        slope = float(friction_torque(0.0, largest, c, clutches)[1])
+        held = model.options.drive == DRIVE_SPEED  # the reference, which then has no inertia
+        inertias = [
+            float(model.bodies.inertia[body]) for body in ends if body > 0 or (body == 0 and not held)
+        ]
+        rates.append(slope * sum(1.0 / inertia for inertia in inertias))
+    return max(rates) * float(operation.pitch_angle) / float(operation.nominal_speed) / REAL_STABILITY
 
 
 def _spectral_radii(
@@ -124,7 +140,7 @@ def choose(method: str, model: Model, state: Float[Array, " state"]) -> Choice:
     """Return the method to use: the user's, or explicit unless stability makes that too expensive."""
     if method != AUTO:
         return Choice(method, "chosen in the scenario")
-    steps, sliding = stability_steps(model, state), model.options.sliding
+    steps, sliding = max(stability_steps(model, state), _closing_steps(model)), model.options.sliding
     needed = f"explicit stability needs {steps:.0f} steps per mesh cycle"
     stiff, switching = STIFF_ABOVE[sliding], SWITCHING_ABOVE[sliding]
     if steps > stiff:

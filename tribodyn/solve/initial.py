@@ -15,6 +15,7 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.step_control import largest_displacement, unbounded
 from tribodyn.solve.right_hand_side import contacts_of
+from tribodyn.train.clutches import Standing, standing
 from tribodyn.train.flow import Flow, flow
 from tribodyn.train.layout import displacements, velocities
 from tribodyn.train.links.chain import are_linear, twist_under
@@ -96,22 +97,32 @@ def static_equilibrium(
     time = phase * float(operation.pitch_angle) / float(operation.nominal_speed)
     varying = float(load_torque(time, operation))
     largest = float(np.sum(np.abs(np.concatenate([operation.load_torques, operation.load_amplitudes]))))
-    torques = flow(model, varying, largest)
+    torques = flow(model, varying, largest, starting=True)
     loads = torques.on_driven
     deflection = np.array(
         [static_deflection(mesh, max(abs(t), 1e-3)) for mesh, t in zip(model.meshes, loads, strict=True)]
     )
-    unknown, equation = displacements(layout), velocities(layout)
+    stand = torques.clutches
+    roots = set(stand.roots) if stand is not None else set()  # where these are does not count
+    fixed = {turn_of(body, layout) for body in roots}
+    unknown = [i for i in displacements(layout) if i not in fixed]
+    equation = [i for i in velocities(layout) if i - layout.half not in fixed]
     # at which the first of the driving flanks touches while no bearing is loaded
     touch = np.array([min(by_side[1.0]) for by_side in _apart_unloaded(model, phase, interval)])
     touch = touch - _APART * np.abs(touch) + 0.0  # not −0
     y = _closed(model, touch, torques)
+    if stand is not None:
+        for body in range(1, layout.bodies):
+            y[layout.half + turn_of(body, layout)] = stand.rate[body]
 
     def residual(values: Trials, model: Model = model) -> Trials:
         """What is left of the accelerations at values of the unknown states, the others as in `y`."""
         states = np.broadcast_to(y, (*values.shape[:-1], layout.states)).copy()
         states[..., unknown] = values
-        return accelerations(states, phase, interval, model)[..., equation]
+        left = accelerations(states, phase, interval, model)
+        if stand is not None:
+            _against_roots(left, stand, model)
+        return left[..., equation]
 
     ratio = [
         abs(float(rolling_ratio(m, model) * mesh.driver_radius / mesh.driven_radius))
@@ -150,6 +161,16 @@ def static_equilibrium(
     return y
 
 
+def _against_roots(left: Trials, stand: Standing, model: Model) -> None:
+    """Take off the accelerations of bodies beyond clutches those that their groups have as rigid ones."""
+    layout, ratio = model.layout, np.asarray(model.bodies.ratio)
+    for root in stand.roots:
+        own = left[..., layout.half + turn_of(root, layout)].copy()
+        for body, group in enumerate(stand.group):
+            if group == stand.group[root]:
+                left[..., layout.half + turn_of(body, layout)] -= own * ratio[body] / ratio[root]
+
+
 def _closed(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float[Array, " state"]:
     """State in which the meshes have rotational errors (m) and shafts the twist of their torque."""
     layout = model.layout
@@ -186,6 +207,7 @@ def _closed_on_pins(model: Model, errors: Float[Array, " mesh"], torques: Flow) 
             rows[row, layout.first[link]], rows[row, layout.second[link]] = 1.0, -1.0
         wanted.append(twist_under(link, torque, model) if layout.second[link] >= 0 else 0.0)
     still = [0, *(body for k, body in enumerate(layout.first) if layout.holds[k])]
+    still += torques.clutches.roots if torques.clutches is not None else ()
     rows[:, still] = 0.0
     size = np.linalg.norm(rows, axis=1)
     size[size == 0.0] = 1.0
@@ -301,4 +323,11 @@ def _maximum_gap(model: Model, m: int, interval: int, side: float) -> float:
 
 def initial_state(model: Model, kind: str) -> Float[Array, " state"]:
     """State at the start of a run: "static" equilibrium, or "unloaded" with the flanks just touching."""
-    return static_equilibrium(model) if kind == "static" else np.zeros(model.layout.states)
+    if kind == "static":
+        return static_equilibrium(model)
+    layout, y = model.layout, np.zeros(model.layout.states)
+    if layout.clutches:
+        rate = standing(model, np.array(model.bodies.load, dtype=float)).rate
+        for body in range(1, layout.bodies):
+            y[layout.half + turn_of(body, layout)] = rate[body]
+    return y

@@ -11,7 +11,7 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
 from tribodyn.train.flow import flow
-from tribodyn.train.layout import displacements, works
+from tribodyn.train.layout import TrainLayout, displacements, works
 from tribodyn.train.structure import (
     TURN,
     GearMesh,
@@ -97,7 +97,7 @@ def scales_from(
             turn_rate[body] = min(turn_rate[body], velocity / abs(float(radius)))
     of_body = shift, shift_rate, turn, turn_rate
     # one after the other: a flywheel hangs on its carrier, and that on pins
-    waiting = [k for k in range(layout.links) if min(layout.first[k], layout.second[k]) >= 0]
+    waiting = [k for k in range(layout.links + layout.clutches) if min(_ends(k, layout)) >= 0]
     while waiting:
         unscaled = [k for k in waiting if not _scaled_by_link(k, model, of_body)]
         if len(unscaled) == len(waiting):
@@ -123,21 +123,28 @@ def scales_from(
     return scale
 
 
+def _ends(k: int, layout: TrainLayout) -> tuple[int, int]:
+    """Bodies at the ends of a link, or of a clutch by its number behind those of the links."""
+    if k < layout.links:
+        return layout.first[k], layout.second[k]
+    return layout.clutch_first[k - layout.links], layout.clutch_second[k - layout.links]
+
+
 def _scaled_by_link(k: int, model: Model, of_body: Sequence[Float[Array, " body"]]) -> bool:
-    """Whether a link between two bodies has, of one with scales, given any to the other, which had none.
+    """Whether a link or clutch has, of a body with scales, given any to another, which had none.
 
     `of_body` are the scales of displacements, rotations and the rates of both, changed in place.
     """
     layout = model.layout
     shift, shift_rate, turn, turn_rate = of_body
-    ends = layout.first[k], layout.second[k]
-    if not (layout.pins[k] or model.links.stiffness[k][TURN] > 0.0):
+    ends, on_pin = _ends(k, layout), k < layout.links and layout.pins[k]
+    if k < layout.links and not (on_pin or model.links.stiffness[k][TURN] > 0.0):
         return False
     for end, (body, other) in enumerate((ends, ends[::-1])):
         if np.isinf(turn[body]) and np.isfinite(turn[other]):
             shift[body], shift_rate[body] = shift[other], shift_rate[other]
             turn[body], turn_rate[body] = turn[other], turn_rate[other]
-            if layout.pins[k]:
+            if on_pin:
                 lever = float(np.linalg.norm(np.asarray(model.links.lever)[k, end]))
                 turn[body], turn_rate[body] = shift[other] / lever, shift_rate[other] / lever
             return True

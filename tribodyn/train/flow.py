@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.clutches import Standing, accelerating, standing
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.layout import TrainLayout
 from tribodyn.train.structure import (
@@ -23,20 +24,25 @@ class TreeBranch(NamedTuple):
 
     body: int
     nearer: int
-    mesh: int  # -1 where a link joins them
-    link: int  # -1 where a mesh joins them
+    mesh: int  # -1 where a link or a clutch joins them
+    link: int  # -1 where a mesh or a clutch joins them
 
 
-def tree(layout: TrainLayout, turning_links: tuple[bool, ...]) -> list[TreeBranch]:
+def tree(
+    layout: TrainLayout, turning_links: tuple[bool, ...], roots: Sequence[int] | None = None
+) -> list[TreeBranch]:
     """A tree from the reference to all bodies, nearer ones first; of a closed loop it leaves a joint out.
 
-    Bodies that are held are roots too.
+    Bodies that are held are roots too. Where clutches are not closed, bodies beyond them are further `roots`.
     """
     joints = [(a, b, m, -1) for m, (a, b) in enumerate(zip(layout.driver, layout.driven, strict=True))]
     ends = zip(layout.first, layout.second, turning_links, strict=True)
     joints += [(a, b, -1, k) for k, (a, b, turns) in enumerate(ends) if b >= 0 and turns]
+    if roots is None:
+        ends = zip(layout.clutch_first, layout.clutch_second, strict=True)
+        joints += [(a, b, -1, -1) for a, b in ends if b >= 0]
     branches: list[TreeBranch] = []
-    reached = [0, *(a for k, a in enumerate(layout.first) if layout.holds[k])]
+    reached = [0, *(roots or ()), *(a for k, a in enumerate(layout.first) if layout.holds[k])]
     for nearer in reached:
         for a, b, mesh, link in joints:
             body = b if a == nearer else a
@@ -55,6 +61,7 @@ class Flow(NamedTuple):
     on_driven: Float[Array, " mesh"]
     on_link: dict[int, float]  # torque with which a link of the tree turns its first end back, N m
     largest: float  # sum of all torques' magnitudes, as on the reference, N m
+    clutches: Standing | None = None  # how they stand; None: there are none, or they are closed
 
 
 def link_row(k: int, direction: int, model: Any) -> Float[Array, " coordinate"]:
@@ -75,8 +82,10 @@ def link_row(k: int, direction: int, model: Any) -> Float[Array, " coordinate"]:
     return row
 
 
-def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
+def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0, starting: bool = False) -> Flow:
     """Torques under the constant loads and an extra one on the output; the drive balances or accelerates.
+
+    Clutches are closed and brakes open; or, `starting`, as they stand at the start of a run.
 
     A mesh that closes a loop is given what flows through all of the train; where links have levers, as pins
     of planets have, the loads are shared so that the sum of the squares of all forces is least.
@@ -90,11 +99,17 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
         drive = float(operation.drive_torque)
         largest += float(abs(drive * ratio[layout.input]))
         wanted[layout.input] -= drive
-    branches = tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0))
+    stand = standing(model, wanted) if starting and layout.clutches else None
+    if stand is not None:
+        wanted = wanted + stand.load
+        largest += float(np.sum(np.abs(stand.load * ratio)))
+        wanted = wanted - accelerating(wanted, stand, model)
+    turning_links = tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0)
+    branches = tree(layout, turning_links, stand.roots if stand is not None else None)
     if any(layout.pins):
-        on_driven, on_link = _shared(model, wanted, inertia * ratio)
-        return Flow(branches, on_driven, on_link, largest)
-    if model.options.drive:
+        on_driven, on_link = _shared(model, wanted, inertia * ratio, stand is None)
+        return Flow(branches, on_driven, on_link, largest, stand)
+    if model.options.drive and stand is None:
         wanted = wanted - inertia * ratio * float(wanted @ ratio) / float(inertia @ ratio**2)
     through = wanted * ratio  # as on the reference
     for branch in reversed(branches):
@@ -114,11 +129,11 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
         for body, _, _, link in branches
         if link >= 0
     }
-    return Flow(branches, on_driven, on_link, largest)
+    return Flow(branches, on_driven, on_link, largest, stand)
 
 
 def _shared(
-    model: Any, wanted: Float[Array, " body"], inertia: Float[Array, " body"]
+    model: Any, wanted: Float[Array, " body"], inertia: Float[Array, " body"], closed: bool
 ) -> tuple[Float[Array, " mesh"], dict[int, float]]:
     """Torques of meshes on their driven bodies and of all turning links that bear `wanted` (N m) together.
 
@@ -144,6 +159,11 @@ def _shared(
                 link_of.append((len(rows), k))
                 row = scale * row
             rows.append(-row)
+    for ends in zip(layout.clutch_first, layout.clutch_second, strict=True) if closed else ():
+        if ends[1] >= 0:
+            row = np.zeros(layout.half)
+            row[[turn_of(end, layout) for end in ends]] = -scale, scale
+            rows.append(row)
     balance = np.array(rows).T
     loads = np.zeros(layout.half)
     loads[[turn_of(body, layout) for body in range(layout.bodies)]] = wanted

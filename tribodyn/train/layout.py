@@ -32,6 +32,9 @@ class TrainLayout(NamedTuple):
     frames: int  # 1 where bodies are in a frame that turns, else 0
     input: int  # body that the drive acts on
     output: int  # body that bears the load that varies in time
+    clutches: int = 0
+    clutch_first: tuple[int, ...] = RuntimeIndices(())  # this and the next: bodies at the ends; `GROUND`
+    clutch_second: tuple[int, ...] = RuntimeIndices(())
     modes: int = 0  # coordinates that are no body's, behind those of the bodies
     #: this and the next: of every mesh the place of the first coordinate of the rim that it pushes, their
     #: number; places of none are 0
@@ -61,18 +64,21 @@ def layout_of(
     frames: int = 0,
     carriers: Sequence[int] = (),
     modes: int = 0,
+    clutches: Sequence[tuple[int, int]] = (),
 ) -> TrainLayout:
     """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output.
 
     `pins` are numbers of links, `holding` of those that hold what `TrainLayout.holds` says of them.
     `carriers` are those of the meshes; none: all in the housing. `modes`: so many coordinates of no body.
+    `clutches` by their ends.
     """
     half = 2 * planar + bodies + 3 * spatial + modes
-    states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
+    states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes) + len(clutches)
     number, places = (StaticInt, Indices) if len(meshes) == 1 else (int, RuntimeIndices)
     driver, driven, first, second = (
         places([pair[end] for pair in pairs]) for pairs in (meshes, links) for end in (0, 1)
     )
+    clutch_first, clutch_second = (RuntimeIndices(pair[end] for pair in clutches) for end in (0, 1))
     return TrainLayout(
         spatial=number(spatial),
         planar=number(planar),
@@ -94,6 +100,9 @@ def layout_of(
         frames=number(frames),
         input=number(drives),
         output=number(loaded),
+        clutches=number(len(clutches)),
+        clutch_first=clutch_first,
+        clutch_second=clutch_second,
         modes=number(modes),
         rim_first=places([0] * len(meshes)),
         rim_count=places([0] * len(meshes)),
@@ -125,6 +134,11 @@ def work_of(layout: TrainLayout, which: int) -> int:
 def work_of_mesh(layout: TrainLayout, mesh: int, which: int) -> int:
     """Place of a work of a mesh: `FRICTION`, `SLIDING`."""
     return layout.mechanical + OF_MESHES + WORKS_OF_MESH * mesh + which
+
+
+def works_of_clutches(layout: TrainLayout) -> list[int]:
+    """Places of what friction takes in all clutches."""
+    return list(range(layout.states - layout.clutches, layout.states))
 
 
 def works_of_meshes(layout: TrainLayout, which: int) -> list[int]:

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.energy import compliance_force, mesh_energy, pair_energy
 from tribodyn.dynamics.parameters import HERTZ_IN_TABLE, HERTZ_POWER_LAW
-from tribodyn.dynamics.smooth import onset, power_law_force, power_law_stiffness
+from tribodyn.numerics.smooth import onset, power_law_force, power_law_stiffness
 
 WIDTH, COEFFICIENT, COMPLIANCE = 2e-6, 4e-9, 2.5e-9
 

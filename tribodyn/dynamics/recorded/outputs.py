@@ -15,6 +15,7 @@ from tribodyn.dynamics.loads import (
 )
 from tribodyn.dynamics.mesh_motion import by_rim, motion_of, place_in_mesh
 from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.recorded.clutches import clutch_outputs
 from tribodyn.dynamics.recorded.extremes import LOWEST, Extremes, highest_loaded
 from tribodyn.dynamics.recorded.faces import over_faces
 from tribodyn.mesh.quasi_static import efficiency
@@ -235,6 +236,7 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         "stored_energy": np.broadcast_to(stored_energy(y, model, samples.work), samples.size),
         **works,
         "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
+        **clutch_outputs(samples.cycles, y, model),
     }
 
 

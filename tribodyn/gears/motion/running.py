@@ -13,7 +13,7 @@ from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.geometry.drive import SIDES
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.record.trust import Judge, heat_of
-from tribodyn.train.layout import TrainLayout, work_of, works_of_meshes
+from tribodyn.train.layout import TrainLayout, work_of, works_of_clutches, works_of_meshes
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
@@ -163,13 +163,14 @@ def judge_balance(judge: Judge, summary: Mapping[str, Any], rtol: float) -> None
 def energy_residual(first: np.ndarray, last: np.ndarray, stored: float, layout: TrainLayout) -> float:
     """Residual of the energy balance over a run, as a share of the largest of the works in it.
 
-    W_in + W_parametric − W_out − W_friction − W_damping − ΔE from the first to the last state; `stored` is
-    ΔE, J. The largest is that of the driving gear where power flows through, and that of what takes or feeds
-    the energy of a mesh without load.
+    W_in + W_parametric − W_out − W_friction − W_damping − W_clutches − ΔE from the first to the last state;
+    `stored` is ΔE, J. The largest is that of the driving gear where power flows through, and that of what
+    takes or feeds the energy of a mesh without load.
     """
     change = last - first
     friction = float(np.sum(change[works_of_meshes(layout, FRICTION)]))
     of_train = [change[work_of(layout, which)] for which in (IN, PARAMETRIC, OUT)]
-    works = np.array([*of_train, friction, change[work_of(layout, DAMPING)]])
+    lost = change[work_of(layout, DAMPING)] + np.sum(change[works_of_clutches(layout)])
+    works = np.array([*of_train, friction, lost])
     missing = works @ [1.0, 1.0, -1.0, -1.0, -1.0] - stored
     return float(missing / max(np.max(np.abs(works)), 1e-300))

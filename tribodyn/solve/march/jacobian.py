@@ -18,7 +18,7 @@ from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, by_chain_rule, independent, law
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.march.link_jacobian import SHARE, differentiate_links
+from tribodyn.solve.march.link_jacobian import SHARE, differentiate_clutches, differentiate_links
 from tribodyn.solve.right_hand_side import rhs
 from tribodyn.train.coupling import differentiate_couplings, spread_column
 from tribodyn.train.structure import (
@@ -216,6 +216,8 @@ def differentiate(place, y, f, scale, model, work, into):
         contacts += differentiate_mesh(m, place, y, scale, model, work, jacobian)
     evaluations = (contacts + layout.meshes - 1) // layout.meshes
     differentiate_links(y, scale, model, jacobian)
+    if layout.clutches > 0:
+        differentiate_clutches(time, y, model, jacobian)
     if layout.coupled > 0:
         differentiate_couplings(y, model, works + DAMPING, jacobian)
     if layout.frames > 0:
@@ -281,7 +283,8 @@ def differentiate(place, y, f, scale, model, work, into):
     if not prescribed:
         difference = min(SHARE * scale[half + layout.lag], SHARE * operation.nominal_speed)
         evaluations += column(half + layout.lag, difference, place, y, f, model, work, into)
-    if operation.load_amplitudes.shape[0] > 0 or operation.load_times.shape[0] > 1:
+    over_time = operation.load_amplitudes.shape[0] > 0 or operation.load_times.shape[0] > 1
+    if over_time or layout.clutches > 0:
         evaluations += column(layout.lag, SHARE * scale[layout.lag], place, y, f, model, work, into)
     difference = PHASE_DIFFERENCE if place.phase + PHASE_DIFFERENCE < place.end else -PHASE_DIFFERENCE
     moved = place.phase + difference

@@ -3,6 +3,7 @@
 from tribodyn.dynamics.loads import apart_in_space, joins_in_space
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import law, maximum
+from tribodyn.train.clutches import clutch_friction, work_of_clutch
 from tribodyn.train.structure import (
     BRAKES,
     DAMPING,
@@ -148,3 +149,24 @@ def differentiate_links(y, scale, model, jacobian):
                 jacobian[lost, j] -= lost_by_twist
                 jacobian[half + i, j] += stiffness
                 jacobian[half + i, half + j] += damping
+
+
+@kernel
+def differentiate_clutches(time, y, model, jacobian):
+    """Add what clutches and brakes do to the torques, and to the power that each takes."""
+    layout = model.options.layout
+    half = layout.half
+    for c in range(layout.clutches):
+        first, second = layout.clutch_first[c], layout.clutch_second[c]
+        slip, torque, slope = clutch_friction(c, time, y, model)
+        i, lost = half + turn_of(first, layout), work_of_clutch(c, layout)
+        j = half + turn_of(second, layout) if second >= 0 else i
+        if first > 0:  # what the reference's speed does is differenced
+            jacobian[i, i] -= slope
+            jacobian[lost, i] += torque + slope * slip
+            if second >= 0:
+                jacobian[j, i] += slope
+        if second > 0:
+            jacobian[j, j] -= slope
+            jacobian[lost, j] -= torque + slope * slip
+            jacobian[i, j] += slope

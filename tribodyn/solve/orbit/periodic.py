@@ -124,12 +124,15 @@ def _search_finely(before: GearMap, orbits: list[Orbit], tolerance: float, setti
 
 
 def refuse_time_dependent(model: Model) -> None:
-    """Raise InputError where the load varies in time otherwise than with the meshes.
+    """Raise InputError where clutches slip, or the load varies in time otherwise than with the meshes.
 
     With a prescribed speed, harmonics at whole multiples of the frequency of the common period repeat with
     the meshes; that of a single mesh is the mesh frequency.
     """
     operation = model.operation
+    if model.layout.clutches:
+        rule, remedy = "slips, which is no steady state over the mesh cycle", "run the scenario in time"
+        raise InputError("clutch", None, rule, remedy)
     torques = np.asarray(operation.load_torques)
     if len(torques) > 1 and np.ptp(torques) > 0.0:
         raise InputError(

@@ -8,14 +8,15 @@ import numpy as np
 
 from tribodyn.dynamics.data import matrices_in_space, spring_damping
 from tribodyn.errors import InputError
-from tribodyn.gears.model import tilting_inertia
+from tribodyn.gears.model import resting_slopes, tilting_inertia
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.tabulated import table_key
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.motion.case import HOUSING, Gearbox, LinkData, LoadData
+from tribodyn.studies.motion.case import HOUSING, ClutchData, Gearbox, LinkData, LoadData
 from tribodyn.studies.motion.drivetrain.teeth import engagement
+from tribodyn.train.clutches import Clutches, common_knots
 from tribodyn.train.phases import Engagement, Phases, nominal_phases
 
 
@@ -135,3 +136,20 @@ def varying_of(case: Gearbox) -> LoadData:
         rule = "two loads vary over time"
         raise InputError(f"load.{varying[1]}.torque_table", None, rule, "let one of them be constant")
     return loads[varying[0] if varying else 0] if loads else LoadData(0, 0.0)
+
+
+def clutches_of(clutches: Sequence[ClutchData]) -> Clutches:
+    """Numbers of clutches and brakes as the equations of motion read them."""
+    if not clutches:
+        return Clutches()
+    curves = [(*one.capacity, resting_slopes(*one.capacity)) for one in clutches]
+    numbers = [
+        (
+            one.static_ratio - 1.0,
+            one.static_speed,
+            one.reversal_speed,
+            np.nan if one.slip is None else one.slip,
+        )
+        for one in clutches
+    ]
+    return Clutches(*common_knots(curves), *np.ascontiguousarray(np.array(numbers).T))

@@ -102,6 +102,22 @@ class LinkData:
 
 
 @dataclass(frozen=True)
+class ClutchData:
+    """A clutch between two bodies, or a brake on one: capacity over time, and friction over slip speed."""
+
+    name: str
+    key: str
+    ends: tuple[int, int]  # the second may be `HOUSING`
+    capacity: Table  # torque while it slips over time (s, N m), constant before and after its points
+    static_ratio: float = 1.0  # of the torque at rest over that
+    static_speed: float = 1.0  # slip speed over which it falls off, rad/s
+    reversal_speed: float = 0.1  # slip speed over which the friction reverses, rad/s
+    slip: float | None = (
+        None  # at the start, of the first end over the second, rad/s; None: see `train.clutches`
+    )
+
+
+@dataclass(frozen=True)
 class TrainMesh:
     """A mesh of the train: where it is, and the pair of gears in it."""
 
@@ -204,6 +220,7 @@ class Gearbox(CaseHead):
     solver: SolverData
     output: OutputData
     sets: tuple[SetData, ...] = ()
+    clutches: tuple[ClutchData, ...] = ()
     supports: Mapping[int, GearSupport] = field(default_factory=dict)  # drawn shafts and matrices, by body
     system: DrawnSystem | None = None  # shafts drawn with all that they carry, which then have no links
     sensors: tuple[SensorData, ...] = ()
@@ -257,6 +274,7 @@ class Gearbox(CaseHead):
         """Whether all power passes one mesh: two gears on bearings, of which one drives, one bears a load."""
         first, loaded = self.meshes[0], [load.body for load in self.loads]
         alone = len(self.meshes) == 1 and len(self.bodies) == 2 and self.source.body == first.driver
+        alone = alone and not self.clutches
         return alone and loaded == [first.driven] and all(HOUSING in link.ends for link in self.links)
 
     @property

@@ -20,6 +20,7 @@ from tribodyn.solve.twist import static_twist
 from tribodyn.studies.motion.assembly import (
     BodyInertia,
     body_inertias,
+    clutches_of,
     engagements,
     in_space_of,
     link_damping,
@@ -237,6 +238,7 @@ def _model(
             contact_width=first.mesh.contact_width,
             reversal_width=first.friction.reversal_width,
             **varying_load(varying.table, varying.harmonics),
+            clutches=clutches_of(case.clutches),
         ),
         options_of(first, [each.cycle for each in tables], closures[0], layout, drive)._replace(links=chain),
     )
@@ -276,9 +278,7 @@ def _under_load(model: parameters.Model, case: Gearbox, further: Float[Array, " 
 
 
 def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
-    ends = [
-        (new[link.ends[0]], GROUND if link.ends[1] == HOUSING else new[link.ends[1]]) for link in case.links
-    ]
+    ends = [(new[link.ends[0]], new.get(link.ends[1], GROUND)) for link in case.links]
     source = new[case.source.body]
     count, planar = len(new), sum(_held(case, body) for body in new)
     shaft = _has_motor(case)
@@ -296,6 +296,7 @@ def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
         pins=[number for number, link in enumerate(case.links) if link.lever],
         holding={number: link.holds for number, link in enumerate(case.links) if link.holds},
         frames=int(bool(case.sets)),
+        clutches=[(new[one.ends[0]], new.get(one.ends[1], GROUND)) for one in case.clutches],
         carriers=[new.get(mesh.carrier, GROUND) for mesh in case.meshes],
         modes=(case.system.reduced.modes if case.system is not None else 0) + rim_coordinates(case),
     )

@@ -25,6 +25,7 @@ from tribodyn.studies.motion.drivetrain.shaft_lines import HOUSING_GEOMETRY, SHA
 from tribodyn.studies.motion.prepare import PreparedGearbox, geometry_of
 
 _TIME, _BODY, _MESH, _PAIRS = ("time",), ("time", "body"), ("time", "mesh"), ("time", "mesh", "pair")
+_CLUTCH = ("time", "clutch")
 #: What a record of a pair says in terms of pinion and gear.
 _MEANINGS = {
     "friction_force": "sliding friction on the driver's flank along the tangent, positive in recess",
@@ -133,6 +134,15 @@ BEARINGS: dict[str, Variable] = {
     "bearing_force_y": Variable(("time", "bearing"), "N", "force of each body on its bearing or pin in y"),
 }
 _BEARING = {"bearing": Variable(("bearing",), "1", "bearing or pin, by the body that it holds")}
+#: And of one with clutches or brakes.
+CLUTCHES: dict[str, Variable] = {
+    "clutch_slip": Variable(_CLUTCH, "rad/s", "speed of each clutch's first body over its second one's"),
+    "clutch_torque": Variable(_CLUTCH, "N*m", "torque of each clutch on its first body, against its slip"),
+    "clutch_capacity": Variable(_CLUTCH, "N*m", "torque that each clutch transmits while it slips"),
+    "clutch_power": Variable(_CLUTCH, "W", "power that slip turns into heat in each clutch"),
+    "clutch_work": Variable(_CLUTCH, "J", "work that slip turned into heat in each clutch since the start"),
+}
+_CLUTCH_AXIS = {"clutch": Variable(("clutch",), "1", "clutch or brake of the train")}
 #: Of a pair besides what `gears_layout` has.
 OF_A_GEAR = {
     name: SAMPLES[name]._replace(dims=tuple(dim for dim in SAMPLES[name].dims if dim != "mesh"))
@@ -249,6 +259,9 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
         samples = samples | RIM
     if bearings:
         samples, axes = samples | BEARINGS, axes | _BEARING
+    if case.clutches:
+        samples, axes = samples | CLUTCHES, axes | _CLUTCH_AXIS
+        scales["clutch"] = np.array([one.name for one in case.clutches])
     axes = axes | {"revolution": REVOLUTION}
     others = of_revolutions(of_train=True)
     return GearboxRecord(

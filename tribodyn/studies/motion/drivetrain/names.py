@@ -1,6 +1,6 @@
 """Names in a train's scenario: each stands for one part, and every part that is named is there."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from tribodyn.errors import InputError, quoted, unknown_name
@@ -37,6 +37,8 @@ def broken_names(scenario: Any) -> Iterator[InputError]:
     yield from _shafts(scenario)
     for number, link in enumerate(scenario.link):
         yield from _link(scenario, f"link.{number}", link, names)
+    for number, clutch in enumerate(scenario.clutch):
+        yield from _two_bodies(scenario, f"clutch.{number}", clutch.ends, names)
     yield from _ends(scenario, names)
     yield from _bearings(scenario, names)
 
@@ -46,7 +48,7 @@ def broken_sort(scenario: Any) -> Iterator[InputError]:
     bare = isinstance(scenario.mesh, tuple)
     gear_tables = [name for name in ("drive", "gear", "stage", "shaft") if getattr(scenario, name)]
     if bare and gear_tables:
-        rule = "contradicts [[mesh]], a bare model: only [[body]] and [[link]] stand beside it"
+        rule = "contradicts [[mesh]], a bare model: only [[body]], [[link]] and [[clutch]] stand beside it"
         yield InputError(gear_tables[0], None, rule, "leave it out, or write one table [mesh]")
     elif scenario.drive is not None and {"gear", "stage"} & set(gear_tables):
         rule, remedy = "contradicts drive, which is a train of one stage", "leave the one or the other out"
@@ -74,9 +76,7 @@ def _shafts(scenario: Any) -> Iterator[InputError]:
 
 
 def _link(scenario: Any, key: str, link: Link, names: list[str]) -> Iterator[InputError]:
-    yield from broken_list(f"{key}.ends", link.ends, [*names, GROUND], f"{_PLACE}, or {quoted(GROUND)}")
-    for place, name in enumerate(link.ends):
-        yield from _compliant(scenario, f"{key}.ends.{place}", name)
+    yield from _two_bodies(scenario, key, link.ends, names)
     springs = link.stiffness_x, link.stiffness_y, link.stiffness
     dampers = link.damping_x, link.damping_y, link.damping
     if not any((*springs, *dampers)):
@@ -84,9 +84,16 @@ def _link(scenario: Any, key: str, link: Link, names: list[str]) -> Iterator[Inp
     if GROUND in link.ends and (link.stiffness or link.damping):
         rule = "a body that turns is not held in rotation by the housing"
         yield InputError(f"{key}.stiffness", None, rule, "leave stiffness and damping out, or name a body")
-    bodies = [_rigid_body(scenario, name) for name in link.ends]
-    if bodies[0] == bodies[1] and link.ends[0] != link.ends[1]:
-        rule = f"{' and '.join(link.ends)} are one body, the shaft {bodies[0]}"
+
+
+def _two_bodies(scenario: Any, key: str, ends: Sequence[str], names: list[str]) -> Iterator[InputError]:
+    """What is wrong with the ends of a link or clutch."""
+    yield from broken_list(f"{key}.ends", ends, [*names, GROUND], f"{_PLACE}, or {quoted(GROUND)}")
+    for place, name in enumerate(ends):
+        yield from _compliant(scenario, f"{key}.ends.{place}", name)
+    bodies = [_rigid_body(scenario, name) for name in ends]
+    if bodies[0] == bodies[1] and ends[0] != ends[1]:
+        rule = f"{' and '.join(ends)} are one body, the shaft {bodies[0]}"
         yield InputError(f"{key}.ends", None, rule, "name two bodies")
 
 

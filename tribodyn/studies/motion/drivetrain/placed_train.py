@@ -13,10 +13,11 @@ from tribodyn.geometry.families import Family, family
 from tribodyn.geometry.limits.checks import check, check_path
 from tribodyn.input.tables.gears.drive_data import drive_of
 from tribodyn.input.tables.gears.model_files import DriveTable
+from tribodyn.studies.motion.drivetrain.clutch_rules import refuse_meshing_beyond
+from tribodyn.studies.motion.drivetrain.pair_tables import drive_table
 from tribodyn.studies.motion.drivetrain.structure import (
     OF_DRIVE,
     Structure,
-    drive_table,
     motion_of,
     structure,
 )
@@ -85,6 +86,8 @@ def resolve_kinematics(scenario: Any) -> TrainKinematics:
         if load.speed_ratio is not None
     ]
     motion = motion_of(parts, parts.body(source), SENSES[scenario.operating.sense], outputs, given)
+    if parts.clutches:
+        refuse_meshing_beyond(parts, motion, prescribed=scenario.operating.source == "speed")
     if scenario.drive is not None and motion.gears[0] != (0, 1):
         rule = "a drive file says that its pinion drives"
         raise InputError("operating.input", source, rule, f'write input = "{OF_DRIVE[0]}"')

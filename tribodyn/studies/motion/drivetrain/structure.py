@@ -7,19 +7,15 @@ body, see `train.kinematics`.
 
 from collections.abc import Iterator, Sequence
 from math import pi
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
-import numpy as np
-
-from tribodyn.geometry.families import family
-from tribodyn.input.quantity import Printed
-from tribodyn.input.tables.gears.drive_data import drive_of
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.input.tables.laws import LinkTable
 from tribodyn.input.tables.shafts import Shaft, in_order, listed, torsional_springs
 from tribodyn.studies.motion.drivetrain.tables import (
     GROUND,
     BareMesh,
+    Clutch,
     Link,
     PlanetaryStage,
     Stage,
@@ -89,6 +85,15 @@ class LinkPart(NamedTuple):
     table: LinkTable
 
 
+class ClutchPart(NamedTuple):
+    """A clutch between bodies, or a brake, whose second end is −1, the housing."""
+
+    name: str
+    key: str
+    ends: tuple[int, int]
+    table: Clutch
+
+
 class Structure(NamedTuple):
     """A train as its scenario writes it."""
 
@@ -99,6 +104,7 @@ class Structure(NamedTuple):
     #: name of a gear, shaft or body -> its body, both of a compliant shaft, all planets of a planet
     places: dict[str, tuple[int, ...]]
     sets: tuple[SetPart, ...] = ()
+    clutches: tuple[ClutchPart, ...] = ()
 
     def body(self, name: str) -> int:
         """The body of that name; of a compliant shaft the first."""
@@ -110,9 +116,13 @@ class Structure(NamedTuple):
         others = [one.teeth for k, one in enumerate(self.gears) if one.body == body and k != gear]
         return others[0] if others and any(body in one.planets for one in self.sets) else 1
 
-    def couplings(self) -> list[tuple[LinkPart, tuple[int, int]]]:
-        """Links that make two bodies turn alike."""
+    def springs(self) -> list[tuple[LinkPart, tuple[int, int]]]:
+        """Links that twist."""
         return [(link, link.ends) for link in self.links if link.stiffness[2] > 0.0]
+
+    def couplings(self) -> list[tuple[LinkPart | ClutchPart, tuple[int, int]]]:
+        """Links that make two bodies turn alike, and clutches, which do so when they are closed."""
+        return [*self.springs(), *((one, one.ends) for one in self.clutches if one.ends[1] >= 0)]
 
 
 def structure(scenario: Any) -> Structure:
@@ -172,6 +182,7 @@ def structure(scenario: Any) -> Structure:
         (*springs, *_links(scenario, places)),
         places,
         tuple(set_of(scenario, key, stage, places) for key, stage in stages),
+        tuple(_clutches(scenario, places)),
     )
 
 
@@ -237,6 +248,14 @@ def _links(scenario: Any, places: dict[str, tuple[int, ...]]) -> Iterator[LinkPa
         )
 
 
+def _clutches(scenario: Any, places: dict[str, tuple[int, ...]]) -> Iterator[ClutchPart]:
+    clutch: Clutch
+    for number, clutch in enumerate(scenario.clutch):
+        one, two = (-1 if name == GROUND else places[name][0] for name in clutch.ends)
+        ends = (two, one) if one < 0 else (one, two)
+        yield ClutchPart(clutch.name or "-".join(clutch.ends), f"clutch.{number}", ends, clutch)
+
+
 def _bare(scenario: Any) -> Structure:
     """A bare model: ends of meshes with the same teeth on one body are one gear."""
     bodies: list[BodyPart] = []
@@ -258,7 +277,12 @@ def _bare(scenario: Any) -> Structure:
         name = mesh.name or "-".join(mesh.bodies)
         meshes.append(MeshPart(name, key, (ends[0], ends[1]), mesh.azimuth, mesh))
     return Structure(
-        tuple(bodies), _named_apart(gears), tuple(meshes), tuple(_links(scenario, places)), places
+        tuple(bodies),
+        _named_apart(gears),
+        tuple(meshes),
+        tuple(_links(scenario, places)),
+        places,
+        clutches=tuple(_clutches(scenario, places)),
     )
 
 
@@ -287,39 +311,3 @@ def motion_of(
         outputs,
         given,
     )
-
-
-def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, driven: int) -> DriveTable:
-    """What a drive file would say of a mesh whose gears drive and are driven."""
-    table = mesh.table
-    if isinstance(table, DriveTable):
-        return table
-    pinion, gear = parts.gears[driver].table, parts.gears[driven].table
-    common = {
-        "module": table.module_at(mesh.member) if isinstance(table, PlanetaryStage) else table.module,
-        "pressure_angle": table.pressure_angle,
-        "mean_roughness": scenario.mean_roughness,
-        "material": scenario.material,
-        "quality": scenario.quality,
-        "quality_edition": scenario.quality_edition,
-        "pinion": pinion,
-        "gear": gear,
-    }
-    if isinstance(table, BareMesh):
-        return DriveTable.model_construct(family="involute", **common)
-    flanks = "roughness", "finish", "asperity_density", "asperity_slope"
-    gear_keys = {name: getattr(table, name) for name in ("family", "rack", "shape", "helix_angle", *flanks)}
-    distance: Printed | None = table.centre_distance
-    at_ring = isinstance(table, PlanetaryStage) and (pinion.internal or gear.internal)
-    if distance is None and at_ring and family(table.family).involute:
-        distance = _distance_of_set(scenario, parts, mesh)
-    return DriveTable.model_construct(**common, **gear_keys, centre_distance=distance)
-
-
-def _distance_of_set(scenario: Any, parts: Structure, mesh: MeshPart) -> Printed:
-    """Distance of the planets' axes from the sun's where none is written: that of both without backlash."""
-    at_sun = next(other for other in parts.meshes if other.of_set == mesh.of_set)
-    drive = drive_of(drive_table(scenario, parts, at_sun, *at_sun.gears))
-    with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
-        path = family(cast(PlanetaryStage, at_sun.table).family).working_path(drive)
-    return Printed(float(path.pinion_pitch_radius + path.gear_pitch_radius), 0.0)

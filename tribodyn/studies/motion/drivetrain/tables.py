@@ -9,7 +9,9 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.input import fields, quantity, units
 from tribodyn.input.fields import PartName
 from tribodyn.input.quantity import (
+    Column,
     Count,
+    CurveTable,
     InUnit,
     NotNegative,
     Number,
@@ -209,6 +211,38 @@ class Link(LinkTable):
     stiffness: fields.TorsionalStiffness | None = None
     damping: fields.TorsionalDamping = written("0 N*m*s/rad")
     damping_ratio: NotNegative = 0.0
+
+
+class ClutchTorque(CurveTable):
+    """Torque of a clutch over time; held constant outside the points."""
+
+    time: Annotated[Column, units.TIME]
+    torque: Annotated[Column, units.not_negative(units.TORQUE)]
+
+
+class ClutchForce(CurveTable):
+    """Force that presses the faces of a clutch together over time; held constant outside the points."""
+
+    time: Annotated[Column, units.TIME]
+    normal_force: Annotated[Column, units.not_negative(units.FORCE)]
+
+
+class Clutch(Table):
+    """A friction clutch between two bodies, or a brake between a body and the housing."""
+
+    name: PartName | None = None
+    ends: tuple[Text, ...] = Field(min_length=2, max_length=2)
+    torque: Annotated[float, InUnit(units.not_negative(units.TORQUE))] | None = None
+    torque_table: Annotated[ClutchTorque, csv_file("time", "torque")] | None = None
+    normal_force: Annotated[float, InUnit(units.not_negative(units.FORCE))] | None = None
+    normal_force_table: Annotated[ClutchForce, csv_file("time", "normal_force")] | None = None
+    friction_coefficient: NotNegative | None = None
+    effective_radius: Length | None = None
+    faces: Count = 1
+    static_ratio: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=1.0)] = 1.0
+    static_speed: Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))] | None = None
+    reversal_speed: Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))] = written("0.1 rad/s")
+    slip: Annotated[float, InUnit(units.ANGULAR_SPEED)] | None = None
 
 
 class BareMesh(Table):

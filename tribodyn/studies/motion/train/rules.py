@@ -18,6 +18,7 @@ from tribodyn.input.tables.gears.drive_data import gives_backlash
 from tribodyn.input.tables.laws import broken_link_law
 from tribodyn.input.tables.sensors import broken_sensor_rules
 from tribodyn.input.tables.shafts import drawn_shafts, listed
+from tribodyn.studies.motion.drivetrain.clutch_rules import broken_clutch
 from tribodyn.studies.motion.drivetrain.duty import broken_duty, duty_of
 from tribodyn.studies.motion.drivetrain.names import broken_names, broken_sort
 from tribodyn.studies.motion.drivetrain.placed_train import (
@@ -47,6 +48,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         *_bearings(scenario),
         *_in_sets(scenario),
         *(e for number, link in enumerate(scenario.link) for e in broken_link_law(f"link.{number}", link)),
+        *(e for number, one in enumerate(scenario.clutch) for e in broken_clutch(f"clutch.{number}", one)),
         *broken_source_rules(scenario.operating),
         *broken_duty(scenario),
         *unnamed_duty(scenario),

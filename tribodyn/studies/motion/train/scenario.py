@@ -46,6 +46,7 @@ from tribodyn.studies.motion.case import (
     SourceData,
     TrainMesh,
 )
+from tribodyn.studies.motion.drivetrain.clutch_rules import clutch_data
 from tribodyn.studies.motion.drivetrain.duty import (
     LoadTable,
     TrainDuty,
@@ -64,6 +65,7 @@ from tribodyn.studies.motion.drivetrain.tables import (
     AnyStage,
     BareBody,
     BareMesh,
+    Clutch,
     Link,
     TrainGear,
 )
@@ -106,6 +108,7 @@ class GearTrainScenario(SpectrumScenario):
     shaft: Shafts = ()
     body: tuple[BareBody, ...] = Field((), max_length=MOST_PARTS)
     link: tuple[Link, ...] = Field((), max_length=MOST_PARTS)
+    clutch: tuple[Clutch, ...] = Field((), max_length=MOST_PARTS)
     material: MaterialReference | None = None
     mean_roughness: Roughness | None = None
     quality: QualityGrade | None = None
@@ -165,6 +168,7 @@ def case_of(
         sensors=sensors_of(scenario.sensor),
         housing=housing_of(scenario.housing),
         sets=tuple(set_data(gearset, train) for gearset in train.parts.sets),
+        clutches=tuple(clutch_data(part, train.numbers) for part in train.parts.clutches),
     )
 
 

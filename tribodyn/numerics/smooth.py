@@ -57,6 +57,19 @@ def sign(x):
 
 
 @law
+def sign_slope(x):
+    """Slope of `sign`."""
+    inner = minimum(maximum(x, -1.0), 1.0)
+    return 1.5 * (1.0 - inner * inner)
+
+
+@law
+def cubic_rise(u, rise, out, back):
+    """Cubic over u from 0 to 1 that rises from 0 by `rise`, with the slopes `out` and `back` at its ends."""
+    return u * (out + u * (3.0 * rise - 2.0 * out - back + u * (out + back - 2.0 * rise)))
+
+
+@law
 def sign_integral(x):
     """The integral of `sign` from 0 to x."""
     size = absolute(x)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.smooth import (
+from tribodyn.numerics.smooth import (
     load_with_damping,
     mean_sign,
     onset,
