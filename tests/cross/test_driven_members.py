@@ -9,6 +9,8 @@ from tests.support.states import altered
 from tests.support.train_scenarios import case_of_table
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
+from tribodyn.studies.motion.planetary.powers import flow_of
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.run import run
 from tribodyn.train.structure import BRAKES, DRIVES
 
@@ -63,7 +65,8 @@ def test_speeds_that_all_members_have_more_change_no_load(ran):
     ids=["summing", "against", "splitting"],
 )
 def test_power_in_is_power_out_and_losses(ran, ends, given, speed, torque, into, out):
-    record = ran(free_set(ends, given, speed, torque), f"{ends[0]}-{len(str(given))}")
+    table = free_set(ends, given, speed, torque)
+    record = ran(table, f"{ends[0]}-{len(str(given))}")
     work = {name: record[f"work_{name}"][-1] for name in ("in", "out", "friction", "damping")}
     gained = record["stored_energy"][-1] - record["stored_energy"][0]
     lost = work["friction"] + work["damping"]
@@ -74,6 +77,10 @@ def test_power_in_is_power_out_and_losses(ran, ends, given, speed, torque, into,
     rpm = np.pi / 30.0
     assert work["out"] / time == pytest.approx(out * rpm, rel=0.02)
     assert work["in"] / time == pytest.approx(into * rpm, rel=0.02)
+    flow = flow_of(prepare(case_of_table(table)))  # in slow rotation, by Willis
+    assert flow is not None
+    assert flow.put_in == pytest.approx(flow.taken_out + sum(flow.loss), rel=1e-9)
+    assert sum(flow.loss) == pytest.approx(record.summary["power_friction_mean"], rel=0.02)
 
 
 def test_torques_of_members_are_those_of_willis():

@@ -16,7 +16,7 @@ import numpy as np
 class Equation(NamedTuple):
     """One equation: Σ factor · speed of a body = value."""
 
-    factors: Mapping[int, Fraction]
+    factors: Mapping[int, Fraction | float]
     value: Fraction = Fraction(0)
 
 

@@ -27,6 +27,7 @@ from tribodyn.studies.motion.frequencies import (
     passes,
 )
 from tribodyn.studies.motion.planetary.jamming import jams
+from tribodyn.studies.motion.planetary.powers import LOCKS, flow_of, power_data, power_table
 from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.studies.motion.sensors import listener_of
@@ -73,6 +74,10 @@ def check(case: Gearbox) -> CheckResult:
             data=pair.data | of_modes | held, tables=(*pair.tables, *tables), remarks=remarks
         )
     names, train = [mesh.name for mesh in case.meshes], _train(prepared)
+    flow = flow_of(prepared) if case.sets else None
+    powers = power_data(prepared, flow)
+    of_powers, circling = power_table(prepared, powers)
+    locks = [LOCKS] if case.sets and flow is None else []
     of_sets_alone = {
         "planet_pass_frequencies": planet_pass(prepared),
         "set_frequencies": {name: of_set._asdict() for name, of_set in of_sets(prepared).items()},
@@ -83,17 +88,22 @@ def check(case: Gearbox) -> CheckResult:
         **held,
         **({"mode_kinds": list(kinds)} if kinds else {}),
         **(of_sets_alone if case.sets else {}),
+        **powers,
         "mesh_frequencies": dict(zip(names, mesh_frequencies(prepared), strict=True)),
         "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
     }
     faces = {name: of for name, of in data["meshes"].items() if FACE[0].name in of}
     title = "Loads along the faces, in static equilibrium"
     of_faces = [TextTable(title, *bearing_rows(faces, FACE))] if faces else []
-    tables = [*_train_tables(prepared, train), *_set_tables(prepared), *of_faces, *tables]
+    tables = [*_train_tables(prepared, train), *of_powers, *_set_tables(prepared), *of_faces, *tables]
     details = list(_once(names, [checked.tables for checked in of_meshes]))
-    remarks = [*_named(names, [checked.remarks for checked in of_meshes]), *bearing_remarks(shafts, oil)]
+    remarks = [
+        *circling,
+        *_named(names, [checked.remarks for checked in of_meshes]),
+        *bearing_remarks(shafts, oil),
+    ]
     sentences = _named(names, [checked.warnings for checked in of_meshes])
-    warnings = tuple(dict.fromkeys((*jams(prepared), *sentences)))
+    warnings = tuple(dict.fromkeys((*locks, *jams(prepared), *sentences)))
     return CheckResult(data, tables, remarks, warnings, details)
 
 

@@ -1,0 +1,100 @@
+"""Powers in a train with planetary sets by Willis, with the losses that its meshes have in slow rotation."""
+
+from typing import Any
+
+from tribodyn.cases.results import TextTable
+from tribodyn.gears.tabulated import quasi_static_loss
+from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of, together
+from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.train.planetary import CARRIER
+from tribodyn.train.power_flow import LossyMesh, PowerFlow, power_flow
+from tribodyn.train.structure import TURN
+from tribodyn.train.willis import of_coupling, of_speed
+
+#: Share of the power in by which a branch must exceed it to circulate.
+_ROUNDING = 1e-6
+#: What is said of a train that no torque of its input turns.
+LOCKS = (
+    "the losses of its meshes lock the train: in slow rotation no torque of the input turns the loads, "
+    "let power enter at another member"
+)
+
+
+def flow_of(prepared: PreparedGearbox) -> PowerFlow | None:
+    """Power flow at the nominal duty; None: no torque of the input turns the loads."""
+    case, model = prepared.case, prepared.model
+    reference = float(model.operation.nominal_speed)
+    speeds = [float(body.ratio) * body.sense * reference for body in case.bodies]
+    loads: dict[int, float] = {}
+    for load in case.loads:
+        along = 1.0 if speeds[load.body] > 0.0 else -1.0
+        loads[load.body] = loads.get(load.body, 0.0) - along * load.torque
+    joined = [link.ends for link in case.links if link.stiffness[TURN] > 0.0]
+    rows = [of_coupling(one, two) for one, two in joined if two >= 0]
+    rows += [of_speed(case.source.body), *(of_speed(link.ends[0]) for link in case.links if link.holds)]
+    return power_flow(_meshes(prepared), rows, speeds, loads)
+
+
+def _meshes(prepared: PreparedGearbox) -> list[LossyMesh]:
+    case, shares, meshes = prepared.case, dict[tuple[int, float, float], float](), []
+    for mesh, pair, tabulated in zip(case.meshes, prepared.warm_pairs, prepared.tables, strict=True):
+        duty, ratio = pair.operating, float(tabulated.cycle.speed_ratio)
+        key = id(tabulated), duty.pinion_speed, duty.gear_torque
+        if key not in shares:
+            rolling = abs(duty.gear_torque * ratio * duty.pinion_speed)
+            shares[key] = quasi_static_loss(tabulated)(pair) / rolling if rolling else 0.0
+        one, two = (case.gears[gear].teeth for gear in mesh.gears)
+        meshes.append(LossyMesh(mesh.driver, mesh.driven, (one, two), mesh.carrier, shares[key]))
+    return meshes
+
+
+def power_data(prepared: PreparedGearbox, flow: PowerFlow | None) -> dict[str, Any]:
+    """For programs, W: of every mesh, and into the sets at every member; nothing of a train without power."""
+    case = prepared.case
+    if flow is None or not flow.put_in:
+        return {}
+    meshes = {
+        mesh.name: {"rolling_power": abs(rolling), "loss": loss}
+        for mesh, rolling, loss in zip(case.meshes, flow.rolling, flow.loss, strict=True)
+    }
+    members = {}
+    for gearset in case.sets:
+        carrier = gearset.members[CARRIER]
+        given = dict.fromkeys(gearset.members.values(), 0.0)
+        for mesh, powers in zip(case.meshes, flow.into, strict=True):
+            if mesh.carrier == carrier:
+                for body, power in zip((mesh.driver, mesh.driven, carrier), powers, strict=True):
+                    given[body] = given.get(body, 0.0) - power
+        members[gearset.name] = {name: given[body] for name, body in gearset.members.items()}
+    totals = {"put_in": flow.put_in, "taken_out": flow.taken_out, "efficiency": flow.efficiency}
+    return {"power_flow": {**totals, "meshes": meshes, "members": members}}
+
+
+def power_table(prepared: PreparedGearbox, powers: dict[str, Any]) -> tuple[list[TextTable], list[str]]:
+    """Powers in a table, and whether some goes round in a circle; nothing where `power_data` has nothing."""
+    if not powers:
+        return [], []
+    of, rows, circling = powers["power_flow"], [], []
+    put_in, names = of["put_in"], dict[str, list[str]]()
+    rows += [("in", f"{put_in:.5g}", "100", ""), ("out", *_cells(of["taken_out"], put_in), "")]
+    for mesh, alike in zip(prepared.case.meshes, alike_of(prepared.case), strict=True):
+        names.setdefault(alike or mesh.name, []).append(mesh.name)
+    for each in names.values():
+        power, loss = (sum(of["meshes"][name][key] for name in each) for key in ("rolling_power", "loss"))
+        rows.append((f"rolls in {together(each)}", *_cells(power, put_in), f"{loss:.4g}"))
+        if power > put_in * (1.0 + _ROUNDING):
+            circling.append((power, f"the rolling power of {together(each)}"))
+    for name, members in of["members"].items():
+        for member, power in members.items():
+            rows.append((f"into {name} at the {member}", *_cells(power, put_in), ""))
+            if abs(power) > put_in * (1.0 + _ROUNDING):
+                circling.append((abs(power), f"the power at the {member} of {name}"))
+    title = f"Power flow by Willis, with losses in slow rotation: efficiency {100.0 * of['efficiency']:.3f} %"
+    remarks = [
+        f"Power circulates: {what} is {power / put_in:.3g} times the power in." for power, what in circling
+    ]
+    return [TextTable(title, ("where", "power (W)", "of the power in (%)", "loss (W)"), rows)], remarks
+
+
+def _cells(power: float, put_in: float) -> tuple[str, str]:
+    return f"{power:.5g}", f"{100.0 * power / put_in:.4g}"

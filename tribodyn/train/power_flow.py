@@ -1,0 +1,155 @@
+"""Powers in a train whose meshes lose a share of what rolls through them: directions, efficiency, locking.
+
+What a mesh loses is a share of its *rolling power*, torque times speed against its carrier (Willis): the gear
+by which that power enters drives, and the other one is given the rest. The carrier bears both torques. Speeds
+do not depend on losses; which gear of a mesh drives may.
+"""
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+from typing import NamedTuple
+
+from tribodyn.train.willis import Equation, reactions
+
+#: Meshes, those whose losses differ in no direction counted once, up to which every direction is tried.
+MOST = 12
+#: Share of the largest rolling power below which a mesh carries nothing but rounding.
+_NOTHING = 1e-9
+
+
+class LossyMesh(NamedTuple):
+    """A mesh of two bodies, by its teeth (internal ones negative); carrier −1: the axes stand still."""
+
+    one: int
+    two: int
+    teeth: tuple[float, float]
+    carrier: int = -1
+    loss: float = 0.0  # share of the rolling power, 0 … 1
+
+    def torques(self, forward: bool) -> tuple[float, float]:
+        """Torques on both gears, per torque of a tooth of the one that drives: `forward`, the first."""
+        one, two = self.teeth
+        return (one, two * (1.0 - self.loss)) if forward else (one * (1.0 - self.loss), two)
+
+    def row(self, forward: bool) -> Equation:
+        """These torques, and the carrier's, as `willis.reactions` takes them."""
+        one, two = self.torques(forward)
+        factors = {self.one: one}
+        for body, factor in ((self.two, two), (self.carrier, -one - two)):
+            if body >= 0:
+                factors[body] = factors.get(body, 0.0) + factor
+        return Equation(factors)
+
+    def rolling(self, speeds: Sequence[float]) -> float:
+        """Speed with which the first gear's teeth roll, times their number."""
+        return self.teeth[0] * (speeds[self.one] - (speeds[self.carrier] if self.carrier >= 0 else 0.0))
+
+
+class PowerFlow(NamedTuple):
+    """Torques, N m counter-clockwise, and powers, W."""
+
+    torque: tuple[float, ...]  # that every row of what is not a mesh puts in, as of `willis.reactions`
+    rolling: tuple[float, ...]  # of every mesh, what enters: positive where its first gear drives
+    loss: tuple[float, ...]  # of every mesh
+    #: power that the meshes put into every body by what they do to its axis, carriers included
+    into: tuple[tuple[float, float, float], ...]  # of every mesh: first body, second body, carrier
+    put_in: float
+    taken_out: float
+
+    @property
+    def efficiency(self) -> float:
+        """Power out over power in."""
+        return self.taken_out / self.put_in if self.put_in else 0.0
+
+    @property
+    def recirculating(self) -> float:
+        """Largest rolling power over the power in: above 1 where power goes round in a circle."""
+        return max((abs(power) for power in self.rolling), default=0.0) / self.put_in if self.put_in else 0.0
+
+
+def power_flow(
+    meshes: Sequence[LossyMesh],
+    rows: Sequence[Equation],
+    speeds: Sequence[float],
+    loads: Mapping[int, float],
+) -> PowerFlow | None:
+    """Balance loads (N m, counter-clockwise, on bodies that turn at speeds, rad/s); None: it locks itself.
+
+    `rows` are those of couplings and of bodies that are held or driven, see `willis`. Directions of all
+    meshes are those without losses, and where these contradict the torques that follow, as near to them as
+    torques agree with. Self-locking: no direction of rolling power agrees with its own torques.
+    """
+    rolling = [mesh.rolling(speeds) for mesh in meshes]
+    forward = [True] * len(meshes)
+    lossless = [mesh._replace(loss=0.0) for mesh in meshes]
+    first = _directions(lossless, rows, rolling, loads, forward)[0]
+    tried = first
+    for _ in range(2 * len(meshes) + 2):
+        following, found = _directions(meshes, rows, rolling, loads, tried)
+        if following == tried:
+            return _flow(meshes, rows, rolling, speeds, loads, tried, found)
+        tried = following
+    alike = _alike(meshes, rolling, speeds)
+    if max(alike, default=-1) + 1 > MOST:
+        return None
+    groups = range(max(alike, default=-1) + 1)
+    for flipped in sorted(product((False, True), repeat=len(groups)), key=sum):
+        tried = [way is not flipped[group] for way, group in zip(first, alike, strict=True)]
+        following, found = _directions(meshes, rows, rolling, loads, tried)
+        if following == tried:
+            return _flow(meshes, rows, rolling, speeds, loads, tried, found)
+    return None
+
+
+def _directions(
+    meshes: Sequence[LossyMesh],
+    rows: Sequence[Equation],
+    rolling: Sequence[float],
+    loads: Mapping[int, float],
+    forward: Sequence[bool],
+) -> tuple[list[bool], list[float]]:
+    """Which first gears drive by the torques that directions give; of what carries nothing these."""
+    found = reactions([*(m.row(way) for m, way in zip(meshes, forward, strict=True)), *rows], loads)
+    powers = [force * speed for force, speed in zip(found, rolling, strict=False)]
+    least = _NOTHING * max(map(abs, powers), default=0.0)
+    return [
+        way if abs(power) <= least else power < 0.0 for power, way in zip(powers, forward, strict=True)
+    ], found
+
+
+def _alike(meshes: Sequence[LossyMesh], rolling: Sequence[float], speeds: Sequence[float]) -> list[int]:
+    """Number alike what differs by its planet alone."""
+    numbers: dict[object, int] = {}
+    keys = (
+        (mesh.teeth, mesh.carrier, mesh.loss, way, speeds[mesh.one], speeds[mesh.two])
+        for mesh, way in zip(meshes, rolling, strict=True)
+    )
+    return [numbers.setdefault(key, len(numbers)) for key in keys]
+
+
+def _flow(
+    meshes: Sequence[LossyMesh],
+    rows: Sequence[Equation],
+    rolling: Sequence[float],
+    speeds: Sequence[float],
+    loads: Mapping[int, float],
+    forward: Sequence[bool],
+    found: Sequence[float],
+) -> PowerFlow:
+    entering, lost, into = [], [], []
+    for mesh, way, force, speed in zip(meshes, forward, found, rolling, strict=False):
+        one, two = (force * torque for torque in mesh.torques(way))
+        power = -force * speed
+        entering.append(power)
+        lost.append(mesh.loss * abs(power))
+        carried = -(one + two) * speeds[mesh.carrier] if mesh.carrier >= 0 else 0.0
+        into.append((one * speeds[mesh.one], two * speeds[mesh.two], carried))
+    torque = tuple(found[len(meshes) :])
+    powers = [load * speeds[body] for body, load in loads.items()]
+    for row, multiplier in zip(rows, torque, strict=True):
+        if len(row.factors) == 1:
+            ((body, factor),) = row.factors.items()
+            powers.append(multiplier * float(factor) * speeds[body])
+    put_in = sum(power for power in powers if power > 0.0)
+    taken_out = -sum(power for power in powers if power < 0.0)
+    return PowerFlow(torque, tuple(entering), tuple(lost), tuple(into), put_in, taken_out)
