@@ -57,6 +57,7 @@ ALIKE = {
     "involute-shifted-23-47",
     "irefc-as-published",
     "jia-involute-17-29",
+    "ravigneaux",
     "two-stage-reducer-hunting",
     "wind-turbine-gearbox",
     "wind-turbine-gearbox-assessment",

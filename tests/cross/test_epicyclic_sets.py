@@ -7,7 +7,15 @@ from math import pi
 import numpy as np
 import pytest
 
-from tests.support.epicyclic_sets import STEPPED, stepped_set
+from tests.support.epicyclic_sets import (
+    MESHED,
+    RAVIGNEAUX,
+    STEPPED,
+    meshed_set,
+    ravigneaux_set,
+    stepped_set,
+)
+from tests.support.planet_sets import planet_set
 from tests.support.train_scenarios import case_of_table
 from tribodyn.errors import InputError
 from tribodyn.gears.case import STAGES
@@ -34,25 +42,101 @@ def willis_of_stepped(teeth):
     return factors | {"carrier": -sum(factors.values())}
 
 
-@pytest.mark.parametrize(("held", "driving"), list(permutations(MEMBERS, 2)))
-def test_stepped_planets_turn_by_willis(held, driving):
+def willis_of_meshed(teeth):
+    """The same: two planets between sun and ring turn both the same way."""
+    factors = {"sun": teeth[0], "ring": -teeth[3]}
+    return factors | {"carrier": -sum(factors.values())}
+
+
+@pytest.mark.parametrize(
+    ("kind", "held", "driving"),
+    [
+        *(("stepped", *two) for two in permutations(MEMBERS, 2)),
+        *(("meshed", *two) for two in (("ring", "sun"), ("sun", "carrier"), ("carrier", "ring"))),
+    ],
+)
+def test_sets_turn_by_willis(kind, held, driving):
     (driven,) = (member for member in MEMBERS if member not in (held, driving))
-    factors = willis_of_stepped(STEPPED)
-    case = case_of_table(stepped_set(STEPPED, held=held, ends=(driving, driven)))
+    make, teeth, willis = {
+        "stepped": (stepped_set, STEPPED, willis_of_stepped),
+        "meshed": (meshed_set, MESHED, willis_of_meshed),
+    }[kind]
+    factors = willis(teeth)
+    case = case_of_table(make(teeth, held=held, ends=(driving, driven)))
     speeds = turning(case)
     assert speeds[held] == 0
     assert speeds[driven] == Fraction(-factors[driving], factors[driven])
-    assert speeds["planet-2"] - speeds["carrier"] == -Fraction(STEPPED[0], STEPPED[1]) * (
-        speeds["sun"] - speeds["carrier"]
-    )
+    first = speeds["planet-2"] - speeds["carrier"]
+    assert first == -Fraction(teeth[0], teeth[1]) * (speeds["sun"] - speeds["carrier"])
+    if kind == "meshed":
+        assert speeds["step-3"] - speeds["carrier"] == -Fraction(teeth[1], teeth[2]) * first
     # torques: in, and through all meshes at the sun and at the ring, of what is on the output
     torque = LOAD / abs(factors[driven])
     assert case.source.torque == pytest.approx(torque * abs(factors[driving]), rel=1e-9)
-    for member, teeth in (("sun", STEPPED[0]), ("ring", STEPPED[3])):
+    for member, own in (("sun", teeth[0]), ("ring", teeth[3])):
         meshes = [mesh for mesh in case.meshes if f"-{member}-" in mesh.name]
-        ratio = {m.name: abs(case.gears[m.gears[1]].teeth) / teeth for m in meshes}
+        ratio = {m.name: abs(case.gears[m.gears[1]].teeth) / own for m in meshes}
         on_member = sum(float(mesh.pair.operating.gear_torque) / ratio[mesh.name] for mesh in meshes)
         assert on_member == pytest.approx(torque * abs(factors[member]), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("held", "driving", "driven", "idle", "ratio", "published"),
+    [
+        ("carrier", "sun", "ring", "large", Fraction(72, 30), 2.40),
+        ("second_sun", "sun", "ring", None, (1 + Fraction(36, 30)) / (1 + Fraction(36, 72)), 1.47),
+        ("second_sun", "carrier", "ring", "sun", 1 / (1 + Fraction(36, 72)), 0.67),
+        ("carrier", "large", "ring", "sun", -Fraction(72, 36), -2.00),
+    ],
+)
+def test_gears_of_a_ravigneaux_set(held, driving, driven, idle, ratio, published):
+    """Closed forms by Willis, and the four ratios that are published of Ford's AOD (transmissions101.com)."""
+    load = [{"at": idle, "torque": "1 N*m"}] if idle else []
+    case = case_of_table(ravigneaux_set(held, (driving, driven), load=load))
+    speeds = turning(case)
+    assert 1 / speeds[driven] == ratio
+    assert float(ratio) == pytest.approx(published, abs=0.005)
+    assert speeds["large" if held == "second_sun" else held] == 0
+    # all meshes have one frequency, in the carrier's frame
+    rolling = {name: abs(speeds[name] - speeds["carrier"]) for name in speeds}
+    for name, teeth in zip(("sun", "planet-1", "step-1", "ring", "large"), RAVIGNEAUX, strict=True):
+        assert teeth * rolling[name] == RAVIGNEAUX[3] * rolling["ring"]
+    assert all(mesh.rate == 1 for mesh in case.meshes)
+    # the power of all members adds up to nothing
+    idling = abs(float(speeds[idle])) if idle else 0.0
+    assert case.source.torque == pytest.approx(LOAD * abs(float(speeds[driven])) + idling, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("held", "idle", "driving", "driven", "ratio", "published"),
+    [
+        ("carrier-2", None, "ring", "carrier", 2 + Fraction(32, 62), 2.52),
+        ("sun-2", "carrier-2", "ring", "carrier", 1 + Fraction(32, 62), 1.52),
+        ("carrier-2", "ring", "sun", "carrier", -Fraction(62, 32), -1.94),
+    ],
+)
+def test_gears_of_a_simpson_train(held, idle, driving, driven, ratio, published):
+    """Two plain sets on one sun; the carrier of the first turns with the ring of the second.
+
+    Closed forms by Willis, and the ratios that are published of General Motors' Turbo-Hydramatic 350.
+    """
+    load = [{"at": idle, "torque": "1 N*m"}] if idle else []
+    table = planet_set((32, 15, 62), 2, ends=(driving, driven), load=load)
+    (first,), size = table["stage"], {"face_width": "30 mm"}
+    names = {name: f"{name}-2" for name in ("sun", "planet", "ring", "carrier")}
+    member = held.removesuffix("-2")
+    del first["held"]
+    table["stage"] = [first, first | names | {"name": "second", "held": member}]
+    gears = {name: gear | size for name, gear in table["gear"].items()}
+    gears["planet"] |= {"bore_diameter": "20 mm"}
+    table["gear"] = gears | {names[name]: gear for name, gear in gears.items()}
+    table["body"] += [table["body"][0] | {"name": "carrier-2"}]
+    joined = (("sun", "sun-2"), ("carrier", "ring-2"))
+    table["link"] = [{"ends": list(ends), "stiffness": "1e6 N*m/rad"} for ends in joined]
+    case = case_of_table(table)
+    speeds = turning(case)
+    assert 1 / speeds[driven] == ratio
+    assert float(ratio) == pytest.approx(published, abs=0.006)
 
 
 def test_stepped_planets_have_two_mesh_frequencies():
@@ -80,7 +164,7 @@ def test_stepped_planets_fit_where_one_of_their_places_does(rng):
         turned = (sun * about + 2.0 * pi * np.arange(planet)) / planet
         beside = (step * turned + ring * about) / (2.0 * pi)
         missed = float(np.min(np.abs(beside - np.round(beside))))
-        teeth = SetTeeth(sun, planet, -ring, step)
+        teeth = SetTeeth(sun, planet, -ring, step, "stepped")
         if abs(missed - 0.01) < 1e-9:
             continue
         if missed < 0.01:
@@ -92,7 +176,14 @@ def test_stepped_planets_fit_where_one_of_their_places_does(rng):
     assert 10 < fitted < 190
 
 
-SETS = {"stepped": stepped_set((25, 35, 20, 80), frame_forces=False, solver={"cycles": 14})}
+SHORT = {"frame_forces": False, "solver": {"cycles": 14}}
+SETS = {
+    "stepped": stepped_set((25, 35, 20, 80), **SHORT),
+    "meshed": meshed_set(**SHORT),
+    "ravigneaux": ravigneaux_set(**SHORT),
+}
+#: Torques of the carriers of these: the last one's turns freely.
+ON_CARRIER = {"stepped": LOAD, "meshed": LOAD, "ravigneaux": 0.0}
 
 
 @pytest.fixture(scope="module", params=list(SETS))
@@ -125,8 +216,7 @@ def test_pins_bear_what_the_carrier_passes_on(record):
             force = np.array([np.mean(found[f"bearing_force_{way}"][part, place]) for way in "xy"])
             moment += x * force[1] - y * force[0]
             push += force
-    torque = abs(moment)
-    assert torque == pytest.approx(LOAD, rel=2e-2)
+    assert abs(moment) == pytest.approx(ON_CARRIER[case.sets[0].teeth.kind], abs=2e-2 * LOAD)
     assert np.hypot(*push) < 1e-2 * LOAD / 0.09
 
 
@@ -134,8 +224,10 @@ def test_pins_bear_what_the_carrier_passes_on(record):
     ("changes", "key", "said"),
     [
         ({"second_planet": None}, "stage.0.second_planet", "missing"),
-        ({"type": "planetary"}, "stage.0.second_planet", "is of stepped planets"),
-        ({"helix_angle": "10 deg"}, "stage.0.helix_angle", "spur gears"),
+        ({"type": "planetary"}, "stage.0.second_planet", "is there"),
+        ({"type": "ravigneaux"}, "stage.0.second_sun", "missing"),
+        ({"held": "second_sun"}, "stage.0.held", "has none"),
+        ({"helix_angle": "10 deg"}, "stage.0.helix_angle", "spur"),
         ({"family": "cycloidal"}, "stage.0.family", "involutes"),
         ({"second_planet": "planet"}, "stage.0.planet", "named twice"),
         ({"second_planet": "ring"}, "stage.0.second_planet", "external gear"),
@@ -157,5 +249,27 @@ def test_what_is_no_stepped_set_is_refused(changes, key, said):
         del table["stage"][0]["second_planet"]
     with pytest.raises(InputError) as caught:
         case_of_table(table)
+    assert key in str(caught.value)
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "said"),
+    [
+        ({"teeth": (30, 18, 18, 72, 37)}, "stage.0.planets", "(37 + 72)"),
+        ({"teeth": (31, 18, 18, 72, 36)}, "stage.0.planets", "(72 − 31)"),
+        ({"teeth": (36, 18, 18, 72, 36)}, "gear.step", "overlaps that of sun"),
+        ({"planets": 6}, "gear.step", "overlaps that of planet-"),
+        ({"teeth": (60, 12, 18, 240, 204)}, "stage.0.second_planet", "no such triangle"),
+        ({"centre_distance": "81 mm"}, "stage.0.centre_distance", "one of three"),
+        ({"radial_pin_errors": ["1 um", "0 um", "0 um"]}, "stage.0.radial_pin_errors", "not modelled"),
+        ({"second_module": "2 mm"}, "stage.0.second_module", "one module"),
+        ({"held": "carrier"}, "load", "large of the planetary stage set idles"),
+        ({"type": "meshed"}, "stage.0.second_sun", "is there"),
+    ],
+)
+def test_what_is_no_ravigneaux_set_is_refused(changes, key, said):
+    with pytest.raises(InputError) as caught:
+        case_of_table(ravigneaux_set(**changes))
     assert key in str(caught.value)
     assert said in str(caught.value)

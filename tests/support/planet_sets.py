@@ -73,7 +73,7 @@ def planet_set(
         "friction": {"law": "coulomb", "coefficient": 0.05},
     }
     for name, value in changes.items():
-        if name == "solver":
+        if name in ("solver", "load"):
             table[name] = value
         elif name in table:
             table[name] = table[name] | value

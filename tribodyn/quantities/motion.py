@@ -82,7 +82,8 @@ MOTION = (
         "Maximum of the loads' moment over that of the mean load, from the motion."
     ),
     Quantity("mesh_load_factor", "Mesh load factor", digits=".3f", symbol="K_γ").defined_as(
-        "Of a planetary stage: mean torque between sun and planet of the planet with most, over that of all."
+        "Of a planetary stage: mean torque between sun and planet of the planet with most, over that of all; "
+        "of two suns and a ring at the member with most torque."
     ),
     Quantity("planet_load_factor_max", "Maximum load of a planet over the mean", digits=".3f").defined_as(
         "Of a planetary stage: maximum torque between sun and planet over the mean in time of all planets."

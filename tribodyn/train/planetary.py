@@ -9,10 +9,15 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
 
-SUN, RING, CARRIER = "sun", "ring", "carrier"
+SUN, RING, CARRIER, SECOND_SUN = "sun", "ring", "carrier", "second_sun"
 MEMBERS = (SUN, RING, CARRIER)
-#: Sorts of sets: every planet has one gear, or two beside each other.
-SETS = SIMPLE, STEPPED = ("planetary", "stepped")
+#: What meshes of planets with each other are called.
+PLANETS = "planets"
+#: Sorts of sets: every planet has one gear; two that turn together; two planets that mesh with each other, on
+#: pins of their own; such ones, and a second sun that meshes with the second ones.
+SETS = SIMPLE, STEPPED, MESHED, RAVIGNEAUX = ("planetary", "stepped", "meshed", "ravigneaux")
+#: Those whose second planets have pins of their own.
+IN_PAIRS = (MESHED, RAVIGNEAUX)
 #: Pitches by which planets may stand beside their gaps: angles are given with few decimals.
 ASSEMBLY_TOLERANCE = 0.01
 
@@ -23,11 +28,17 @@ class SetTeeth(NamedTuple):
     sun: int
     planet: int
     ring: int  # < 0
-    second_planet: int = 0  # on the pins of the first ones, between these and the ring; 0: none
+    second_planet: int = 0  # between the first ones and the ring; 0: none
+    kind: str = SIMPLE  # one of `SETS`
+    second_sun: int = 0  # 0: none
 
     def loops(self) -> Iterator["Loop"]:
-        """The loops of teeth that close over every planet, each from the sun to another gear of the axis."""
-        if self.second_planet:
+        """The loops of teeth that close over every planet, each from a sun to the ring."""
+        if self.second_sun:
+            yield Loop(self.second_sun - self.ring, 1.0, f"({self.second_sun} + {-self.ring})")
+        if self.kind in IN_PAIRS:
+            yield Loop(-self.ring - self.sun, 1.0, f"({-self.ring} − {self.sun})")
+        elif self.kind == STEPPED:
             step = gcd(self.planet, self.second_planet)
             whole = (self.sun * self.second_planet - self.ring * self.planet) // step
             sums = f"({self.sun} · {self.second_planet} + {-self.ring} · {self.planet})"

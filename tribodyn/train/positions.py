@@ -43,7 +43,8 @@ class Disc(NamedTuple):
     key: str
     body: int
     plane: int  # gears in the same plane must not touch unless they mesh
-    tip_radius: float  # m
+    tip_radius: float  # m; negative of an internal gear
+    remedy: str = "change an azimuth, or stand them in different planes: plane = 2"
 
 
 def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int, int]]) -> Centres:
@@ -142,9 +143,9 @@ def check_room(
             if gear.plane != other.plane or frozenset((earlier, later)) in pairs:
                 continue
             apart = float(np.hypot(*(centres[gear.body] - centres[other.body])))
-            overlap = gear.tip_radius + other.tip_radius - apart
+            reach = gear.tip_radius + other.tip_radius
+            overlap = reach + (apart if min(gear.tip_radius, other.tip_radius) < 0.0 else -apart)
             if overlap > 0.0:
                 by = f"{1e3 * overlap:.3g} mm"
                 rule = f"its tip circle overlaps that of {other.name} by {by}, and they do not mesh"
-                remedy = "change an azimuth, or stand them in different planes: plane = 2"
-                raise InputError(gear.key, None, rule, remedy)
+                raise InputError(gear.key, None, rule, gear.remedy)

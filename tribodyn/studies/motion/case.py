@@ -22,7 +22,7 @@ from tribodyn.solve.methods import SolverData
 from tribodyn.train.links.law import LAW as LINEAR_LINK
 from tribodyn.train.links.law import LinkLaw
 from tribodyn.train.phases import ToothedShaft
-from tribodyn.train.planetary import SetTeeth
+from tribodyn.train.planetary import IN_PAIRS, SetTeeth
 from tribodyn.tribology.law import FilmData, FrictionData
 
 #: As an end of a link: the housing.
@@ -150,14 +150,19 @@ class SetData:
 
     name: str
     key: str
-    members: Mapping[str, int]  # sun, ring, carrier
-    planets: tuple[int, ...]
+    members: Mapping[str, int]  # suns, ring, carrier
+    planets: tuple[int, ...]  # those that mesh with the sun first, those that do with the ring last
     angles: tuple[float, ...]  # of the planets, counter-clockwise from x, rad
     teeth: SetTeeth
     held: str  # the member that does not turn; "": all turn
     frame_forces: bool  # whether Coriolis and centrifugal forces are counted
     in_space: bool = False  # whether its teeth are helical: its bodies then move in space
     rim: RimData | None = None  # of the ring; None: it does not bend
+
+    @property
+    def arms(self) -> int:
+        """Number of planets that every member meets."""
+        return len(self.planets) // (2 if self.teeth.kind in IN_PAIRS else 1)
 
     @property
     def bodies(self) -> tuple[int, ...]:

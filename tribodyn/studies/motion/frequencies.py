@@ -17,7 +17,7 @@ from tribodyn.signals.lines import (
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of, together
 from tribodyn.studies.motion.planetary.results import meshes_of_member
 from tribodyn.studies.motion.prepare import PreparedGearbox
-from tribodyn.train.planetary import CARRIER, RING, SUN
+from tribodyn.train.planetary import CARRIER, RING, SECOND_SUN, SUN
 
 
 def mesh_frequencies(prepared: PreparedGearbox) -> list[float]:
@@ -49,9 +49,12 @@ def passes(prepared: PreparedGearbox) -> Iterator[tuple[str, float]]:
     turning = [body.sense * float(body.ratio) for body in prepared.case.bodies]
     shaft = reference_frequency(prepared)
     for gearset in prepared.case.sets:
-        for member in (RING, SUN):
+        for member in (m for m in (RING, SUN, SECOND_SUN) if m in gearset.members):
             passing = turning[gearset.members[CARRIER]] - turning[gearset.members[member]]
-            yield f"{gearset.name}: planets pass {member}", len(gearset.planets) * shaft * abs(passing)
+            yield (
+                f"{gearset.name}: planets pass {member.replace('_', ' ')}",
+                gearset.arms * shaft * abs(passing),
+            )
 
 
 def reference_frequency(prepared: PreparedGearbox) -> float:
@@ -66,7 +69,7 @@ def of_sets(prepared: PreparedGearbox) -> dict[str, SetFrequencies]:
     for gearset in case.sets:
         at_sun, at_ring = (each[meshes_of_member(case, gearset, member)[0]] for member in (SUN, RING))
         teeth = gearset.teeth.sun, gearset.teeth.planet, abs(gearset.teeth.ring)
-        by_set[gearset.name] = set_frequencies(*teeth, len(gearset.planets), at_sun, at_ring)
+        by_set[gearset.name] = set_frequencies(*teeth, gearset.arms, at_sun, at_ring)
     return by_set
 
 

@@ -28,7 +28,7 @@ def sensible(prepared: PreparedGearbox) -> Sensible:
         gearset.name: RingPlaces(
             numbers[gearset.members[CARRIER]],
             case.bodies[gearset.members[CARRIER]].sense,
-            gearset.angles,
+            gearset.angles[-gearset.arms :],
             tuple(meshes_of_member(case, gearset, RING)),
         )
         for gearset in case.sets

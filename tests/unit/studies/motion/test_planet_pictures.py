@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.path import Path as Closed
 
-from tests.support.epicyclic_sets import stepped_set
+from tests.support.epicyclic_sets import MESHED, meshed_set, ravigneaux_set, stepped_set
 from tests.support.outlines import distance, turned
 from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case
 from tests.support.soak_parameters import all_in_soak
@@ -44,10 +44,12 @@ FLOWS = {
     "from sun": (planet_set, SEQUENTIAL, 3, "ring", ("sun", "carrier")),
     "from ring": (planet_set, SEQUENTIAL, 3, "sun", ("ring", "carrier")),
     "stepped": (stepped_set, (25, 35, 20, 80), 3, "carrier", ("sun", "ring")),
+    "meshed": (meshed_set, MESHED, 3, "ring", ("sun", "carrier")),
+    "ravigneaux": (ravigneaux_set, "second_sun", ("sun", "ring")),
 }
 
 
-@pytest.fixture(scope="module", params=all_in_soak(FLOWS, ("from ring", "stepped")))
+@pytest.fixture(scope="module", params=all_in_soak(FLOWS, ("from ring", "stepped", "ravigneaux")))
 def record(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Record:
     make, *given = FLOWS[request.param]
     case = case_of_table(
@@ -160,13 +162,15 @@ def test_planets_move_in_their_pins_by_what_these_bear(record: Record):
 
 def test_what_is_alike_is_said_once(record: Record):
     (own,) = sets_of(record)
-    assert len(own.planets) == 3
-    assert set(mesh_labels(record)) == {"set-sun-1 (and 2, 3)", "set-ring-1 (and 2, 3)"}
-    assert set(body_labels(record)) == {"sun", "ring", "carrier", "planet-1 (and 2, 3)"}
+    pairs = len(own.planets) == 6
+    members = {"sun", "ring"} | ({"second_sun", "planets"} if pairs else set())
+    assert set(mesh_labels(record)) == {f"set-{member}-1 (and 2, 3)" for member in members}
+    further = {"large", "step-1 (and 2, 3)"} if pairs else set()
+    assert set(body_labels(record)) == {"sun", "ring", "carrier", "planet-1 (and 2, 3)"} | further
     stages, meshes = tables(record)
     assert stages.columns == ("", "set", "")
-    assert len(meshes.columns) == 4
-    assert any("set-sun-1 (and 2, 3)" in line for line in verdict(record))
+    assert len(meshes.columns) == 2 + len(members)
+    assert any("-1 (and 2, 3)" in line for line in verdict(record))
 
 
 @pytest.mark.parametrize("record", ["from ring"], indirect=True)
@@ -180,7 +184,7 @@ def test_the_page_turns_with_the_carrier(record: Record):
     assert np.max(radii) > 1.05 * np.min(radii)
 
 
-@pytest.mark.parametrize("record", ["from ring"], indirect=True)
+@pytest.mark.parametrize("record", ["from ring", "ravigneaux"], indirect=True)
 @pytest.mark.parametrize("name", ["overview", "train", "planet-load", "bearing-load", "orbit", "modes"])
 def test_figures_are_drawn(record: Record, name: str):
     assert DRAWINGS[name].fits(record)

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.train.planetary import CARRIER
+from tribodyn.train.planetary import CARRIER, PLANETS
 
 #: In the summary of a mesh: the name that it shares with those of the set's other planets.
 ALIKE = "alike"
@@ -18,7 +18,7 @@ def alike_of(case: Gearbox) -> tuple[str, ...]:
         for m, mesh in enumerate(case.meshes):
             if mesh.carrier == gearset.members[CARRIER]:
                 body = mesh.driver if mesh.driver in of_body else mesh.driven
-                groups[m] = f"{gearset.name}-{of_body[body]}"
+                groups[m] = f"{gearset.name}-{of_body.get(body, PLANETS)}"
     return tuple(groups)
 
 

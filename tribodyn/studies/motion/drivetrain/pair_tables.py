@@ -33,7 +33,7 @@ def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, dr
     flanks = "roughness", "finish", "asperity_density", "asperity_slope"
     gear_keys = {name: getattr(table, name) for name in ("family", "rack", "shape", "helix_angle", *flanks)}
     distance: Printed | None = table.centre_distance
-    at_ring = isinstance(table, PlanetaryStage) and (pinion.internal or gear.internal)
+    at_ring = isinstance(table, PlanetaryStage) and table.spaces and (pinion.internal or gear.internal)
     if distance is None and at_ring and family(table.family).involute:
         distance = _distance_of_set(scenario, parts, mesh)
     return DriveTable.model_construct(**common, **gear_keys, centre_distance=distance)
@@ -41,7 +41,9 @@ def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, dr
 
 def _distance_of_set(scenario: Any, parts: Structure, mesh: MeshPart) -> Printed:
     """Distance of the planets' axes from the sun's where none is written: that of both without backlash."""
-    at_sun = next(other for other in parts.meshes if other.of_set == mesh.of_set)
+    spaces = cast(PlanetaryStage, mesh.table).spaces
+    own = [other for other in parts.meshes if other.of_set == mesh.of_set]
+    at_sun = next(other for other in own if other.member == spaces)
     drive = drive_of(drive_table(scenario, parts, at_sun, *at_sun.gears))
     with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
         path = family(cast(PlanetaryStage, at_sun.table).family).working_path(drive)

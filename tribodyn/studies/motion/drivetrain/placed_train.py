@@ -22,10 +22,12 @@ from tribodyn.studies.motion.drivetrain.structure import (
     structure,
 )
 from tribodyn.studies.motion.drivetrain.teeth import check_planet, check_same_teeth, engagement
-from tribodyn.studies.motion.planetary.stages import coaxial, refuse_overlap
+from tribodyn.studies.motion.planetary.room import directions, in_planes, refuse_overlap
+from tribodyn.studies.motion.planetary.stages import coaxial
 from tribodyn.train.joints import GivenSpeed, joined
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.phases import ToothedShaft, nominal_phases
+from tribodyn.train.planetary import IN_PAIRS
 from tribodyn.train.positions import Centres, Disc, Distance, check_room, places
 
 #: Modules by which a loop of meshes may not close, a choice: the rounding of azimuths in degrees with two
@@ -131,13 +133,17 @@ def place_train(train: TrainKinematics) -> PlacedTrain:
     axes = _placed(train, assemblies)
     planes = _planes(parts)
     discs = [
-        Disc(gear.name, gear.key, new[gear.body], plane, tip_radius(train, assemblies, number))
+        Disc(gear.name, gear.key, gear.body, plane, tip_radius(train, assemblies, number))
         for number, (gear, plane) in enumerate(zip(parts.gears, planes, strict=True))
     ]
     for own in parts.sets:
-        largest = max(disc.tip_radius for disc in discs if disc.body == new[own.planets[0]])
-        refuse_overlap(own, largest, axes.centres[[new[planet] for planet in own.planets]])
-    check_room(discs, axes.centres, [mesh.gears for mesh in parts.meshes])
+        arms = own.table.planets
+        for alike in (own.planets[:arms], own.planets[arms:]):
+            if tips := [disc.tip_radius for disc in discs if disc.body in alike[:1]]:
+                refuse_overlap(own, max(tips), axes.centres[[new[planet] for planet in alike]])
+    discs, meshing = in_planes(parts.sets, discs, [mesh.gears for mesh in parts.meshes])
+    discs = [disc._replace(body=new[disc.body]) for disc in discs]
+    check_room(discs, axes.centres, meshing)
     shafts = joined(len(parts.bodies), couplings)
     found = PlacedTrain(assemblies, axes, planes, tuple(shafts[new[gear.body]] for gear in parts.gears))
     _check_phases(train, found)
@@ -186,13 +192,15 @@ def _placed(train: TrainKinematics, assemblies: tuple[Assembly, ...]) -> Centres
     """Axes, with azimuths from driver to driven."""
     parts, motion, new = train.parts, train.motion, train.numbers
     distances, turned = [], []
+    follow = _following(train, assemblies)
     for number, assembly in zip(motion.meshes, assemblies, strict=True):
         mesh = parts.meshes[number]
         one, two = (new[parts.gears[gear].body] for gear in mesh.gears)
         path = assembly.path
         apart = float(path.pinion_pitch_radius + path.gear_pitch_radius)
         tolerance = LOOP_TOLERANCE * float(assembly.drive.module)
-        distances.append(Distance(mesh.key, (one, two), apart, mesh.azimuth, tolerance))
+        azimuth = follow.get(number, mesh.azimuth)
+        distances.append(Distance(mesh.key, (one, two), apart, azimuth, tolerance))
         turned.append(mesh.gears != motion.gears[motion.meshes.index(number)])
     on_one_axis = [(new[one], new[two]) for one, two in coaxial(parts.sets)]
     positions = places(len(parts.bodies), distances, [*train.couplings, *on_one_axis])
@@ -201,6 +209,26 @@ def _placed(train: TrainKinematics, assemblies: tuple[Assembly, ...]) -> Centres
         for azimuth, reverse in zip(positions.azimuths, turned, strict=True)
     )
     return positions._replace(azimuths=azimuths)
+
+
+def _following(train: TrainKinematics, assemblies: tuple[Assembly, ...]) -> dict[int, float]:
+    """Directions of the meshes of planets in pairs by their numbers in the scenario, rad."""
+    parts, found = train.parts, dict[int, float]()
+    paths = dict(zip(train.motion.meshes, (assembly.path for assembly in assemblies), strict=True))
+    for number, own in enumerate(parts.sets):
+        if own.table.type not in IN_PAIRS:
+            continue
+        meshes: dict[str, list[int]] = {}
+        for place, mesh in enumerate(parts.meshes):
+            if mesh.of_set == number:
+                meshes.setdefault(mesh.member, []).append(place)
+        apart = {
+            member: float(paths[of[0]].pinion_pitch_radius + paths[of[0]].gear_pitch_radius)
+            for member, of in meshes.items()
+        }
+        for member, angles in directions(own, apart).items():
+            found |= dict(zip(meshes[member], angles, strict=True))
+    return found
 
 
 def tip_radius(train: TrainKinematics, assemblies: tuple[Assembly, ...], gear: int) -> float:

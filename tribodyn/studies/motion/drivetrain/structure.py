@@ -149,10 +149,11 @@ def structure(scenario: Any) -> Structure:
             bodies.append(BodyPart(name, _gear_key(scenario, name), 0.0, 0.0))
     _own_bodies(scenario, bodies, places)
     for _, stage in stages:
-        places[stage.planet] = tuple(range(len(bodies), len(bodies) + stage.planets))
-        names = planet_names(stage, stage.planet)
-        bodies += [BodyPart(name, f"gear.{stage.planet}", 0.0, 0.0) for name in names]
-        places |= dict.fromkeys(stage.planet_gears, places[stage.planet])
+        for planet in stage.planet_bodies:
+            places[planet] = tuple(range(len(bodies), len(bodies) + stage.planets))
+            names = planet_names(stage, planet)
+            bodies += [BodyPart(name, f"gear.{planet}", 0.0, 0.0) for name in names]
+        places.setdefault(stage.planet_gears[-1], places[stage.planet])
     springs: list[LinkPart] = []
     for number, shaft in shafts:
         if shaft.stiffness is not None:

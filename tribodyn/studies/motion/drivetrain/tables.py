@@ -40,7 +40,17 @@ from tribodyn.input.tables.gears.model_files import (
 )
 from tribodyn.input.tables.laws import LinkTable
 from tribodyn.train.elastic.pin import Pin, pin_stiffness
-from tribodyn.train.planetary import CARRIER, RING, SETS, SUN
+from tribodyn.train.planetary import (
+    CARRIER,
+    IN_PAIRS,
+    MESHED,
+    PLANETS,
+    RAVIGNEAUX,
+    RING,
+    SECOND_SUN,
+    SETS,
+    SUN,
+)
 
 #: Stages, bodies, links, meshes and loads, each: as many as any train has.
 MOST_PARTS = 100
@@ -82,7 +92,7 @@ class StageTeeth(Table):
 class Stage(StageTeeth):
     """Two gears that mesh; the pinion of a drive file is the gear that drives."""
 
-    type: Literal["pair", "planetary", "stepped"] = "pair"
+    type: Literal["pair", "planetary", "stepped", "meshed", "ravigneaux"] = "pair"
     stiffness: Stiffness | None = None
     name: PartName | None = None
     gears: tuple[Text, ...] = Field(min_length=2, max_length=2)
@@ -124,20 +134,21 @@ class PlanetPin(Table):
 class PlanetaryStage(StageTeeth):
     """Sun, planets and ring on one axis, and the carrier of the planets; one may be held."""
 
-    type: Literal["planetary", "stepped"]
+    type: Literal["planetary", "stepped", "meshed", "ravigneaux"]
     name: PartName
     sun: Text
     planet: Text
+    second_sun: Text | None = None
     second_planet: Text | None = None
     second_module: Length | None = None
     ring: Text
     carrier: Text
     planets: Annotated[int, Field(strict=True, ge=1, le=12)]
     angles: tuple[Azimuth, ...] = Field((), max_length=12)
-    held: Literal["sun", "ring", "carrier"] | None = None
+    held: Literal["sun", "second_sun", "ring", "carrier"] | None = None
     support_stiffness: fields.TorsionalStiffness | None = None
     support_damping_ratio: NotNegative = 0.02
-    floating: tuple[Literal["sun", "ring", "carrier"], ...] = Field((), max_length=3)
+    floating: tuple[Literal["sun", "second_sun", "ring", "carrier"], ...] = Field((), max_length=4)
     radial_pin_errors: tuple[Annotated[float, InUnit(units.LENGTH)], ...] = Field((), max_length=12)
     tangential_pin_errors: tuple[Annotated[float, InUnit(units.LENGTH)], ...] = Field((), max_length=12)
     sun_stiffness: Stiffness | None = None
@@ -148,8 +159,9 @@ class PlanetaryStage(StageTeeth):
 
     @property
     def members(self) -> dict[str, str]:
-        """Names of sun, ring and carrier by what they are."""
-        return {SUN: self.sun, RING: self.ring, CARRIER: self.carrier}
+        """Names of suns, ring and carrier by what they are."""
+        second = {} if self.second_sun is None else {SECOND_SUN: self.second_sun}
+        return {SUN: self.sun, **second, RING: self.ring, CARRIER: self.carrier}
 
     @property
     def planet_gears(self) -> tuple[str, ...]:
@@ -157,9 +169,25 @@ class PlanetaryStage(StageTeeth):
         return (self.planet,) if self.second_planet is None else (self.planet, self.second_planet)
 
     @property
+    def planet_bodies(self) -> tuple[str, ...]:
+        """Names of the planets that turn by themselves."""
+        return self.planet_gears if self.type in IN_PAIRS else (self.planet,)
+
+    @property
     def meshing(self) -> tuple[tuple[str, str, str], ...]:
         """Which gears mesh: what is at one end, and the names of both, seen outwards."""
-        return (SUN, self.sun, self.planet), (RING, self.planet_gears[-1], self.ring)
+        last = self.planet_gears[-1]
+        second = () if self.second_sun is None else ((SECOND_SUN, self.second_sun, last),)
+        between = ((PLANETS, self.planet, last),) if self.type in IN_PAIRS else ()
+        return (SUN, self.sun, self.planet), *second, *between, (RING, last, self.ring)
+
+    @property
+    def spaces(self) -> str:
+        """With which member the planets' mesh says how far from the axis those that the ring meshes with are.
+
+        "": the mesh with the ring itself.
+        """
+        return {MESHED: "", RAVIGNEAUX: SECOND_SUN}.get(self.type, SUN)
 
     def module_at(self, member: str) -> float:
         """Module of the gears that mesh at a member, m."""

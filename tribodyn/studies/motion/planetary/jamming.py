@@ -8,6 +8,7 @@ from tribodyn.geometry.helix import pitch_slope
 from tribodyn.studies.motion.case import HOUSING, Gearbox, SetData
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
 from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.train.planetary import IN_PAIRS
 from tribodyn.train.structure import TURN
 
 #: Backlash that is none, m: what is left by rounding.
@@ -54,6 +55,8 @@ def _by_pins(prepared: PreparedGearbox, gearset: SetData, none: Sequence[int]) -
     planet a span as wide as the backlash of both its meshes, and these must have a place in common.
     """
     case = prepared.case
+    if gearset.teeth.kind in IN_PAIRS:  # their pins have no errors
+        return ""
     offsets = {link.ends[0]: link.offset for link in case.links if link.lever}
     ahead, room = np.zeros((2, len(gearset.planets)))
     for k, (planet, angle) in enumerate(zip(gearset.planets, gearset.angles, strict=True)):

@@ -118,9 +118,12 @@ def _radius(body: int, train: TrainKinematics, placed: PlacedTrain) -> float:
     return radii.get(body, max(radii.values()))
 
 
-def set_data(gearset: SetPart, train: TrainKinematics) -> SetData:
+def set_data(gearset: SetPart, train: TrainKinematics, placed: PlacedTrain) -> SetData:
     """The set in the numbers of the train's order."""
-    new, stage = train.numbers, gearset.table
+    new, stage, centre = train.numbers, gearset.table, placed.places.centres
+    further = [
+        centre[new[body]] - centre[new[gearset.members[CARRIER]]] for body in gearset.planets[stage.planets :]
+    ]
     members = {name: new[body] for name, body in gearset.members.items()}
     planets = tuple(new[body] for body in gearset.planets)
     return SetData(
@@ -128,7 +131,7 @@ def set_data(gearset: SetPart, train: TrainKinematics) -> SetData:
         gearset.key,
         members,
         planets,
-        stage.placed,
+        (*stage.placed, *(float(np.arctan2(y, x)) for x, y in further)),
         gearset.teeth,
         stage.held or "",
         stage.frame_forces,

@@ -12,7 +12,7 @@ from tribodyn.train.planetary import CARRIER, SUN
 
 
 def meshes_of_member(case: Gearbox, gearset: SetData, member: str) -> list[int]:
-    """Meshes of the sun or the ring of a set, in the order of the planets."""
+    """Meshes of a sun or the ring of a set, in the order of the planets."""
     body = gearset.members[member]
     mesh_of_planet = {
         other: m
@@ -20,7 +20,7 @@ def meshes_of_member(case: Gearbox, gearset: SetData, member: str) -> list[int]:
         for one, other in ((mesh.driver, mesh.driven), (mesh.driven, mesh.driver))
         if one == body and other in gearset.planets
     }
-    return [mesh_of_planet[planet] for planet in gearset.planets]
+    return [mesh_of_planet[planet] for planet in gearset.planets if planet in mesh_of_planet]
 
 
 def meshes_of_set(case: Gearbox, gearset: SetData) -> list[int]:
@@ -52,7 +52,12 @@ def _of_stage(
 ) -> dict[str, Any]:
     case = prepared.case
     at = {member: meshes_of_member(case, gearset, member) for member in gearset.members if member != CARRIER}
-    torque = np.array([_on_planet(case, gearset, m, windows[m]) for m in at[SUN]])
+    loads = [
+        np.array([_on_planet(case, gearset, m, windows[m]) for m in at[member]])
+        for member in at
+        if member == SUN or gearset.teeth.second_sun  # of two suns one may carry nothing
+    ]
+    torque = max(loads, key=lambda each: abs(float(np.mean(each))))
     mean = np.mean(torque, axis=1)
     whole = float(np.mean(mean))
     lost = sum(float(each[m]["power_friction_mean"]) for m in meshes_of_set(case, gearset))
@@ -68,7 +73,7 @@ def _of_stage(
 
 
 def _on_planet(case: Gearbox, gearset: SetData, m: int, window: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Torque between sun and planet, on the planet, N m."""
+    """Torque between a member and a planet, on the planet, N m."""
     return window["driven_torque" if case.meshes[m].driven in gearset.planets else "driver_torque"]
 
 
@@ -111,7 +116,7 @@ def planet_pass(prepared: PreparedGearbox) -> dict[str, float]:
     """Frequency at which the planets of every set pass a place in the housing, Hz."""
     reference = float(prepared.model.operation.nominal_speed)
     return {
-        gearset.name: len(gearset.planets)
+        gearset.name: gearset.arms
         * float(prepared.case.bodies[gearset.members[CARRIER]].ratio)
         * reference
         / (2.0 * np.pi)

@@ -4,16 +4,23 @@ from collections.abc import Iterator
 from math import cos, sin
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.tables.bearings import bearing_of, broken_bearing
 from tribodyn.input.tables.gears.model_files import Hand
 from tribodyn.input.tables.shafts import listed
-from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
 from tribodyn.train.joints import SetMembers
-from tribodyn.train.planetary import CARRIER, MEMBERS, STEPPED, SetTeeth, check_assembly
+from tribodyn.train.planetary import (
+    CARRIER,
+    IN_PAIRS,
+    RAVIGNEAUX,
+    SECOND_SUN,
+    SIMPLE,
+    STEPPED,
+    SUN,
+    SetTeeth,
+    check_assembly,
+)
 
 
 class SetPart(NamedTuple):
@@ -21,8 +28,8 @@ class SetPart(NamedTuple):
 
     key: str
     table: PlanetaryStage
-    members: dict[str, int]  # bodies of sun, ring and carrier
-    planets: tuple[int, ...]  # bodies
+    members: dict[str, int]  # bodies of suns, ring and carrier
+    planets: tuple[int, ...]  # bodies, those that mesh with the sun first
     teeth: SetTeeth
     face_width: float  # of the planets, m
 
@@ -56,26 +63,32 @@ def planet_names(stage: PlanetaryStage, gear: str) -> list[str]:
 
 def teeth_of_set(scenario: Any, stage: PlanetaryStage) -> SetTeeth:
     """Numbers of teeth of a stage whose names are sound."""
-    sun, ring, *planets = (scenario.gear[name].teeth for name in (stage.sun, stage.ring, *stage.planet_gears))
-    return SetTeeth(sun, planets[0], -ring, *planets[1:])
+    teeth = {name: scenario.gear[name].teeth for name in stage.parts if name != stage.carrier}
+    second = [teeth[name] for name in stage.planet_gears[1:]] or [0]
+    second_sun = 0 if stage.second_sun is None else teeth[stage.second_sun]
+    three = teeth[stage.sun], teeth[stage.planet], -teeth[stage.ring]
+    return SetTeeth(*three, second[0], stage.type, second_sun)
 
 
 def set_of(scenario: Any, key: str, stage: PlanetaryStage, places: dict[str, tuple[int, ...]]) -> SetPart:
     """The set of a stage; `places` are the bodies of names."""
     members = {name: places[gear_name][0] for name, gear_name in stage.members.items()}
     width = float(scenario.gear[stage.planet].face_width)
-    return SetPart(key, stage, members, places[stage.planet], teeth_of_set(scenario, stage), width)
+    planets = tuple(body for name in stage.planet_bodies for body in places[name])
+    return SetPart(key, stage, members, planets, teeth_of_set(scenario, stage), width)
 
 
-def meshes_of_set(stage: PlanetaryStage) -> Iterator[tuple[str, str, str, str, float]]:
+def meshes_of_set(stage: PlanetaryStage) -> Iterator[tuple[str, str, str, str, float | None]]:
     """The meshes of a stage: what is at one end, name, both gears, direction between their axes, rad.
 
-    First those of the sun with every planet, then those of the planets with the ring.
+    First those of the sun with every planet, last those of the planets with the ring. None: a direction that
+    follows from the distances of the axes, see `room`.
     """
     for member, one, two in stage.meshing:
+        at_first = stage.type not in IN_PAIRS or member == SUN
         for number, angle in enumerate(stage.placed, start=1):
             ends = [f"{name}-{number}" if name in stage.planet_gears else name for name in (one, two)]
-            yield member, f"{stage.name}-{member}-{number}", ends[0], ends[1], angle
+            yield member, f"{stage.name}-{member}-{number}", ends[0], ends[1], angle if at_first else None
 
 
 def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
@@ -84,7 +97,7 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
     bodies = [body.name for body in scenario.body]
     for key, stage in planetary_stages(scenario):
         yield from _sort(key, stage)
-        for name in ("sun", "planet", "second_planet", "ring"):
+        for name in ("sun", "second_sun", "planet", "second_planet", "ring"):
             gear = getattr(stage, name)
             if gear is None:
                 continue
@@ -98,7 +111,7 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
                 yield InputError(f"{key}.{name}", quoted(gear), f"must be {kind} gear", remedy)
         if stage.carrier not in bodies:
             yield unknown_name(f"{key}.carrier", stage.carrier, bodies, "[[body]]")
-        for name in ("sun", "planet", "second_planet", "ring", "carrier"):
+        for name in ("sun", "second_sun", "planet", "second_planet", "ring", "carrier"):
             gear = getattr(stage, name)
             if gear and (of_sets.setdefault(gear, key) != key or stage.parts.count(gear) > 1):
                 rule = f"{gear} is named twice in planetary stages"
@@ -115,22 +128,36 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
 
 def _sort(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
     """Refuse keys that a sort of stages does not have, and ask for those that it needs."""
-    stepped = stage.type == STEPPED
-    if stepped and stage.second_planet is None:
-        remedy = 'add second_planet = "step", the gear of every planet that meshes with the ring'
-        yield InputError(f"{key}.second_planet", None, "missing", remedy)
-    for name in ("second_planet", "second_module"):
-        if not stepped and getattr(stage, name) is not None:
-            rule = f"is of stepped planets, and type is {quoted(stage.type)}"
-            yield InputError(f"{key}.{name}", None, rule, f"write type = {quoted(STEPPED)}, or leave it out")
-    if not stepped:
+    of = f"and type is {quoted(stage.type)}"
+    needs = {"second_planet": stage.type != SIMPLE, "second_sun": stage.type == RAVIGNEAUX}
+    for name, needed in needs.items():
+        if needed is (getattr(stage, name) is None):
+            rule = f"missing, {of}" if needed else f"is there, {of}"
+            remedy = f'add {name} = "…", a gear' if needed else "leave it out, or change the type"
+            yield InputError(f"{key}.{name}", None, rule, remedy)
+    if stage.second_module is not None and stage.type != STEPPED:
+        remedy = "leave it out, for gears in one train of meshes have one module"
+        yield InputError(f"{key}.second_module", None, f"is of stepped planets, {of}", remedy)
+    for name in ("held", "floating"):
+        if SECOND_SUN in (getattr(stage, name) or ()) and stage.second_sun is None:
+            rule = "names a second sun, and the stage has none"
+            yield InputError(f"{key}.{name}", None, rule, "name another member")
+    if stage.type == SIMPLE:
         return
     if stage.family != "involute":
-        rule = "stepped planets have involutes"
-        yield InputError(f"{key}.family", quoted(stage.family), rule, "leave family out")
+        rule = f"is not modelled, {of}"
+        yield InputError(f"{key}.family", quoted(stage.family), rule, "leave it out: involutes")
     if stage.helix_angle:
-        rule = "stepped planets are modelled with spur gears"
-        yield InputError(f"{key}.helix_angle", None, rule, "leave helix_angle out")
+        rule = f"is not modelled, {of}: its gears are spur"
+        yield InputError(f"{key}.helix_angle", None, rule, "leave it out")
+    if stage.type in IN_PAIRS:
+        if stage.centre_distance is not None:
+            rule = f"is one of three, {of}: they follow from the teeth, without backlash"
+            remedy = 'leave it out; give gears profile_shift, and backlash by thickness_allowance = "-30 um"'
+            yield InputError(f"{key}.centre_distance", None, rule, remedy)
+        for name in ("radial_pin_errors", "tangential_pin_errors"):
+            if getattr(stage, name):
+                yield InputError(f"{key}.{name}", None, f"is not modelled, {of}", "leave it out")
 
 
 def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
@@ -145,7 +172,7 @@ def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
     if stage.floating and stage.planets < 3:
         rule = f"{stage.planets} planets do not hold a floating {stage.floating[0]} in place"
         yield InputError(f"{key}.floating", None, rule, "give it a bearing, or the stage three planets")
-    if len(stage.floating) == len(MEMBERS):
+    if len(stage.floating) == len(stage.members):
         rule = "no member of the set has a bearing: it has no place"
         yield InputError(f"{key}.floating", None, rule, "let one of them have a bearing")
 
@@ -240,7 +267,7 @@ def _assembly(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputE
 
 def _held(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError]:
     """Refuse power at a member that is held."""
-    if stage.held is None:
+    if stage.held not in stage.members:
         return
     held, operating = stage.members[stage.held], scenario.operating
     named = [("operating.input", operating.input), ("operating.output", operating.output)]
@@ -257,13 +284,13 @@ def _bearings(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
     by_name = scenario.bearings.by_name
     for _, stage in planetary_stages(scenario):
         floating = {stage.members[name] for name in stage.floating}
-        if stage.second_planet in by_name:
+        if stage.type == STEPPED and stage.second_planet in by_name:
             rule = f"turns on the pins of {stage.planet}, and has their bearings"
             yield InputError(f"bearings.{stage.second_planet}", None, rule, f"name {stage.planet}")
         moves = f"missing: {{}} of the planetary stage {stage.name} moves in x and y"
         if stage.helix_angle:  # a member that floats is held along the axis and against tilts
             floating, moves = set(), f"missing: teeth push {{}} of the planetary stage {stage.name} along z"
-        for name in sorted({*stage.members.values(), stage.planet} - floating):
+        for name in sorted({*stage.members.values(), *stage.planet_bodies} - floating):
             if not {name, "default", "gear"} & set(by_name):
                 rule = moves.format(name)
                 remedy = f"add [bearings.{name}], or [bearings.default]"
@@ -304,26 +331,9 @@ def coaxial(sets: tuple[SetPart, ...]) -> list[tuple[int, int]]:
 
 def pin_offset(stage: PlanetaryStage, planet: int) -> tuple[float, float]:
     """Place of a planet's pin from where it should be, x and y, m."""
+    if not stage.radial_pin_errors and not stage.tangential_pin_errors:
+        return 0.0, 0.0
     angle = stage.placed[planet]
     outwards = stage.radial_pin_errors[planet] if stage.radial_pin_errors else 0.0
     onwards = stage.tangential_pin_errors[planet] if stage.tangential_pin_errors else 0.0
     return outwards * cos(angle) - onwards * sin(angle), outwards * sin(angle) + onwards * cos(angle)
-
-
-def refuse_overlap(gearset: SetPart, tip_radius: float, centres: Float[Array, "planet 2"]) -> None:
-    """Raise InputError where the tip circles of planets overlap; centres, m."""
-    apart = np.hypot(*np.moveaxis(centres[:, None] - centres[None], -1, 0))
-    apart[np.diag_indices(len(centres))] = np.inf
-    overlap = 2.0 * tip_radius - float(apart.min())
-    if overlap <= 0.0:
-        return
-    one, two = sorted(int(place) + 1 for place in np.unravel_index(int(np.argmin(apart)), apart.shape))
-    radius = float(np.hypot(*(centres[0] - centres.mean(axis=0))))
-    rule = f"the tip circles of planets {one} and {two} overlap by {1e3 * overlap:.3g} mm"
-    remedy = "stand them further apart"
-    if not gearset.table.angles:
-        remedy = f"use at most {int(np.pi / np.arcsin(tip_radius / radius))}, or planets with fewer teeth"
-    key = "angles" if gearset.table.angles else "planets"
-    raise InputError(
-        f"{gearset.key}.{key}", None if gearset.table.angles else gearset.table.planets, rule, remedy
-    )

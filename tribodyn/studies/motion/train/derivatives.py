@@ -258,7 +258,7 @@ def _distance_from(train: TrainKinematics, mesh: int) -> int | None:
     if distance is None or not isinstance(part.table, PlanetaryStage) or part.table.centre_distance:
         return None
     own = (m for m, other in enumerate(meshes) if other.of_set == part.of_set)
-    return next(m for m in own if not train.drives[m].has_ring)
+    return next(m for m in own if meshes[m].member == part.table.spaces)
 
 
 def _pair(case: Gearbox, table: dict[str, Any], mesh: int) -> LubricatedCase:

@@ -63,7 +63,7 @@ def stiffness_key(mesh: str, planetary: str = "") -> str:
     """Which key of a stage gives the stiffness of a mesh; `planetary` is the name of a planetary stage."""
     if not planetary:
         return "stiffness"
-    return "sun_stiffness" if mesh.startswith(f"{planetary}-sun-") else "ring_stiffness"
+    return "ring_stiffness" if mesh.startswith(f"{planetary}-ring-") else "sun_stiffness"
 
 
 def _mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:

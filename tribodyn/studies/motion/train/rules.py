@@ -35,6 +35,7 @@ from tribodyn.studies.motion.train.pair_view import (
     reference_teeth,
 )
 from tribodyn.studies.motion.train.scenario import Scenario
+from tribodyn.train.planetary import CARRIER
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
@@ -129,10 +130,27 @@ def _pairs(scenario: Scenario, train: TrainKinematics) -> Iterator[InputError]:
             if str(error) not in reported:
                 reported.add(str(error))
                 yield error
+        if not torque and part.member and any(duty.torques.driven) and scenario.solver.initial == "static":
+            yield from _idle(train, mesh)
+            return
         for error in broken_flank_rules(part.key, torque, back, view.mesh):
             if error.rule not in unloaded:  # of all stages that are driven backwards the first
                 unloaded.add(error.rule)
                 yield error
+
+
+def _idle(train: TrainKinematics, mesh: int) -> Iterator[InputError]:
+    """Ask for a load on the member of a planetary stage that nothing drives: its teeth have no place."""
+    parts, part = train.parts, train.parts.meshes[train.motion.meshes[mesh]]
+    own = parts.sets[part.of_set]
+    used = {own.held, train.motion.bodies[train.motion.input]}
+    used |= {body for _, ends in parts.couplings() for body in ends}
+    first = own.members.get(part.member, own.members[CARRIER])
+    idle = next((body for body in (first, *own.members.values()) if body not in used), first)
+    name = parts.bodies[idle].name
+    rule = f"{name} of the planetary stage {own.table.name} idles: no torque says where its teeth stand"
+    remedy = f'add a [[load]] with at = "{name}" and its drag, torque = "1 N*m", or hold it'
+    yield InputError("load", None, rule, remedy)
 
 
 def _of_all_gears(scenario: Scenario) -> Iterator[InputError]:

@@ -167,7 +167,7 @@ def case_of(
         ),
         sensors=sensors_of(scenario.sensor),
         housing=housing_of(scenario.housing),
-        sets=tuple(set_data(gearset, train) for gearset in train.parts.sets),
+        sets=tuple(set_data(gearset, train, placed) for gearset in train.parts.sets),
         clutches=tuple(clutch_data(part, train.numbers) for part in train.parts.clutches),
     )
 
