@@ -56,7 +56,7 @@ PLACES = {
 
 
 def heard(gearbox: str) -> list[dict[str, Any]]:
-    """A sensor of every kind; of rings where there is one."""
+    """A sensor of every kind but sound, which needs a housing by matrices; of rings where there is one."""
     body, _, mesh, _ = PLACES[gearbox]
     at = {
         "housing": "top",
@@ -64,7 +64,7 @@ def heard(gearbox: str) -> list[dict[str, Any]]:
         "transmission-error": mesh,
         "ring": "set" if gearbox == "planetary" else None,
     }
-    kinds = [kind for kind in KINDS if kind != "ring" or gearbox == "planetary"]
+    kinds = [kind for kind in KINDS if kind != "sound" and (kind != "ring" or gearbox == "planetary")]
     return [
         {"name": kind, "kind": kind, "rate": "20 kHz"}
         | ({"at": place} if (place := at.get(kind, body)) else {})

@@ -1,9 +1,9 @@
 """Matrices of super-elements in files: HDF5, NPZ, MATLAB, Matrix Market, and punched by Nastran.
 
 Files of named arrays hold `mass`, `stiffness`, `damping` (or M, K, C); `seats`, their names; `places` (seat,
-3); `points`, names, with `recovery` (point, 3, coordinate); `area`, of `superelement.Radiation`; and `units`,
-a text such as "mm, t, s". What is not there the scenario says. Coordinates stand in the order of
-`train.elastic.superelement`.
+3); `points`, names, with `recovery` (point, 3, coordinate); `area`, or `radiation` (line, coordinate,
+coordinate) with `radiation_frequency` (Hz), of `superelement.Radiation`; and `units`, a text such as
+"mm, t, s". What is not there the scenario says. Coordinates are as in `train.elastic.superelement`.
 """
 
 import io
@@ -28,6 +28,8 @@ NAMES = {
     "points": ("points",),
     "recovery": ("recovery",),
     "area": ("area",),
+    "radiation": ("radiation",),
+    "radiation_frequency": ("radiation_frequency",),
     "units": ("units",),
 }
 _TEXTS, _WRITTEN_IN = ("seats", "points"), "m, kg, s"
@@ -69,6 +71,9 @@ def write_matrices(element: SuperElement, path: str | Path) -> Path:
         arrays["recovery"] = element.recovery
     if element.radiation is not None:
         arrays["area"] = element.radiation.area
+        if len(element.radiation.frequency):
+            arrays["radiation"] = element.radiation.resistance
+            arrays["radiation_frequency"] = element.radiation.frequency
     texts = {"seats": list(element.seats), "points": list(element.points)}
     if path.suffix == ".npz":
         named = {name: np.array(values) for name, values in texts.items() if values}
@@ -98,7 +103,9 @@ def _plain(name: str, array: Any) -> Any:
     numbers = np.asarray(array, dtype=float)
     if numbers.size > MOST_ELEMENTS:
         raise ValueError(f"{name} has {numbers.size} elements, more than {MOST_ELEMENTS}")
-    if name == "recovery" and numbers.ndim == 3:
+    if name == "radiation_frequency":
+        return numbers.ravel().tolist()
+    if name in ("recovery", "radiation") and numbers.ndim == 3:
         numbers = numbers.reshape(-1, numbers.shape[-1])
     if numbers.ndim != 2:
         raise ValueError(f"{name} has {numbers.ndim} dimensions, not two")

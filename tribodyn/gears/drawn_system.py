@@ -66,6 +66,7 @@ class DrawnSystem:
     housing: SuperElement | None = field(default=None, compare=False)
     digest: bytes = b""
     housing_modes_up_to: float = 0.0  # rad/s
+    radiation_efficiency: float = 1.0  # of the estimate by area and velocity
 
     @property
     def bodies(self) -> tuple[int, ...]:
@@ -113,13 +114,13 @@ class DrawnSystem:
         own = np.einsum("im,im->m", shapes[:shafts], momentum[:shafts])
         return own / np.einsum("im,im->m", shapes, momentum)
 
-    def motion_of(
-        self, place: str, layout: TrainLayout, new: Mapping[int, int]
-    ) -> Float[Array, "3 coordinate"]:
-        """Displacement of a seat or point of the housing in x, y, z by the coordinates of a model."""
+    def motion_of_housing(
+        self, layout: TrainLayout, new: Mapping[int, int]
+    ) -> Float[Array, "own coordinate"]:
+        """Coordinates of the housing by those of a model."""
         assert self.housing is not None
-        rows = np.zeros((3, layout.half))
-        whole = self.housing.motion_of(place) @ self.reduced.recovery[-self.housing.coordinates :]
+        rows = np.zeros((self.housing.coordinates, layout.half))
+        whole = self.reduced.recovery[-self.housing.coordinates :]
         numbers = [new[body] for body in self.bodies]
         places = np.array(places_of(numbers, layout, self.reduced.modes))
         rows[:, places] = whole

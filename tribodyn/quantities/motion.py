@@ -160,6 +160,16 @@ OF_SIGNAL = (
         "Fourth moment of a signal about its mean over the square of the second: 1.5 of a sine, 3 of noise."
     ),
 )
+#: Of a signal of the kind "sound" besides.
+OF_SOUND = (
+    Quantity("sound_power", "Sound power", "W", digits=".3g").defined_as(
+        "Power of the sound that the housing radiates, of all lines up to 0.4 of the sensor's rate: by its "
+        "radiation matrix, or ρ c σ ∫ v_n² dS."
+    ),
+    Quantity("sound_power_level", "Sound power level", "dB", digits=".1f").defined_as(
+        "10 lg of the sound power over 1 pW."
+    ),
+)
 #: Of the average of a signal over the turns of a shaft.
 OF_SHAFT = (
     Quantity("turns", "Turns averaged", digits="d").defined_as(
@@ -188,4 +198,4 @@ OF_SHAFT = (
         "Amplitudes of six sidebands on either side of the mesh frequency over that of the mesh."
     ),
 )
-SIGNALS = (*OF_SIGNAL, *OF_SHAFT)
+SIGNALS = (*OF_SIGNAL, *OF_SOUND, *OF_SHAFT)

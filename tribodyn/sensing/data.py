@@ -43,6 +43,11 @@ KINDS: dict[str, SensorKind] = {
     "transmission-error": SensorKind(
         "m", "transmission error of {at}, of the rotations of both gears", "a mesh"
     ),
+    "sound": SensorKind(
+        "Pa",
+        "sound pressure at 1 m from a point source in a free field that radiates the power of the {at}",
+        "a housing by matrices with area or radiation",
+    ),
     "torque": SensorKind("N*m", "torque at {at}", "drive, output or a shaft that gives way"),
 }
 

@@ -25,6 +25,17 @@ def _written(length=1.0, kilogram=1.0, **change):
     return {"seats": ("A", "B"), "points": ("middle",), **rows, **change}
 
 
+def _sounding(length=1.0, kilogram=1.0, sign=1.0, **change):
+    """The bar with a radiation that acts where its damping does."""
+    written = _written(length, kilogram, units="m, kg, s")
+    rows = np.asarray(written["stiffness"]) * sign
+    return (
+        written
+        | {"radiation": [*rows.tolist(), *rows.tolist()], "radiation_frequency": (50.0, 90.0)}
+        | change
+    )
+
+
 def _housing(table, **keys):
     return Housing.model_validate({"held": ("B",), "damping_ratio": 0.01, "matrices": table, **keys})
 
@@ -79,6 +90,9 @@ def test_units_that_disagree_or_lack_one_are_refused(text, words):
         (lambda: _housing(_written(units="m, kg, s", points=())), "housing.matrices", "three of each"),
         (lambda: _housing(_written(units="m, kg, s", mass=((1.0,),))), "housing.matrices", "1 by 1"),
         (lambda: _housing(_written(units="m, kg, s", damping=((1.0,), (1.0, 2.0)))), "damping", "differ"),
+        (lambda: _housing(_sounding(radiation_frequency=(50.0,))), "radiation", "1 frequencies and"),
+        (lambda: _housing(_sounding(radiation_frequency=(0.0, 50.0))), "radiation_frequency", "increase"),
+        (lambda: _housing(_sounding(sign=-1.0)), "housing.matrices", "radiation at 50 Hz is not positive"),
     ],
 )
 def test_what_contradicts_itself_is_one_line(housing, key, words):

@@ -23,6 +23,7 @@ from tribodyn.sensing.sampler import (
     torque_of_link,
     velocity,
 )
+from tribodyn.sensing.sound import radiated_pressure
 from tribodyn.signals.lines import SignalLine
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
@@ -34,6 +35,8 @@ from tribodyn.train.structure import rotational_error, turned
 _Channel = tuple[str, str, int, float, str]
 #: Velocity of a point of a housing by matrices; and what is sampled as a velocity and given as its slope.
 STRUCTURE = "structure"
+#: Rate of a coordinate of a housing by matrices, by its number in place of a direction.
+SOUND = "sound"
 _SLOPES = ("acceleration", STRUCTURE)
 
 
@@ -70,6 +73,8 @@ class Listener:
         sensor = one.sensor
         if one.at in self._sensible.structure and sensor.kind == "housing":
             return [(STRUCTURE, one.at, DIRECTIONS[sensor.direction], 0.0, "")]
+        if sensor.kind == SOUND and self._sensible.radiator is not None:
+            return [(SOUND, one.at, number, 0.0, "") for number in range(len(self._sensible.radiator.moved))]
         if sensor.kind != "housing":
             return [(sensor.kind, one.at, DIRECTIONS[sensor.direction], sensor.angle, sensor.window)]
         return [
@@ -103,6 +108,9 @@ class Listener:
             case "structure":
                 half = samples.model.layout.half
                 return parts.structure[at][direction] @ samples.y[half : 2 * half]
+            case "sound" if parts.radiator is not None:
+                half = samples.model.layout.half
+                return parts.radiator.moved[direction] @ samples.y[half : 2 * half]
             case "force" if at not in parts.bearings:
                 return reaction(parts.reactions[at], direction, samples.y, samples.model)
             case "force":
@@ -141,7 +149,13 @@ class Listener:
         time, angle, values = self._samplers[key].sampled()
         columns = [self._channels[key].index(channel) for channel in self._needed(one)]
         by_matrices = sensor.kind == "housing" and one.at in self._sensible.structure
-        if sensor.kind != "housing" or by_matrices:
+        radiator = self._sensible.radiator
+        if sensor.kind == SOUND and radiator is not None:
+            whole = values[:, columns]
+            clean = np.zeros(0)
+            if len(whole):
+                clean = radiated_pressure(whole, sensor.rate, radiator.radiation, radiator.efficiency)
+        elif sensor.kind != "housing" or by_matrices:
             clean = values[:, columns[0]]
         elif columns and len(values):
             inputs = self._housing.inputs(one.at)
@@ -153,6 +167,8 @@ class Listener:
             settings["direction"] = sensor.direction
         if sensor.kind == "ring":
             settings |= {"angle": sensor.angle, "window": sensor.window}
+        if radiator is not None and sensor.kind == SOUND and not len(radiator.radiation.frequency):
+            settings["radiation_efficiency"] = radiator.efficiency
         if sensor.noise:
             settings["noise"] = sensor.noise
         for name in ("snr", "bits", "full_scale"):
@@ -187,7 +203,7 @@ def _padded(values: Float[Array, " sample"], size: int) -> Float[Array, " sample
 #: begin anew behind each, do not depend on the cases beside it; short, because all states between are held.
 BLOCK = 48
 #: Kinds of sensors that need nothing but the states: not the forces of the teeth, nor what drives.
-_OF_STATES = ("acceleration", "force", "encoder", "transmission-error", STRUCTURE)
+_OF_STATES = ("acceleration", "force", "encoder", "transmission-error", STRUCTURE, SOUND)
 
 
 class Heard(NamedTuple):

@@ -11,11 +11,12 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.sensing.data import DIRECTIONS, KINDS, HousingData, SensorData
 from tribodyn.signals.lines import MESH, SignalLine
 from tribodyn.signals.resampling import PASSED, REACH
+from tribodyn.train.elastic.superelement import Radiation
 
 #: Samples that a signal has at least.
 FEWEST = 32
 #: Places of a torque that every drive has.
-DRIVE, OUTPUT = "drive", "output"
+DRIVE, OUTPUT, HOUSING = "drive", "output", "housing"
 
 
 class RingPlaces(NamedTuple):
@@ -25,6 +26,14 @@ class RingPlaces(NamedTuple):
     sense: int  # of its rotation, 1 counter-clockwise
     angles: tuple[float, ...]  # of the planets at the start, rad
     meshes: tuple[int, ...]  # of the ring with each
+
+
+class Radiator(NamedTuple):
+    """A housing that radiates."""
+
+    moved: Float[Array, "own coordinate"]  # its coordinates by those of the model
+    radiation: Radiation
+    efficiency: float
 
 
 @dataclass(frozen=True)
@@ -40,6 +49,8 @@ class Sensible:
     rings: Mapping[str, RingPlaces] = field(default_factory=dict)  # by stage
     #: of a housing by matrices: what moves its points and seats in x, y, z, (3, coordinate)
     structure: Mapping[str, Float[Array, "3 coordinate"]] = field(default_factory=dict)
+    #: that radiates: what moves all its coordinates, and by what it does
+    radiator: Radiator | None = None
     reactions: Mapping[str, int] = field(default_factory=dict)  # bearings of drawn shafts, by their names
 
 
@@ -84,6 +95,8 @@ def _places_of(sensor: SensorData, housing: HousingData, sensible: Sensible) -> 
             return dict.fromkeys([*sensible.structure, *housing.points])
         case "ring":
             return sensible.rings
+        case "sound":
+            return () if sensible.radiator is None else (HOUSING,)
         case "transmission-error":
             return sensible.meshes
         case _:

@@ -5,9 +5,10 @@ from math import isfinite
 from typing import Any
 
 from tribodyn.cases.results import TextTable
-from tribodyn.quantities.motion import OF_SHAFT, OF_SIGNAL
+from tribodyn.quantities.motion import OF_SHAFT, OF_SIGNAL, OF_SOUND
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import Sensed, SensorSignal
+from tribodyn.sensing.sound import level_of, power_of
 from tribodyn.signals.indicators import of_average, of_signal, synchronous_average
 from tribodyn.signals.lines import MESH, SHAFT, SignalLine
 
@@ -23,12 +24,20 @@ def signal_quantities(sensed: Sensed) -> dict[str, Any]:
         return {}
     return {
         SENSORS: {
-            signal.name: {n: v for n, v in of_signal(signal.values).items() if isfinite(v)}
+            signal.name: {n: v for n, v in _of_signal(signal).items() if isfinite(v)}
             | _of_shafts(signal, sensed.lines)
             for signal in sensed.signals
             if len(signal.values) > 1
         }
     }
+
+
+def _of_signal(signal: SensorSignal) -> dict[str, float]:
+    numbers = of_signal(signal.values)
+    if signal.kind == "sound":
+        power = power_of(signal.values)
+        numbers |= {"sound_power": power, "sound_power_level": level_of(power)}
+    return numbers
 
 
 def _of_shafts(signal: SensorSignal, lines: tuple[SignalLine, ...]) -> dict[str, Any]:
@@ -72,6 +81,14 @@ def sensor_tables(record: Record) -> list[TextTable]:
     ]
     head = ("sensor", "kind", *(quantity.label for quantity in OF_SIGNAL))
     tables = [TextTable("Sensors, in SI units", head, rows)]
+    loud = [
+        [name, *(_written(signals[name], quantity) for quantity in OF_SOUND)]
+        for name in ordered
+        if OF_SOUND[0].name in signals[name]
+    ]
+    if loud:
+        head = ("sensor", *(f"{quantity.label}, {quantity.unit}" for quantity in OF_SOUND))
+        tables.append(TextTable("Sound that the housing radiates", head, loud))
     shafts = [
         [name, shaft, *(_written(numbers, quantity) for quantity in OF_SHAFT)]
         for name in ordered

@@ -35,6 +35,8 @@ class MatrixTable(Table):
     points: tuple[Text, ...] = ()
     recovery: Matrix = ()
     area: Matrix = ()
+    radiation: Matrix = ()
+    radiation_frequency: tuple[Number, ...] = ()
 
 
 def matrix_file() -> Reference:
@@ -111,10 +113,10 @@ def element_of(housing: Any) -> SuperElement:
     element = SuperElement(names, places, modes, given["mass"], given["stiffness"], damping)
     if recovery is not None:
         element = element._replace(points=tuple(table.points), recovery=recovery * length / unit)
-    if table.area:
-        area = _rows(table.area, "area")
-        _require_shape(area, "area", len(unit))
-        element = element._replace(radiation=Radiation(area * length**4 / both))
+    if table.area or table.radiation:
+        element = element._replace(
+            radiation=_radiation(table, length**4 / both, force * length * time / both)
+        )
     element, found = sound(element, KEY)
     if not len(given["damping"]):
         damping = modal_damping(element.mass, element.stiffness, housing.damping_ratio)
@@ -133,7 +135,6 @@ def without(element: SuperElement, held: tuple[str, ...]) -> SuperElement:
     rows = [SIX * seat + direction for seat in kept for direction in range(SIX)]
     rows += range(SIX * len(element.seats), element.coordinates)
     at = np.ix_(rows, rows)
-    sound_of = element.radiation
     return element._replace(
         seats=tuple(element.seats[seat] for seat in kept),
         places=element.places[kept],
@@ -141,7 +142,7 @@ def without(element: SuperElement, held: tuple[str, ...]) -> SuperElement:
         stiffness=element.stiffness[at],
         damping=element.damping[at],
         recovery=element.recovery[:, :, rows] if element.points else element.recovery,
-        radiation=None if sound_of is None else Radiation(sound_of.area[at]),
+        radiation=None if element.radiation is None else element.radiation.at(rows),
     )
 
 
@@ -149,6 +150,25 @@ def _rows(rows: Any, name: str) -> Any:
     if len({len(row) for row in rows}) > 1:
         raise InputError(f"{KEY}.{name}", None, "rows differ in length", "write as many numbers in each")
     return np.array(rows, dtype=float)
+
+
+def _radiation(table: MatrixTable, of_area: Any, of_resistance: Any) -> Radiation:
+    """What a table says of sound, in SI units by factors of its elements."""
+    area, count = np.zeros_like(of_area), len(of_area)
+    if table.area:
+        area = _rows(table.area, "area")
+        _require_shape(area, "area", count)
+    lines = np.array(table.radiation_frequency)
+    if not table.radiation and not len(lines):
+        return Radiation(area * of_area)
+    key, rows = f"{KEY}.radiation", _rows(table.radiation, "radiation")
+    if rows.shape != (len(lines) * count, count):
+        rule = f"{len(lines)} frequencies and {count} coordinates, and radiation has {len(rows)} rows"
+        raise InputError(key, None, rule, "write a whole matrix of every frequency, one behind the other")
+    if not np.all(np.diff(lines, prepend=0.0) > 0.0):
+        rule = "must be above 0 and increase"
+        raise InputError(f"{KEY}.radiation_frequency", None, rule, "sort it, and leave 0 Hz out")
+    return Radiation(area * of_area, lines, rows.reshape(-1, count, count) * of_resistance)
 
 
 def _require_shape(matrix: Any, name: str, count: int) -> None:

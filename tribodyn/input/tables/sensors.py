@@ -34,6 +34,7 @@ _LEVELS = {
     "rad": units.not_negative(units.SMALL_ANGLE),
     "m": units.not_negative(units.DEVIATION),
     "N*m": units.not_negative(units.TORQUE),
+    "Pa": units.not_negative(units.PRESSURE),
 }
 #: Names that a dataset beside the signals has.
 _TAKEN = ("time", "reference_angle")
@@ -43,7 +44,9 @@ class Sensor(Table):
     """A sensor: what it measures, at what rate, and how noisy it is."""
 
     name: PartName
-    kind: Literal["acceleration", "force", "housing", "ring", "encoder", "transmission-error", "torque"]
+    kind: Literal[
+        "acceleration", "force", "housing", "ring", "encoder", "transmission-error", "torque", "sound"
+    ]
     at: Text | None = None
     direction: Literal["x", "y", "z"] = "y"
     angle: Angle = written("90 deg")
@@ -99,6 +102,7 @@ class Housing(Table):
     held: SeatNames = ()
     damping_ratio: NotNegative = 0.02
     modes_up_to: Frequency = written("2 kHz")
+    radiation_efficiency: Positive = 1.0
     mode: tuple[Mode, ...] = Field((), max_length=MOST_MODES)
     transfer: tuple[Transfer, ...] = Field((), max_length=MOST_MODES)
 

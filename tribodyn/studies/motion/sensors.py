@@ -4,7 +4,7 @@ import numpy as np
 
 from tribodyn.dynamics.recorded.outputs import holding_links
 from tribodyn.gears.sensing.listening import Listener
-from tribodyn.gears.sensing.sensor_places import RingPlaces, Sensible, placed
+from tribodyn.gears.sensing.sensor_places import Radiator, RingPlaces, Sensible, placed
 from tribodyn.studies.motion.frequencies import lines_of
 from tribodyn.studies.motion.planetary.results import meshes_of_member
 from tribodyn.studies.motion.prepare import PreparedGearbox
@@ -35,7 +35,12 @@ def sensible(prepared: PreparedGearbox) -> Sensible:
     }
     system = case.system
     housing = None if system is None else system.housing
-    points = () if housing is None else (*housing.points, *housing.seats)
+    structure, radiator = {}, None
+    if system is not None and housing is not None:
+        moved = system.motion_of_housing(layout, numbers)
+        structure = {at: housing.motion_of(at) @ moved for at in (*housing.points, *housing.seats)}
+        if housing.radiation is not None:
+            radiator = Radiator(moved, housing.radiation, system.radiation_efficiency)
     return Sensible(
         bodies={name: number for number, name in enumerate(names)},
         bearings={names[layout.first[k]]: k for k in holding_links(model) if layout.second[k] < 0},
@@ -44,7 +49,8 @@ def sensible(prepared: PreparedGearbox) -> Sensible:
         lines=lines_of(prepared),
         reference=names[0],
         rings=rings,
-        structure={point: system.motion_of(point, layout, numbers) for point in points} if system else {},
+        structure=structure,
+        radiator=radiator,
         reactions={name: k for k, name in enumerate(case.system.bearing_names if case.system else ())},
     )
 

@@ -39,6 +39,12 @@ class Radiation(NamedTuple):
     #: real part of the radiation impedance, N s/m for displacements
     resistance: Float[Array, "line coordinate coordinate"] = np.zeros((0, 0, 0))
 
+    def at(self, rows: list[int]) -> "Radiation":
+        """That of some of the coordinates."""
+        both = np.ix_(rows, rows)
+        lines = np.array([one[both] for one in self.resistance])
+        return self._replace(area=self.area[both], resistance=lines.reshape(-1, len(rows), len(rows)))
+
 
 class SuperElement(NamedTuple):
     """A structure by matrices in SI units over its seats' six directions and modal coordinates."""
@@ -153,6 +159,12 @@ def _symmetric(element: SuperElement, key: str) -> SuperElement:
         if not np.all(np.isfinite(matrix)):
             raise InputError(key, None, f"{name} has elements that are no numbers", "reduce it again")
         matrices[name] = _semidefinite(matrix, name, element, key)
+    if (by := element.radiation) is not None:
+        area = _semidefinite(by.area, "area", element, key)
+        lines = zip(by.frequency.tolist(), by.resistance, strict=True)
+        resistance = [_semidefinite(one, f"radiation at {f:g} Hz", element, key) for f, one in lines]
+        by = by._replace(area=area, resistance=np.array(resistance).reshape(by.resistance.shape))
+        matrices["radiation"] = by
     return element._replace(**matrices)
 
 

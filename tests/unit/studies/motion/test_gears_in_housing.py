@@ -22,14 +22,27 @@ def _below(signal: np.ndarray) -> np.ndarray:
     return np.fft.rfft(late * np.hanning(len(late)))[: int(len(late) * 0.25 * MODES_UP_TO / RATE)]
 
 
+def _alone(element, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rates and accelerations of a structure under forces over time."""
+    count, mobile = element.coordinates, np.linalg.inv(element.mass)
+    nothing, whole = np.zeros((count, count)), np.eye(count)
+    system = np.block([[nothing, whole], [-mobile @ element.stiffness, -mobile @ element.damping]])
+    push = np.vstack([nothing, mobile])
+    time = np.arange(len(force)) / RATE
+    states = lsim((system, push, np.eye(2 * count), np.zeros((2 * count, count))), force, time)[1]
+    return states[:, count:], states @ system[count:].T + force @ mobile.T
+
+
 def test_the_housing_moves_as_the_forces_of_its_bearings_drive_it(tmp_path):
     """What sensors hear on top and at a seat is the housing alone under the forces on its bearings."""
     box_alone = box()
     heard = {"top": "y", "B": "x"}
     sensors = [_sensor(name, "housing", direction) for name, direction in heard.items()]
     sensors += [_sensor(name, "force", direction) for name in SEATS for direction in "xyz"]
-    housing = {"matrices": "housing.h5", "modes_up_to": f"{MODES_UP_TO} Hz"}
-    signals = td.run(written(tmp_path, housing=housing, sensor=sensors)).sensors
+    sensors.append({"name": "loud", "kind": "sound", "rate": f"{RATE} Hz"})
+    housing = {"matrices": "housing.h5", "modes_up_to": f"{MODES_UP_TO} Hz", "radiation_efficiency": 0.5}
+    run = td.run(written(tmp_path, housing=housing, sensor=sensors))
+    signals = run.sensors
 
     count = box_alone.coordinates
     force = np.zeros((len(signals["top-y"].values), count))
@@ -37,20 +50,25 @@ def test_the_housing_moves_as_the_forces_of_its_bearings_drive_it(tmp_path):
         for place, direction in enumerate("xyz"):
             force[:, box_alone.seat(seat) + place] = signals[f"{bearing}-{direction}"].values
     force -= force[0]  # it begins in equilibrium
-    mobile = np.linalg.inv(box_alone.mass)
-    nothing = np.zeros((count, count))
-    system = np.block(
-        [[nothing, np.eye(count)], [-mobile @ box_alone.stiffness, -mobile @ box_alone.damping]]
-    )
-    push = np.vstack([nothing, mobile])
+    rates, accelerations = _alone(box_alone, force)
     for name, direction in heard.items():
         row = box_alone.motion_of(name)["xyz".index(direction)]
-        seen = np.concatenate([np.zeros(count), row]) @ system
-        alone = lsim((system, push, seen[None], (row @ mobile)[None]), force, np.arange(len(force)) / RATE)
         expected, found = (
-            _below(signal) for signal in (np.ravel(alone[1]), signals[f"{name}-{direction}"].values)
+            _below(signal) for signal in (accelerations @ row, signals[f"{name}-{direction}"].values)
         )
         assert np.linalg.norm(found - expected) < 0.05 * np.linalg.norm(expected)
+
+    lines = np.abs(np.fft.rfft(signals["loud"].values)) ** 2
+    spectrum = np.fft.rfft(rates, axis=0)
+    radiated = np.einsum("ki,ij,kj->k", spectrum.conj(), box_alone.radiation.area, spectrum).real
+    band = slice(1, int(0.25 * MODES_UP_TO / RATE * len(rates)))
+    assert 4.0 * np.pi / 413.3 * np.sum(lines[band]) == pytest.approx(
+        0.5 * 413.3 * np.sum(radiated[band]), rel=0.1
+    )
+    numbers = run.summary["sensors"]["loud"]
+    assert numbers["sound_power_level"] == pytest.approx(120.0 + 10.0 * np.log10(numbers["sound_power"]))
+    lost = np.mean(np.einsum("si,ij,sj->s", rates, box_alone.damping, rates))
+    assert numbers["sound_power"] < 0.1 * lost
 
 
 @pytest.mark.parametrize(

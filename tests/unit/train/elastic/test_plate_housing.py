@@ -34,6 +34,13 @@ def test_area_of_a_rigid_shift_is_that_of_both_walls_across_it(box):
     assert shift @ box.radiation.area @ shift == pytest.approx(2.0 * SIZE[0] * SIZE[2], rel=1e-9)
 
 
+def test_area_of_a_rigid_turn_about_the_middle_axis(box):
+    """Walls beside and above move along their normals by the distance from their middle: ∫ s² dS."""
+    turn = rigid_motions(box.places, box.modes, about=np.array(SIZE) / 2.0)[:, 5]
+    expected = 2.0 * SIZE[2] * (SIZE[0] ** 3 + SIZE[1] ** 3) / 12.0
+    assert turn @ box.radiation.area @ turn == pytest.approx(expected, rel=1e-9)
+
+
 def test_the_point_on_top_moves_as_the_box_is_turned(box):
     turn = rigid_motions(box.places, box.modes, about=np.zeros(3))[:, 5]
     np.testing.assert_allclose(box.motion_of("top") @ turn, [-0.16, 0.1, 0.0], atol=1e-9)

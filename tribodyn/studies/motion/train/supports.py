@@ -137,9 +137,10 @@ def drawn_system(
             if bearing.seat is not None and bearing.seat not in housing.seats:
                 key = f"{shaft.key}.bearing.{number}.seat"
                 raise unknown_name(key, bearing.seat, housing.seats, "seat of the housing")
-    numbers = housing.mass, housing.stiffness, housing.damping, housing.recovery
+    numbers = housing.mass, housing.stiffness, housing.damping, housing.recovery, *(housing.radiation or ())
     digest = sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in numbers)).digest()
-    return DrawnSystem(tuple(shafts), on_points, housing, digest, scenario.housing.modes_up_to)
+    settings = scenario.housing.modes_up_to, scenario.housing.radiation_efficiency
+    return DrawnSystem(tuple(shafts), on_points, housing, digest, *settings)
 
 
 def _require_seats(scenario: Any, drawn: list[tuple[str, DrawnShaft]]) -> None:
