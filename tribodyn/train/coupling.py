@@ -35,8 +35,8 @@ def coupled(
 ) -> tuple[TrainLayout, Couplings]:
     """The layout with the places of entries, and their numbers.
 
-    `prescribed` says whether the
-    rotation of the reference is. What strains that is a link's, for it has no micro-rotation.
+    `prescribed` says whether the rotation of the reference is. It has no micro-rotation: entries may turn it,
+    and nothing is strained by its coordinate.
     """
     half = layout.half
     stiffness, damping, mass = np.zeros((3, half, half))
@@ -47,8 +47,8 @@ def coupled(
         damping[at] += part.damping
         mass[at] += part.mass
         force[part.places] += part.force
-    assert not np.any(stiffness[layout.lag])
-    assert not np.any(damping[layout.lag])
+    assert not np.any(stiffness[:, layout.lag])
+    assert not np.any(damping[:, layout.lag])
     rows, columns = np.nonzero((stiffness != 0.0) | (damping != 0.0))
     forced = np.flatnonzero(force)
     weights = own_mass(layout, bodies)
@@ -117,7 +117,8 @@ def coupling_forces(y, model, dy):
     for e in range(parts.stiffness.shape[0]):
         i, j = layout.coupled_rows[e], layout.coupled_columns[e]
         damping = parts.damping[e] * y[half + j]
-        power = power + damping * y[half + i]
+        if i != layout.lag:
+            power = power + damping * y[half + i]
         dy[half + i] = dy[half + i] - (parts.stiffness[e] * y[j] + damping)
     for e in range(parts.force.shape[0]):
         i = layout.forced[e]
@@ -158,8 +159,9 @@ def coupling_energy(y, model):
     layout, parts = model.options.layout, model.links.coupled
     energy = 0.0 * y[0]
     for e in range(parts.stiffness.shape[0]):
-        one, other = y[layout.coupled_rows[e]], y[layout.coupled_columns[e]]
-        energy = energy + 0.5 * parts.stiffness[e] * one * other
+        i = layout.coupled_rows[e]
+        if i != layout.lag:
+            energy = energy + 0.5 * parts.stiffness[e] * y[i] * y[layout.coupled_columns[e]]
     for e in range(parts.force.shape[0]):
         energy = energy - parts.force[e] * y[layout.forced[e]]
     for e in range(parts.mass.shape[0]):
@@ -178,8 +180,9 @@ def differentiate_couplings(y, model, lost, jacobian):
         i, j = layout.coupled_rows[e], layout.coupled_columns[e]
         jacobian[half + i, j] -= parts.stiffness[e]
         jacobian[half + i, half + j] -= parts.damping[e]
-        jacobian[lost, half + j] += parts.damping[e] * y[half + i]
-        jacobian[lost, half + i] += parts.damping[e] * y[half + j]
+        if i != layout.lag:
+            jacobian[lost, half + j] += parts.damping[e] * y[half + i]
+            jacobian[lost, half + i] += parts.damping[e] * y[half + j]
 
 
 @law

@@ -12,7 +12,7 @@ from tribodyn.input.fields import PartName
 from tribodyn.input.quantity import InUnit, Number, Reference, Table, Text
 from tribodyn.input.units import NotAQuantity, factor_to_si
 from tribodyn.train.elastic.beam_matrices import SIX
-from tribodyn.train.elastic.superelement import Radiation, SuperElement, modal_damping, sound
+from tribodyn.train.elastic.superelement import Radiation, Soundness, SuperElement, modal_damping, sound
 
 KEY = "housing.matrices"
 Length = Annotated[float, InUnit(units.LENGTH, "120 mm")]
@@ -79,6 +79,17 @@ def scales(text: str, key: str) -> tuple[float, float, float, float]:
 
 def element_of(housing: Any) -> SuperElement:
     """The super-element of a ``[housing]`` with matrices, in SI units, on what holds it; InputError."""
+    element, found = whole_of(housing)
+    for error in broken_list("housing.held", housing.held, element.seats, "seat"):
+        raise error
+    if found.free and not housing.held:
+        rule = "missing: the housing is free, and nothing holds it"
+        raise InputError("housing.held", None, rule, "name the seats that are its feet, or reduce it held")
+    return without(element, housing.held)
+
+
+def whole_of(housing: Any) -> tuple[SuperElement, Soundness]:
+    """The super-element that a table's matrices are, in SI units, and what was found of it; InputError."""
     table: MatrixTable = housing.matrices
     if housing.units and table.units and scales(housing.units, "housing.units") != scales(table.units, KEY):
         rule = f"units disagree: the file says {quoted(table.units)}"
@@ -121,12 +132,7 @@ def element_of(housing: Any) -> SuperElement:
     if not len(given["damping"]):
         damping = modal_damping(element.mass, element.stiffness, housing.damping_ratio)
         element = element._replace(damping=damping)
-    for error in broken_list("housing.held", housing.held, names, "seat"):
-        raise error
-    if found.free and not housing.held:
-        rule = "missing: the housing is free, and nothing holds it"
-        raise InputError("housing.held", None, rule, "name the seats that are its feet, or reduce it held")
-    return without(element, housing.held)
+    return element, found
 
 
 def without(element: SuperElement, held: tuple[str, ...]) -> SuperElement:

@@ -158,6 +158,7 @@ class SetData:
     frame_forces: bool  # whether Coriolis and centrifugal forces are counted
     in_space: bool = False  # whether its teeth are helical: its bodies then move in space
     rim: RimData | None = None  # of the ring; None: it does not bend
+    carrier: Any = None  # a `planetary.carriers.CarrierData`; None: it does not give
 
     @property
     def arms(self) -> int:

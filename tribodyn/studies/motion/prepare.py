@@ -29,6 +29,7 @@ from tribodyn.studies.motion.assembly import (
     varying_of,
 )
 from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox
+from tribodyn.studies.motion.planetary.carriers import carrier_coordinates, carriers_of
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
 from tribodyn.studies.motion.planetary.in_space import pins_in_space, tilts_in_frames
 from tribodyn.studies.motion.planetary.rims import pushing_rims, rim_coordinates, rims_of, with_rims
@@ -209,6 +210,7 @@ def _model(
         *pins_in_space(case, layout, new, damping, inertias),
         *tilts_in_frames(case, order, layout, bodies),
         *rims_of(case, tables, layout),
+        *carriers_of(case, layout, new, damping, inertias, rim_coordinates(case)),
     ]
     layout, couplings = coupled_by(case.system, parts, layout, bodies, new, not drive)
     varying = varying_of(case)
@@ -298,7 +300,9 @@ def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
         frames=int(bool(case.sets)),
         clutches=[(new[one.ends[0]], new.get(one.ends[1], GROUND)) for one in case.clutches],
         carriers=[new.get(mesh.carrier, GROUND) for mesh in case.meshes],
-        modes=(case.system.reduced.modes if case.system is not None else 0) + rim_coordinates(case),
+        modes=(case.system.reduced.modes if case.system is not None else 0)
+        + rim_coordinates(case)
+        + sum(carrier_coordinates(gearset) for gearset in case.sets),
     )
     return with_rims(case, layout)
 

@@ -38,6 +38,7 @@ from tribodyn.input.tables.gears.model_files import (
     PressureAngle,
     Rack,
 )
+from tribodyn.input.tables.housing_matrices import Matrices, SeatNames, SeatPlaces, Units
 from tribodyn.input.tables.laws import LinkTable
 from tribodyn.train.elastic.pin import Pin, pin_stiffness
 from tribodyn.train.planetary import (
@@ -131,6 +132,18 @@ class PlanetPin(Table):
         return pin_stiffness(Pin(self.mounting, *size, self.youngs_modulus, self.poisson_ratio))
 
 
+class FlexibleCarrier(Table):
+    """A carrier that gives, by matrices over its hub and the pins of its planets."""
+
+    matrices: Matrices
+    units: Units | None = None
+    seats: SeatNames = ()
+    places: SeatPlaces = written({})
+    hub: PartName
+    pins: SeatNames
+    damping_ratio: NotNegative = 0.02
+
+
 class PlanetaryStage(StageTeeth):
     """Sun, planets and ring on one axis, and the carrier of the planets; one may be held."""
 
@@ -156,6 +169,7 @@ class PlanetaryStage(StageTeeth):
     frame_forces: bool = True
     ring_rim: RingRim | None = None
     pin: PlanetPin | None = None
+    flexible_carrier: FlexibleCarrier | None = None
 
     @property
     def members(self) -> dict[str, str]:

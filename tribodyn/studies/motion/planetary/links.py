@@ -11,6 +11,7 @@ from tribodyn.input.tables.bearings import bearing_of
 from tribodyn.studies.motion.case import HOUSING, LinkData, RimData, SetData
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
 from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
+from tribodyn.studies.motion.planetary.carriers import carrier_of
 from tribodyn.studies.motion.planetary.in_space import along_axis, on_pin
 from tribodyn.studies.motion.planetary.stages import SetPart, pin_offset
 from tribodyn.train.planetary import CARRIER
@@ -126,6 +127,10 @@ def set_data(gearset: SetPart, train: TrainKinematics, placed: PlacedTrain) -> S
     ]
     members = {name: new[body] for name, body in gearset.members.items()}
     planets = tuple(new[body] for body in gearset.planets)
+    carrier = None
+    if stage.flexible_carrier is not None:
+        key = f"{gearset.key}.flexible_carrier"
+        carrier = carrier_of(key, stage.flexible_carrier, stage.planets)
     return SetData(
         stage.name,
         gearset.key,
@@ -137,4 +142,5 @@ def set_data(gearset: SetPart, train: TrainKinematics, placed: PlacedTrain) -> S
         stage.frame_forces,
         bool(stage.helix_angle),
         _rim(stage),
+        carrier,
     )
