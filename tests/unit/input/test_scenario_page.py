@@ -16,6 +16,8 @@ from tribodyn.tribology.friction import FRICTION_LAWS
 
 TEXT = PAGE.read_text(encoding="utf-8")
 TABLES = every_table()
+#: Keys in tables of examples that name files.
+FILES = ("material", "matrices")
 
 
 def test_the_page_is_what_the_schema_makes_of_it():
@@ -62,9 +64,7 @@ def test_examples_are_taken(name: str):
         except ValidationError as error:
             # the other keys are missing; nothing may be wrong with this one, save references left as names
             wrong = [e for e in error.errors() if e["loc"][:1] == (alias,) and e["type"] != "missing"]
-            assert not [e for e in wrong if not (e["type"] == "model_type" and e["loc"][-1] == "material")], (
-                key
-            )
+            assert not [e for e in wrong if not (e["type"] == "model_type" and e["loc"][-1] in FILES)], key
 
 
 def toml(cell: str) -> Any:
