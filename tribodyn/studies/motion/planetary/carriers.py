@@ -218,18 +218,16 @@ def _out_of_plane(
         for body in link.ends
         for direction in range(AXIAL, IN_SPACE)
     ]
-    both = (each[outer, outer] for each in matrices)
-    return _joined(np.hstack([np.eye(3), -pin]), *both, np.array([*places, *seat]))
+    stiffness, losses = (each[outer, outer] for each in matrices)
+    return _joined(np.hstack([np.eye(3), -pin]), stiffness, losses, np.array([*places, *seat]))
 
 
 def _joined(apart: Array, stiffness: Array, damping: Array, places: Any) -> CoupledMatrices:
     """½ k (d − e)² less ½ k d², d = `apart` q; `places` of q and of e."""
     ends, count = apart.shape[1], len(places)
-    found = []
-    for each in (stiffness, damping):
-        whole = np.zeros((count, count))
+    found = np.zeros((3, count, count))  # the last: no mass
+    for whole, each in zip(found, (stiffness, damping), strict=False):
         whole[:ends, ends:] = -apart.T @ each
         whole[ends:, :ends] = whole[:ends, ends:].T
         whole[ends:, ends:] = each
-        found.append(whole)
-    return CoupledMatrices(places, *found, np.zeros((count, count)), np.zeros(count))
+    return CoupledMatrices(places, found[0], found[1], found[2], np.zeros(count))
