@@ -56,8 +56,7 @@ class BodyData:
     name: str
     key: str
     gears: tuple[int, ...]
-    #: mass, inertia: beside those of its gears, kg and kg m²: of shafts, of bodies without teeth, of what the
-    #: body drives or is driven by without a spring between
+    #: mass, inertia: beside its gears', kg and kg m²: of shafts, toothless bodies, what is joined rigidly
     mass: float
     inertia: float
     ratio: Fraction  # |speed| over the reference body's
