@@ -5,9 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.cross.test_helical_sets import helical_set
-from tests.cross.test_planetary_trains import _loads
-from tests.support.planet_sets import IN_PHASE, planet_set
+from tests.support.planet_sets import IN_PHASE, helical_set, planet_set, tangent_loads
 from tests.support.spider import RADIUS, spider
 from tests.support.states import recorded
 from tests.support.train_scenarios import case_of_table
@@ -39,7 +37,7 @@ def test_a_stiff_one_is_the_rigid_carrier(helical, ends):
     carrier = spider([STIFF] * 3, mode=MODE, radius=radius)
     rigid, given = (made(helical, ends=ends, **more) for more in ({}, {"flexible_carrier": carrier}))
     np.testing.assert_allclose(rest(given), rest(rigid), rtol=1e-4, atol=1e-10)
-    at_rest = [_loads(each.model, static_equilibrium(each.model)) for each in (rigid, given)]
+    at_rest = [tangent_loads(each.model, static_equilibrium(each.model)) for each in (rigid, given)]
     np.testing.assert_allclose(*at_rest, rtol=1e-5)
     expected, found = (
         natural_frequencies(each.model, [one.cycle for one in each.tables]) for each in (rigid, given)
@@ -67,7 +65,7 @@ def test_the_planet_on_a_flexible_arm_carries_less_by_the_closed_form():
     for arm in arms:
         carrier = spider([arm, STIFF, STIFF])
         model = made(flexible_carrier=carrier, bearings=bearings, friction={"coefficient": 0.0}).model
-        loads = _loads(model, static_equilibrium(model))[:3]
+        loads = tangent_loads(model, static_equilibrium(model))[:3]
         np.testing.assert_allclose(loads[1], loads[2], rtol=1e-3)
         ratios.append(loads[1] / loads[0] - 1.0)
     assert ratios[1] / ratios[0] == pytest.approx(arms[0] / arms[1], rel=0.01)

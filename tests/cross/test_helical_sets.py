@@ -5,7 +5,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case
+from tests.support.planet_sets import (
+    BEARING,
+    IN_PHASE,
+    SEQUENTIAL,
+    SMOOTH,
+    STIFFNESS,
+    TILT,
+    helical_set,
+    set_case,
+)
 from tests.support.train_scenarios import case_of_table
 from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.equations import derivatives
@@ -16,25 +25,6 @@ from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import place_in_space, turn_of
-
-STIFFNESS, TILT = 3e8, 4e4
-BEARING = {
-    "stiffness_x": f"{STIFFNESS} N/m",
-    "stiffness_y": f"{STIFFNESS} N/m",
-    "stiffness_axial": f"{STIFFNESS} N/m",
-    "stiffness_tilt": f"{TILT} N*m/rad",
-    "damping_ratio": 0.05,
-}
-SMOOTH = {"coefficient": 0.0}
-
-
-def helical_set(*given: Any, hand: str = "right", **changes: Any) -> dict[str, Any]:
-    """A set at rest in every respect but its load: no friction, no frame forces."""
-    changes = {"helix_angle": "15 deg", "frame_forces": False, "friction": SMOOTH, **changes}
-    table = planet_set(*given, **{"mesh": {"slices": 7}, **changes})
-    table["gear"]["sun"]["hand"] = hand
-    table["bearings"] = {"default": BEARING, **changes.get("bearings", {})}
-    return table
 
 
 def made(*given: Any, **changes: Any) -> PreparedGearbox:

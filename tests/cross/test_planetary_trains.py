@@ -5,7 +5,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 
-from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case
+from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case, tangent_loads
 from tests.support.planetary_phases import mesh_phases
 from tests.support.single_set import torques
 from tests.support.train_scenarios import case_of_table
@@ -180,7 +180,7 @@ def test_loads_at_rest_in_all_arrangements(held, driving):
     del table["friction"]["coefficient"]
     prepared = prepare(case_of_table(table))
     model = prepared.model
-    loads = _loads(model, static_equilibrium(model))
+    loads = tangent_loads(model, static_equilibrium(model))
     on_sun = 600.0 * abs(1.0 / torques(prepared.case.sets[0].teeth, held, driven, 1.0)[driven])
     on_sun *= abs(torques(prepared.case.sets[0].teeth, held, driven, 1.0)["sun"])
     np.testing.assert_allclose(loads, on_sun / 36e-3 / 3.0, rtol=2e-3)
@@ -196,7 +196,7 @@ def test_a_floating_sun_makes_three_planets_share_alike(planets):
             IN_PHASE, planets, floating=list(floating), tangential_pin_errors=errors, frame_forces=False
         )
         model = prepare(case).model
-        loads = _loads(model, static_equilibrium(model))
+        loads = tangent_loads(model, static_equilibrium(model))
         shares[floating] = loads[:planets]
         # action = reaction: what the sun gives a planet, but for friction the ring takes
         np.testing.assert_allclose(np.mean(loads[planets:]), np.mean(loads[:planets]), rtol=0.02)
@@ -204,19 +204,6 @@ def test_a_floating_sun_makes_three_planets_share_alike(planets):
     uneven = {floating: np.ptp(loads) / np.mean(loads) for floating, loads in shares.items()}
     assert uneven[()] > 0.3
     assert uneven["sun",] < 2e-3 if planets == 3 else uneven["sun",] > 0.3
-
-
-def _loads(model, state):
-    """Force of every mesh along its pitch tangent, N."""
-    from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs
-
-    samples = evaluated(np.array([0.0]), state[None], model)
-    return np.array(
-        [
-            mesh_outputs(m, samples)["driven_torque"][0] / abs(float(mesh.driven_radius))
-            for m, mesh in enumerate(model.meshes)
-        ]
-    )
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,11 @@
 
 from typing import Any
 
+import numpy as np
+
 from tests.support.train_scenarios import case_of_table
+from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs
 from tribodyn.studies.motion.case import Gearbox
 
 #: Teeth of sun, planet and ring, for three or four planets: all meshes in phase, or one after another.
@@ -85,3 +89,35 @@ def planet_set(
 def set_case(*given: Any, **changes: Any) -> Gearbox:
     """The case of `planet_set`."""
     return case_of_table(planet_set(*given, **changes))
+
+
+#: Of all bearings of a helical set, N/m and N m/rad.
+STIFFNESS, TILT = 3e8, 4e4
+BEARING = {
+    "stiffness_x": f"{STIFFNESS} N/m",
+    "stiffness_y": f"{STIFFNESS} N/m",
+    "stiffness_axial": f"{STIFFNESS} N/m",
+    "stiffness_tilt": f"{TILT} N*m/rad",
+    "damping_ratio": 0.05,
+}
+SMOOTH = {"coefficient": 0.0}
+
+
+def helical_set(*given: Any, hand: str = "right", **changes: Any) -> dict[str, Any]:
+    """A set at rest in every respect but its load: no friction, no frame forces."""
+    changes = {"helix_angle": "15 deg", "frame_forces": False, "friction": SMOOTH, **changes}
+    table = planet_set(*given, **{"mesh": {"slices": 7}, **changes})
+    table["gear"]["sun"]["hand"] = hand
+    table["bearings"] = {"default": BEARING, **changes.get("bearings", {})}
+    return table
+
+
+def tangent_loads(model: Model, state: np.ndarray) -> np.ndarray:
+    """Force of every mesh along its pitch tangent, N."""
+    samples = evaluated(np.array([0.0]), state[None], model)
+    return np.array(
+        [
+            mesh_outputs(m, samples)["driven_torque"][0] / abs(float(mesh.driven_radius))
+            for m, mesh in enumerate(model.meshes)
+        ]
+    )
