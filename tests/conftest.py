@@ -16,7 +16,8 @@ from tests.support.relative import approx, assert_allclose
 from tests.support.short_studies import ShortRuns
 from tests.support.soak_parameters import is_in_soak
 from tribodyn.numerics.files.cache import trusted_folder
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 # The same examples every time: a failure belongs to the change at hand, not to the day. For new ones:

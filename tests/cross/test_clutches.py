@@ -21,7 +21,7 @@ from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.train.structure import turn_of
 
 #: Inertias of motor with driver, driven gear, flywheel, kg m²; stiffness of the mesh, N/m.

@@ -19,7 +19,8 @@ from tribodyn.dynamics.approach import APPROACH, PRESENT, TRANSMISSION_ERROR
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.right_hand_side import contacts_of
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.prepare import prepare as prepare_pair
 from tribodyn.train.schedule import interval_of
 

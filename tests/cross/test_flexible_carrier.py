@@ -13,7 +13,8 @@ from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.errors import InputError
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.prepare import prepare
 
 STIFF, MODE = 1e14, 3001.0
 ENDS = [("sun", "carrier"), ("carrier", "sun")]

@@ -22,7 +22,8 @@ from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.errors import InputError
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import contacts_of
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import place_in_space, turn_of
 

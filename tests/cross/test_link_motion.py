@@ -17,7 +17,7 @@ from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs, train_ou
 from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.solve.transient import TransientSettings
-from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.protocol.run import with_link_law
 from tribodyn.train.links.chain import tangent_stiffness, twist_under
 from tribodyn.train.links.law import LinkLaw

@@ -12,7 +12,8 @@ from tests.support.linear_mesh import STIFFNESS, matrices
 from tests.support.own_teeth import errors
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.train.layout import displacements
 
 #: Always two pairs in contact, of one stiffness.

@@ -29,7 +29,7 @@ from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales, tolerances_from
 from tribodyn.solve.transient import make_integrator
-from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.train.layout import displacements, velocities, work_of, works_of_meshes
 from tribodyn.train.structure import (
     DAMPING,

@@ -7,7 +7,8 @@ import numpy as np
 import tribodyn as td
 from tribodyn.dynamics.parameters import Model, frictionless
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import rotational_error
 

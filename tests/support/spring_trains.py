@@ -15,8 +15,9 @@ from tests.support.train_scenarios import case_of_table
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.mesh.cycle import polynomials
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare, tabulated
+from tribodyn.studies.motion.prepare import prepare, tabulated
 from tribodyn.train.structure import shift_of, turn_of
 
 

@@ -15,8 +15,9 @@ from tribodyn.input.messages import explain
 from tribodyn.input.resolve import resolve, resolve_table, unresolved_keys
 from tribodyn.input.sources import find_scenario
 from tribodyn.studies.motion import TRAIN as STUDY
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import loaded_from, table_of
 
 

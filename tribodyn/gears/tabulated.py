@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -106,6 +106,19 @@ def _tabulated(case: LubricatedCase) -> Tabulated:
 
     table = polynomials(cycle)
     return Tabulated(cycle, table, of_one_mesh(table.boundary), (pinion, gear), assembly, split, remark)
+
+
+def opened(case: LubricatedCase, assembly: Assembly, coarse: bool) -> MeshCycle:
+    """The mesh cycle alone of a case whose number of slices is given, which is not judged; kept likewise.
+
+    A coarse one has `by_compliance.FEW_NODES`.
+    """
+    from tribodyn.mesh.by_compliance import FEW_NODES, mesh_cycle_of
+
+    back, torque = case.mesh.backlash is not None, case.operating.gear_torque
+    made = partial(mesh_cycle_of, assembly, case.materials, case.mesh, torque, back)
+    made = partial(made, FEW_NODES if coarse else None)
+    return _kept(MadeOnce((coarse, table_key(case)), made))
 
 
 def quasi_static_loss(tabulated: Tabulated) -> Callable[[LubricatedCase], float]:

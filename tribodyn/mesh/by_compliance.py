@@ -34,9 +34,11 @@ def mesh_cycle_of(
     mesh: MeshData,
     gear_torque: float,
     back: bool = False,
+    nodes: int | None = None,
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a checked pair of plain numbers; `back`: whether back flanks can touch.
 
+    Slices by the energy method with as many nodes as they take, unless their number is given.
     The torque T_g (N m) matters where `mesh.at_load`, and where slices of a helical pair hold each other
     (`coupled_slices`) or are not counted yet (`slice_number.slices_needed`). Raises InputError as
     `tabulate.tabulate` and `tabulate_loaded.tabulate_loaded`.
@@ -47,7 +49,7 @@ def mesh_cycle_of(
         return tabulate_loaded(assembly, materials, mesh, gear_torque, back)
     if assembly.drive.helix_angle or mesh.slices > 1:
         mesh = in_slices(assembly, materials, mesh, gear_torque)
-        return tabulate_integrated(assembly, materials, mesh, gear_torque, back)
+        return tabulate_integrated(assembly, materials, mesh, gear_torque, back, nodes)
     return tabulate(assembly, materials, mesh, pair_slots(assembly), back)
 
 
@@ -127,7 +129,8 @@ _GROWTH = 1.45  # 5, 7, 11, 15, 21, 31
 #: Slices per overlap ratio that are taken at least, and below which they are too few: coefficients of
 #: friction are those of the speeds in the middles of slices.
 PER_OVERLAP, TOO_FEW_PER_OVERLAP = 13.0, 7.0
-_NODES = 129
+#: Nodes of tables that are looked at, and not moved by.
+FEW_NODES = 129
 _WHAT = "transmission error", "tilting moment", "friction"
 
 
@@ -202,7 +205,7 @@ def _harmonics_of(
     @cache
     def harmonics(slices: int) -> Float[Array, "quantity harmonic"]:
         cycle = tabulate_integrated(
-            assembly, materials, replace(mesh, slices=slices), gear_torque, nodes=_NODES
+            assembly, materials, replace(mesh, slices=slices), gear_torque, nodes=FEW_NODES
         )
         state = quasi_static(cycle, float(cycle.gear_sense) * abs(gear_torque))
         load = state.normal_load[0]

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.dynamics.parameters import Model, frictionless
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.initial import static_equilibria
 from tribodyn.train.schedule import common_period, interval_of, schedule_of
 from tribodyn.train.structure import turned
 
@@ -31,15 +31,21 @@ def static_twist(model: Model, rates: Sequence[Fraction]) -> Float[Array, " mesh
     smooth = frictionless(model)
     boundaries = [np.asarray(mesh.table.boundary) for mesh in model.meshes]
     begun = np.asarray(model.schedule.offset)[0].tolist()
-    states = []
+    schedules, phases, intervals, before = [], [], [], 0
+    for place in range(PLACES):
+        cycle, eighths = divmod((2 * place + 1) * period, 2 * PLACES)
+        stand = [phase + float(rate * cycle % 1) for phase, rate in zip(begun, rates, strict=True)]
+        schedules.append(schedule_of(boundaries, rates, stand, 1))
+        phases.append(eighths / (2 * PLACES))
+        intervals.append(before + int(interval_of(np.array(phases[-1]), schedules[-1])[-1]))
+        before += len(schedules[-1].start)
+    laid = {
+        name: np.concatenate([getattr(each, name) for each in schedules])
+        for name in ("start", "end", "segment", "opens", "offset", "driver_tooth", "driven_tooth")
+    }
+    there = smooth._replace(schedule=schedules[0]._replace(**laid))
     try:
-        for place in range(PLACES):
-            cycle, eighths = divmod((2 * place + 1) * period, 2 * PLACES)
-            stand = [phase + float(rate * cycle % 1) for phase, rate in zip(begun, rates, strict=True)]
-            there = smooth._replace(schedule=schedule_of(boundaries, rates, stand, 1))
-            phase = eighths / (2 * PLACES)
-            _, _, interval = interval_of(np.array(phase), there.schedule)
-            states.append(static_equilibrium(there, phase, int(interval)))
+        states = static_equilibria(there, np.array(phases), np.array(intervals))
     except SimulationError:
         return further
     mean = np.mean(states, axis=0)

@@ -166,17 +166,22 @@ def _put(xp: Any, whole: Any, at: Any, slot: Any, value: Any) -> Any:
 
 
 def spread(
-    middle: Float[Array, "node slot"],
-    share: Float[Array, "node slot"],
+    middle: Float[Array, "*node slot"],
+    share: Float[Array, "*node slot"],
     factors: tuple[Float[Array, " wave"], ...],
     slices: int,
-) -> list[Float[Array, "node slot slot"]]:
+) -> list[Float[Array, "*node slot slot"]]:
     """Share of what a slice's load moves at another, of compliances that fall by factors with the wave.
 
     The waves are the cosines of the face, from the even one on; middles of the parts that touch are over its
     width. Of slices that touch over their whole width the shares of all loads sum up to 1.
     """
     xp, number = namespace(middle, share, *factors), np.arange(len(factors[0]))
+    if xp is np and middle.ndim > 1:  # slices that touch over their whole width are the same at all nodes
+        parts, place = np.unique(middle + 1j * share, return_inverse=True)
+        place = place.reshape(middle.shape)
+        at = place[..., :, None], place[..., None, :]
+        return [one[at] for one in spread(np.real(parts), np.imag(parts), factors, slices)]
     basis = xp.cos(np.pi * number * middle[..., None]) * xp.sinc(number * share[..., None] / (2.0 * slices))
     weight = np.where(number > 0, 2.0, 1.0) / slices
     return [(basis * (weight * factor)) @ xp.swapaxes(basis, -1, -2) for factor in factors]

@@ -1,20 +1,26 @@
-"""A train's pairs put together: assemblies and tables, one for equal meshes; masses, phases, damping."""
+"""A train's pairs put together: assemblies and tables, one for equal meshes; masses, phases, damping.
+
+`PreparedGearbox` is what comes of them.
+"""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics import parameters
 from tribodyn.dynamics.data import matrices_in_space, spring_damping
 from tribodyn.errors import InputError
+from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.model import resting_slopes, tilting_inertia
-from tribodyn.gears.prepare import assembled
-from tribodyn.gears.tabulated import table_key
+from tribodyn.gears.prepare import Thermal, assembled
+from tribodyn.gears.tabulated import Tabulated, table_key
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import mass_and_inertia
+from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.motion.case import HOUSING, ClutchData, Gearbox, LinkData, LoadData
+from tribodyn.studies.motion.case import HOUSING, BodyData, ClutchData, Gearbox, LinkData, LoadData
 from tribodyn.studies.motion.drivetrain.teeth import engagement
 from tribodyn.train.clutches import Clutches, common_knots
 from tribodyn.train.phases import Engagement, Phases, nominal_phases
@@ -27,6 +33,45 @@ class BodyInertia(NamedTuple):
     inertia: float  # polar
     #: about a diameter; shafts and other bodies as thin discs in the middle, without what drives and loads
     tilting: float = 0.0
+
+
+@dataclass(frozen=True)
+class PreparedGearbox:
+    """A case made ready to integrate; bodies of the model in its own order."""
+
+    case: Gearbox
+    model: parameters.Model
+    tables: tuple[Tabulated, ...]  # of every mesh; equal meshes share one
+    warm_pairs: tuple[LubricatedCase, ...]  # of every mesh, with the oil at its teeth's temperature
+    thermal: tuple[Thermal | None, ...]
+    phases: Phases  # of the teeth without load
+    order: tuple[int, ...]  # bodies of the case as the model has them; behind these the motor
+    inertias: tuple[BodyInertia, ...]  # of the case's bodies
+    twist: Float[Array, " mesh"]  # cycles by which the load brings every mesh further, `static_twist`
+    near: Float[Array, "place state"] | None = None  # static equilibria, or near those, where they are known
+
+    @property
+    def cycle(self) -> MeshCycle:
+        """The mesh cycle of the first mesh."""
+        return self.tables[0].cycle
+
+    @property
+    def assembly(self) -> Assembly:
+        """The gears of the first mesh, put together."""
+        return self.tables[0].assembly
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the model's bodies."""
+        names = tuple(self.case.bodies[body].name for body in self.order)
+        return names if len(names) == self.model.layout.bodies else (*names, "motor")
+
+    @property
+    def bodies(self) -> tuple[BodyData, ...]:
+        """Bodies of the case as the model has them; a motor stands and turns as what it drives."""
+        bodies = tuple(self.case.bodies[body] for body in self.order)
+        motor = self.case.bodies[self.case.source.body]
+        return bodies if len(bodies) == self.model.layout.bodies else (*bodies, motor)
 
 
 def table_numbers(case: Gearbox) -> tuple[int, ...]:

@@ -18,6 +18,7 @@ from tribodyn.gears.rating.bearings import (
 )
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.load import PROPOSED
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
 from tribodyn.studies.motion.frequencies import (
@@ -29,7 +30,7 @@ from tribodyn.studies.motion.frequencies import (
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.powers import LOCKS, flow_of, power_data, power_table
 from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
 from tribodyn.studies.motion.train.face_loads import along_face, of_deflected, proposals

@@ -14,9 +14,9 @@ from tribodyn.signals.lines import (
     lines_of_pair,
     set_frequencies,
 )
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of, together
 from tribodyn.studies.motion.planetary.results import meshes_of_member
-from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.planetary import CARRIER, RING, SECOND_SUN, SUN
 
 

@@ -1,7 +1,6 @@
 """From a gearbox to a model ready to integrate: pairs tabulated, numbers of the train assembled."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
@@ -11,14 +10,12 @@ from tribodyn.errors import InputError
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.drawn_system import coupled_by
 from tribodyn.gears.model import gear_mesh, helix_sign, options_of, varying_load, with_own_teeth
-from tribodyn.gears.prepare import Thermal
 from tribodyn.gears.tabulated import Tabulated, tables
-from tribodyn.geometry.assembly import Assembly
-from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.twist import static_twist
 from tribodyn.studies.motion.assembly import (
     BodyInertia,
+    PreparedGearbox,
     body_inertias,
     clutches_of,
     engagements,
@@ -28,12 +25,13 @@ from tribodyn.studies.motion.assembly import (
     table_numbers,
     varying_of,
 )
-from tribodyn.studies.motion.case import HOUSING, BodyData, Gearbox
+from tribodyn.studies.motion.case import HOUSING, Gearbox
 from tribodyn.studies.motion.planetary.carriers import carrier_coordinates, carriers_of
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
 from tribodyn.studies.motion.planetary.in_space import pins_in_space, tilts_in_frames
 from tribodyn.studies.motion.planetary.rims import pushing_rims, rim_coordinates, rims_of, with_rims
 from tribodyn.studies.motion.thermal_iteration import at_tooth_temperatures
+from tribodyn.studies.motion.train.operating_point import settled
 from tribodyn.train.layout import TrainLayout, layout_of
 from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases, entering_teeth, nominal_phases
@@ -50,43 +48,6 @@ from tribodyn.train.structure import (
 from tribodyn.tribology.closure import closure_of
 
 
-@dataclass(frozen=True)
-class PreparedGearbox:
-    """A case made ready to integrate; bodies of the model in its own order."""
-
-    case: Gearbox
-    model: parameters.Model
-    tables: tuple[Tabulated, ...]  # of every mesh; equal meshes share one
-    warm_pairs: tuple[LubricatedCase, ...]  # of every mesh, with the oil at its teeth's temperature
-    thermal: tuple[Thermal | None, ...]
-    phases: Phases  # of the teeth without load
-    order: tuple[int, ...]  # bodies of the case as the model has them; behind these the motor
-    inertias: tuple[BodyInertia, ...]  # of the case's bodies
-
-    @property
-    def cycle(self) -> MeshCycle:
-        """The mesh cycle of the first mesh."""
-        return self.tables[0].cycle
-
-    @property
-    def assembly(self) -> Assembly:
-        """The gears of the first mesh, put together."""
-        return self.tables[0].assembly
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of the model's bodies."""
-        names = tuple(self.case.bodies[body].name for body in self.order)
-        return names if len(names) == self.model.layout.bodies else (*names, "motor")
-
-    @property
-    def bodies(self) -> tuple[BodyData, ...]:
-        """Bodies of the case as the model has them; a motor stands and turns as what it drives."""
-        bodies = tuple(self.case.bodies[body] for body in self.order)
-        motor = self.case.bodies[self.case.source.body]
-        return bodies if len(bodies) == self.model.layout.bodies else (*bodies, motor)
-
-
 def tabulated(case: Gearbox) -> tuple[Tabulated, ...]:
     """The tables of every mesh; equal meshes share one. Raises what `gears.tabulated.tables` raises."""
     table_of: dict[int, Tabulated] = {}
@@ -98,9 +59,21 @@ def tabulated(case: Gearbox) -> tuple[Tabulated, ...]:
 
 
 def prepare(case: Gearbox, tables: tuple[Tabulated, ...] | None = None) -> PreparedGearbox:
-    """Check the geometry, tabulate the meshes, assemble the model; `tables` is of equal tables, if known.
+    """Make a case ready, drawn shafts about where they stand under the loads of their meshes.
 
-    Raises InputError where teeth cannot be made or run together, or a table does not cover the contact.
+    `tables` are equal tables, if known. Raises as `assemble`.
+    """
+    prepared = assemble(case, tables)
+    return prepared if case.system is None else settled(prepared, assemble)
+
+
+def assemble(
+    case: Gearbox, tables: tuple[Tabulated, ...] | None = None, twist: Float[Array, " mesh"] | None = None
+) -> PreparedGearbox:
+    """Check the geometry, tabulate the meshes, assemble the model.
+
+    `tables` are equal tables, `twist` that of a case whose shafts turn alike, if known. Raises InputError
+    where teeth cannot be made or run together, or a table does not cover the contact.
     """
     tables = tables or tabulated(case)
     inertias = body_inertias(case, [each.assembly for each in tables])
@@ -110,14 +83,14 @@ def prepare(case: Gearbox, tables: tuple[Tabulated, ...] | None = None) -> Prepa
     phases = nominal_phases(case.toothed_shafts, engaged)
     order = _order(case)
     model = _model(case, tables, warm, inertias, phases, order)
-    further = static_twist(model, [mesh.rate for mesh in case.meshes])
+    further = static_twist(model, [mesh.rate for mesh in case.meshes]) if twist is None else twist
     model = with_own_teeth(
         _under_load(model, case, further),
         entering_teeth(case.toothed_shafts, engaged, phases, further.tolist()),
         [(case.gears[one].teeth, case.gears[two].teeth) for one, two in (mesh.gears for mesh in case.meshes)],
         case.solver.cycles,
     )
-    return PreparedGearbox(case, model, tables, tuple(warm), tuple(thermal), phases, order, inertias)
+    return PreparedGearbox(case, model, tables, tuple(warm), tuple(thermal), phases, order, inertias, further)
 
 
 def _held(case: Gearbox, body: int) -> bool:

@@ -20,9 +20,10 @@ from tribodyn.mesh.record_arrays import as_arrays, described
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.shaft_lines import HOUSING_GEOMETRY, SHAFT_GEOMETRY, shaft_arrays
-from tribodyn.studies.motion.prepare import PreparedGearbox, geometry_of
+from tribodyn.studies.motion.prepare import geometry_of
 
 _TIME, _BODY, _MESH, _PAIRS = ("time",), ("time", "body"), ("time", "mesh"), ("time", "mesh", "pair")
 _CLUTCH = ("time", "clutch")

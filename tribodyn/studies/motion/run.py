@@ -21,10 +21,11 @@ from tribodyn.record.reader import MESHES
 from tribodyn.record.sensors import write_sensed
 from tribodyn.record.trust import judge_tribology
 from tribodyn.record.withheld_efficiency import remarked
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.results import stage_quantities, worst_stage
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.record import record_of
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.summary import (

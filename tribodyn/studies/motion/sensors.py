@@ -5,9 +5,9 @@ import numpy as np
 from tribodyn.dynamics.recorded.outputs import holding_links
 from tribodyn.gears.sensing.listening import Listener
 from tribodyn.gears.sensing.sensor_places import Radiator, RingPlaces, Sensible, placed
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.frequencies import lines_of
 from tribodyn.studies.motion.planetary.results import meshes_of_member
-from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.planetary import CARRIER, RING
 from tribodyn.train.structure import TURN
 

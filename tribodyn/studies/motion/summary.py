@@ -11,8 +11,8 @@ from tribodyn.gears.motion.running import MeshOfRun
 from tribodyn.gears.motion.steady import LAST_ORDER, at_rest, mesh_quantities, power_quantities
 from tribodyn.gears.prepare import contact_quantities, thermal_quantities
 from tribodyn.gears.rating.margins import margins_of
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import ALIKE, alike_of
-from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.layout import work_of, work_of_mesh
 from tribodyn.train.structure import (
     FRICTION,

@@ -11,7 +11,7 @@ from tests.support.pair_outputs import outputs
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
-from tribodyn.studies.motion.prepare import PreparedGearbox
+from tribodyn.studies.motion.assembly import PreparedGearbox
 
 ECCENTRICITY = 20e-6
 

@@ -67,8 +67,37 @@ def test_the_loads_along_the_face_are_those_of_the_torque():
     )
 
 
-def test_springs_stand_at_once():
-    assert spread().passes == 0
+def test_bearings_stand_under_the_loads_where_the_faces_carry():
+    """Moments on the shafts are those of the load at its centre, but for where in a slice it acts."""
+    rolling = {
+        "type": "tapered-roller",
+        "elements": 19,
+        "element_diameter": "10.5 mm",
+        "roller_length": "15 mm",
+        "pitch_diameter": "71 mm",
+        "contact_angle": "15.6 deg",
+        "preload": "3 um",
+    }
+    written = overhung_train(mesh={"damping_ratio": 0.05, "slices": 7})
+    for shaft in written["shaft"]:
+        drawn = shaft["drawn"]
+        drawn["bearing"] = [
+            rolling | {"position": one["position"], "thrust": thrust}
+            for one, thrust in zip(drawn["bearing"], ("-z", "+z"), strict=True)
+        ]
+    case = case_of_table(written)
+    prepared = prepare(case)
+    assert case.system is not None
+    assert prepared.case.system is not None
+    middle, stands = np.array(case.system.loads), np.array(prepared.case.system.loads)
+    np.testing.assert_allclose(stands[:, :3], middle[:, :3], rtol=5e-3)
+    lever = -case.bodies[0].sense * only(spread_of(prepared)).centre
+    x, y = stands[:, :2].T
+    moments = lever * np.stack([-y, x], axis=-1)
+    assert abs(lever) > 1e-3
+    np.testing.assert_allclose(
+        stands[:, 3:] - middle[:, 3:], moments, atol=5e-2 * float(np.max(np.abs(moments)))
+    )
 
 
 def test_a_load_off_the_middle_tilts_the_gears_back():

@@ -10,9 +10,10 @@ from tests.support.planet_sets import planet_set, set_case
 from tests.support.train_scenarios import case_of_table
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.backlash import normal_backlash
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.check import check
 from tribodyn.studies.motion.planetary.jamming import jams
-from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.studies.motion.prepare import prepare
 
 
 def thinner(allowance: float = -20.0, **changes) -> PreparedGearbox:

@@ -17,8 +17,8 @@ from tests.support.train_scenarios import REDUCER, train_case
 from tribodyn.dynamics.approach import DISTANCE
 from tribodyn.dynamics.parameters import Model
 from tribodyn.dynamics.recorded.outputs import evaluated, mesh_outputs
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.studies.motion.prepare import prepare as prepare_pair
 from tribodyn.studies.motion.prepare import prepare as prepare_train
 from tribodyn.studies.protocol.load import load_scenario

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from tribodyn.geometry.helix import pitch_slope
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import HOUSING, Gearbox, SetData
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
-from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.planetary import IN_PAIRS
 from tribodyn.train.structure import TURN
 

@@ -4,8 +4,8 @@ from typing import Any
 
 from tribodyn.cases.results import TextTable
 from tribodyn.gears.tabulated import quasi_static_loss
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of, together
-from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.planetary import CARRIER
 from tribodyn.train.power_flow import LossyMesh, PowerFlow, power_flow
 from tribodyn.train.structure import TURN

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.modes import Modes, mode_kinds
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox, SetData
-from tribodyn.studies.motion.prepare import PreparedGearbox
 from tribodyn.train.planetary import CARRIER, SUN
 
 
