@@ -42,6 +42,7 @@ FLOATING = {
     "needle": BARRELS | RATED | {"type": "needle-roller", "rows": 2, "row_distance": "12 mm"},
     "sliding": TYPES["spherical"] | {"locating": False},
     "roller": ROLLER | RATED,
+    "floating": TYPES["tapered"] | {"locating": False},
 }
 #: A 6206.
 CATALOGUE = {
@@ -121,7 +122,11 @@ def test_bearings_of_every_type_are_taken(bearing: dict[str, Any]):
         (ANGULAR | {"arrangement": "O"}, "row_distance", 'and arrangement = "O" needs it'),
         (TYPES["O"] | {"thrust": "+z"}, "thrust", "no effect"),
         (TYPES["O"] | {"arrangement": "tandem"}, "thrust", "missing"),
-        (TYPES["O"] | {"locating": False}, "locating", "two rows"),
+        (
+            TYPES["O"] | {"arrangement": "tandem", "thrust": "+z", "locating": False},
+            "locating",
+            "rings come apart",
+        ),
         (ANGULAR | {"thrust": "+z", "row_distance": "20 mm"}, "row_distance", "no effect"),
         (TYPES["O"] | {"row_distance": "2 mm"}, "row_distance", "less than the rolling elements need"),
         (TYPES["O"] | {"row_distance": "20 m"}, "row_distance", "draw two bearings"),

@@ -58,12 +58,11 @@ _OPTIONAL: dict[str, tuple[str, ...]] = {
     "spherical-roller": ("clearance",),
     "toroidal-roller": ("clearance",),
 }
-#: Those that take axial load, and those of them that also run in a ring that slides.
+#: Those that take axial load.
 LOCATING = (
     *("deep-groove-ball", "angular-contact-ball", "four-point-contact-ball", "self-aligning-ball"),
     *("tapered-roller", "spherical-roller"),
 )
-_SLIDING = ("deep-groove-ball", "self-aligning-ball", "spherical-roller")
 _EXAMPLES = {
     "elements": "9",
     "element_diameter": '"12.7 mm"',
@@ -164,13 +163,8 @@ def _broken_keys(key: str, bearing: BearingOfShaft, kind: str) -> Iterator[Input
         if getattr(bearing, name) and name not in (*needed, *optional):
             rule = f"has no effect with {what}"
             yield InputError(f"{key}.{name}", None, rule, f"leave {name} out")
-    if not bearing.locating and kind in LOCATING and kind not in _SLIDING:
-        single = bearing.arrangement is None and kind != "four-point-contact-ball"
-        rule = (
-            "its rings come apart where one of them slides"
-            if single
-            else "is not taken of two rows like these"
-        )
+    if not bearing.locating and "thrust" in needed:
+        rule = "its rings come apart where one of them slides"
         yield InputError(f"{key}.locating", "false", rule, "leave it out")
 
 

@@ -119,7 +119,7 @@ def held_by(table: BearingOfShaft) -> BallRow | RollerRow | BearingRows | Matrix
     if table.type.endswith("ball"):
         balls = BallRow(**sizes)
         if table.type == "four-point-contact-ball":
-            return four_point(balls)
+            return four_point(balls)._replace(sliding=not table.locating)
         return self_aligning_balls(balls) if table.type == "self-aligning-ball" else _pair(balls, table)
     rollers = RollerRow(**sizes, length=table.roller_length or 0.0)
     if table.type == "spherical-roller":
@@ -135,4 +135,5 @@ def _pair(row: BallRow | RollerRow, table: BearingOfShaft) -> BallRow | RollerRo
         row = row._replace(preload=preload_of_force(row, table.preload_force))
     if table.arrangement is None and table.rows != 2:
         return row
-    return paired(row, table.row_distance or 0.0, table.arrangement or "tandem")
+    pair = paired(row, table.row_distance or 0.0, table.arrangement or "tandem")
+    return pair._replace(sliding=not table.locating)

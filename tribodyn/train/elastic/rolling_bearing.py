@@ -72,6 +72,8 @@ class BearingRows(NamedTuple):
     """Rows of balls or of rollers between the same rings."""
 
     rows: tuple[BallRow | RollerRow, ...]
+    #: the outer rings of rows that take thrust both ways slide along z together, to where they take none
+    sliding: bool = False
 
 
 class BearingState(NamedTuple):
@@ -167,6 +169,8 @@ def roller_constant(row: RollerRow) -> float:
 def answer(bearing: BallRow | RollerRow | BearingRows, moved: Float[Array, "5"]) -> BearingState:
     """What a bearing answers to a displacement of the shaft."""
     if isinstance(bearing, BearingRows):
+        if bearing.sliding:
+            return _sliding(bearing.rows, moved)
         return _together([answer(row, moved) for row in bearing.rows])
     return _of_balls(bearing, moved) if isinstance(bearing, BallRow) else _of_rollers(bearing, moved)
 
@@ -181,6 +185,29 @@ def _together(states: Sequence[BearingState]) -> BearingState:
         np.concatenate([state.element_load for state in states]),
         np.concatenate(slices) if slices else None,
     )
+
+
+def _sliding(rows: Sequence[BallRow | RollerRow], moved: Float[Array, "5"]) -> BearingState:
+    """Rows whose rings stand where the energy is lowest along z: the force there is zero, z condensed."""
+    from scipy.optimize import brentq  # heavy, and most pairs have no such bearing
+
+    def at(place: float) -> BearingState:
+        placed = np.array([*moved[:2], place, *moved[3:]])
+        return _together([answer(row, placed) for row in rows])
+
+    def thrust(place: float) -> float:
+        return float(at(place).force[2])
+
+    start, reach = thrust(0.0), 1e-6
+    while start != 0.0 and thrust(-np.sign(start) * reach) * start > 0.0:
+        reach *= 2.0
+    place = 0.0 if start == 0.0 else cast(float, brentq(thrust, 0.0, -np.sign(start) * reach, xtol=1e-15))
+    state = at(place)
+    along, stiffness = state.stiffness[2], state.stiffness
+    if along[2] > 0.0:
+        stiffness = stiffness - np.outer(along, along) / along[2]
+    still = np.array([1.0, 1.0, 0.0, 1.0, 1.0])
+    return state._replace(force=state.force * still, stiffness=stiffness * np.outer(still, still))
 
 
 def _movements(

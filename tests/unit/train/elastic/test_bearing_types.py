@@ -30,6 +30,7 @@ TAPERED = RollerRow(16, 9e-3, 12e-3, 60e-3, contact_angle=0.25, preload=5e-6)
 BEARINGS = {
     "O": paired(ANGULAR._replace(preload=10e-6), 30e-3, "O"),
     "X": paired(ANGULAR._replace(preload=10e-6), 30e-3, "X"),
+    "floating": paired(ANGULAR._replace(preload=10e-6), 30e-3, "O")._replace(sliding=True),
     "tandem": paired(ANGULAR, 30e-3, "tandem"),
     "tapered": paired(TAPERED._replace(preload=60e-6), 20e-3, "X"),
     "four-point": four_point(BallRow(13, 12e-3, 60e-3, contact_angle=np.radians(35.0), clearance=10e-6)),
@@ -137,6 +138,19 @@ def test_a_pair_holds_thrust_both_ways_and_a_tandem_one_way():
     tandem, single = answer(BEARINGS["tandem"], along(2, 2e-5)), answer(ANGULAR, along(2, 2e-5))
     assert tandem.force[2] == pytest.approx(2.0 * single.force[2])
     assert not np.any(answer(BEARINGS["tandem"], along(2, -2e-5)).force)
+
+
+def test_a_pair_whose_outer_rings_slide():
+    """It takes no thrust, and is where a locating one under no thrust is, the rings displaced or not."""
+    fixed, floating = BEARINGS["O"], BEARINGS["floating"]
+    here = np.array([2e-5, 1e-5, 0.0, 1e-4, 3e-4])
+    place = brentq(lambda z: answer(fixed, here + along(2, z)).force[2], -1e-4, 1e-4)
+    expected = answer(fixed, here + along(2, place))
+    for thermal in (0.0, 3e-4):
+        found = answer(floating, here + along(2, thermal))
+        assert found.force == pytest.approx(expected.force * [1, 1, 0, 1, 1], rel=1e-7, abs=1e-6)
+        assert found.element_load == pytest.approx(expected.element_load, rel=1e-6)
+    assert abs(place) > 1e-7
 
 
 def test_a_preloaded_pair_is_twice_as_stiff_until_one_row_is_free():
