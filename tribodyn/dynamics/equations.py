@@ -188,6 +188,9 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         damping_power = damping_power + coupling_forces(y, model, dy)
     if layout.frames > 0:
         add_frame_forces(y, model, dy)
+    of_cages = zero
+    if options.bearings.number > 0:
+        of_cages = options.bearings.act((cycle + phase) * operation.pitch_angle, y, model, dy)
 
     power_out = taken_out
     for b in range(layout.bodies):
@@ -203,6 +206,8 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         dy[half + layout.lag] = dy[half + layout.lag] - parametric
         parametric = 0.0 * parametric
     parametric_power = parametric * reference_speed
+    if options.bearings.number > 0:
+        parametric_power = parametric_power + of_cages
 
     driven_body = layout.input
     drive_torque = zero

@@ -10,6 +10,7 @@ from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.train.bearing_forces import tangents
 from tribodyn.train.coupling import own_mass
 from tribodyn.train.flow import flow, link_row
 from tribodyn.train.joints import joined
@@ -89,6 +90,8 @@ def linearised(
     mass[extra, extra] = 0.0  # all that these have is in the couplings
     mass[layout.inertial_rows, layout.inertial_columns] += links.coupled.mass
     stiffness[layout.coupled_rows, layout.coupled_columns] += links.coupled.stiffness
+    if model.options.bearings.number:
+        stiffness += tangents(model)
     still = model._replace(options=model.options._replace(drive=DRIVE_SPEED))
     torques = flow(still)
     for k, (first, second) in enumerate(zip(layout.first, layout.second, strict=True)):
@@ -165,6 +168,8 @@ def _support_of_couplings(model: Model, m: int) -> float:
         return 0.0
     stiffness = np.zeros((layout.half, layout.half))
     stiffness[layout.coupled_rows, layout.coupled_columns] = coupled.stiffness
+    if model.options.bearings.number:
+        stiffness += tangents(model)
     moved, *_ = np.linalg.lstsq(stiffness[np.ix_(places, places)], across)
     return float(across @ moved)
 

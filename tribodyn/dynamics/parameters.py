@@ -3,6 +3,7 @@
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.bearing_forces import LINEAR, BearingForces
 from tribodyn.train.clutches import Clutches
 from tribodyn.train.layout import TrainLayout
 from tribodyn.train.links.chain import BY_TABLE
@@ -50,6 +51,7 @@ class Options(NamedTuple):
     hertz: int = HERTZ_IN_TABLE
     sweeps: int = 1  # over coupled pairs; 1: they are not coupled
     links: Any = BY_TABLE  # functions of the laws of the links, see `train.links.chain`
+    bearings: BearingForces = LINEAR  # whose forces are evaluated in time
     reads_film: int = 1  # 0: the friction law does not depend on the film, which is recorded only
     averaged: int = 0  # 1: radius and entrainment vanish at the pitch point and are averaged over the contact
 

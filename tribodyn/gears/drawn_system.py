@@ -17,6 +17,7 @@ from tribodyn.input.tables.drawn_shafts import DrawnShaft
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.coupling import CoupledMatrices, coupled, own_mass
 from tribodyn.train.elastic.beam_matrices import SIX
+from tribodyn.train.elastic.in_time import tangent_of
 from tribodyn.train.elastic.superelement import SuperElement, modal_damping
 from tribodyn.train.elastic.system import (
     Reduced,
@@ -130,7 +131,12 @@ class DrawnSystem:
     @property
     def _physical(self) -> ShaftSystem:
         shafts = (
-            placed_shaft(shaft.drawing, (place for _, place in shaft.points), shaft.sense * shaft.speed)
+            placed_shaft(
+                shaft.drawing,
+                (place for _, place in shaft.points),
+                shaft.sense * shaft.speed,
+                moving=True,
+            )
             for shaft in self.shafts
         )
         return ShaftSystem(tuple(shafts), self.housing)
@@ -138,9 +144,10 @@ class DrawnSystem:
     def supports(self) -> dict[int, GearSupport]:
         """Every body's displacement and stiffness; with the first of a shaft the loads of its bearings."""
         state, left = self.settled, self.reduced
-        stiffness = left.stiffness[: SIX * len(self.bodies), : SIX * len(self.bodies)]
         five = [SIX * n + i for n in range(len(self.bodies)) for i in range(IN_SPACE)]
-        yielding = np.linalg.inv(stiffness[np.ix_(five, five)])
+        of_bearings = range(SIX * len(self.bodies), len(left.stiffness) - len(left.frequencies))
+        held = np.ix_([*five, *of_bearings], [*five, *of_bearings])
+        yielding = np.linalg.inv((left.stiffness + tangent_of(left.in_time))[held])
         found, number, bearing = {}, 0, 0
         for shaft in self.shafts:
             drawn = shaft.drawing.bearing
@@ -163,7 +170,7 @@ class DrawnSystem:
 
     def inertia_of(self, body: int) -> float:
         """Polar inertia of a shaft that turns with a body, kg m²; 0 where it keeps its own modes."""
-        if self.reduced.modes or body not in self.bodies:
+        if self.reduced.frequencies or body not in self.bodies:
             return 0.0
         turns = range(SIX - 1, SIX * len(self.bodies), SIX)
         return float(np.sum(self.reduced.mass[turns[self.bodies.index(body)], turns]))
@@ -198,7 +205,7 @@ class DrawnSystem:
         free = np.setdiff1d(np.arange(len(places)), turns)
         damping[np.ix_(free, free)] += modal_damping(
             (left.mass + np.diag(own))[np.ix_(free, free)],
-            stiffness[np.ix_(free, free)],
+            (stiffness + tangent_of(left.in_time))[np.ix_(free, free)],
             ratios[free],
             rounding=0.0,
         )
@@ -208,7 +215,7 @@ class DrawnSystem:
         reaction[:, :, places] = left.reaction[:, :3] * signs
         reaction[:, :, places[turns]] = 0.0
         mass = left.mass * both
-        if not left.modes:  # see `inertia_of`
+        if not left.frequencies:  # see `inertia_of`
             mass[turns], mass[:, turns] = 0.0, 0.0
         parts = CoupledMatrices(places, stiffness, damping, mass, force)
         return parts, reaction, left.reaction_at_rest[:, :3]

@@ -191,13 +191,21 @@ def element_loads(state: BearingState) -> Matrix:
     return tuple(map(tuple, loads.tolist()))
 
 
-def placed_shaft(table: DrawnShaft, points: Iterable[float], spin: float = 0.0) -> PlacedShaft:
-    """A drawing as the physics takes it, with the places of what it carries (m) and its spin, rad/s."""
+def placed_shaft(
+    table: DrawnShaft, points: Iterable[float], spin: float = 0.0, moving: bool = False
+) -> PlacedShaft:
+    """A drawing as the physics takes it, with the places of what it carries (m) and its spin, rad/s.
+
+    `moving`: bearings whose forces are evaluated in time have no matrix.
+    """
     return PlacedShaft(
         tuple(ShaftSection(*section.model_dump().values()) for section in table.section),
         ShaftMetal(table.youngs_modulus, table.poisson_ratio),
         table.density,
         tuple(points),
-        tuple(PlacedBearing(one.position, held_by(one), one.seat) for one in table.bearing),
+        tuple(
+            PlacedBearing(one.position, held_by(one), one.seat, moving and one.force == "in-time")
+            for one in table.bearing
+        ),
         spin,
     )

@@ -28,6 +28,20 @@ def law(function: F) -> F:
     return function
 
 
+#: What kernels compile in place of functions.
+COMPILED: dict[Callable[..., Any], Callable[..., Any]] = {}
+
+
+def compiled_as(implementation: Callable[..., Any]) -> Callable[[F], F]:
+    """Mark a function over arrays: kernels compile the law `implementation`, of the same result, instead."""
+
+    def marked(function: F) -> F:
+        COMPILED[function] = implementation
+        return law(function)
+
+    return marked
+
+
 def is_jax(value: Any) -> bool:
     """Whether `value` is a JAX array or tracer; never imports JAX."""
     jax = sys.modules.get("jax")

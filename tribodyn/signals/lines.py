@@ -5,8 +5,8 @@ from math import gcd
 from typing import NamedTuple
 
 #: Sorts of lines: tooth meshing, turns of shafts, the same two teeth again, planets that pass a place, teeth
-#: of a planetary set that meet their mates.
-MESH, SHAFT, HUNTING, PASS, FAULT = SORTS = ("mesh", "shaft", "hunting", "pass", "fault")
+#: of a planetary set that meet their mates, rolling elements that pass a ring.
+MESH, SHAFT, HUNTING, PASS, FAULT, BEARING = SORTS = ("mesh", "shaft", "hunting", "pass", "fault", "bearing")
 
 
 class SignalLine(NamedTuple):

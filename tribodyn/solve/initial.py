@@ -127,7 +127,8 @@ def static_equilibria(
     values = np.array([begin[row].pressed for row in rows])[:, unknown]
     tolerance = 1e-6 * np.linalg.norm(residual(rows, values[:, None])[:, 0], axis=-1) + 1e-30
     # a link may turn freely, and then stays where it is
-    bending = _seen_by_meshes(model, unknown) if are_linear(model.links.own) else None
+    linear = are_linear(model.links.own) and not model.options.bearings.number
+    bending = _seen_by_meshes(model, unknown) if linear else None
     roots = values.copy()
 
     def solve(some: Array, start: Array, model: Model = model) -> Array:
@@ -204,12 +205,25 @@ def _begin(model: Model, phase: float, interval: int, apart: list[dict[float, li
         # beyond the width over which contact sets in, where the stiffness vanishes like the load
         gaps = _maximum_gaps(model, interval, side, apart)
         clear = 3.0 * deflection + float(operation.contact_width) + np.array(gaps)
-        pressed = closed_state(model, np.array(side) * clear, torques)
+        start, nearer = _settled_shafts(model)
+        pressed = closed_state(model, np.array(side) * clear - nearer, torques) + start
     closed = closed_state(model, touch, torques)
     if torques.clutches is not None:
         for body in range(1, model.layout.bodies):
             closed[model.layout.half + turn_of(body, model.layout)] = torques.clutches.rate[body]
     return _Begin(closed, pressed, sizes_of(model, deflection), side, torques.clutches)
+
+
+def _settled_shafts(model: Model) -> tuple[Float[Array, " state"], Any]:
+    """State of shafts whose bearings act in time, under the mean loads, and how far it closes the meshes, m.
+
+    With clearance these do not hold shafts that are not displaced.
+    """
+    layout, start = model.layout, np.zeros(model.layout.states)
+    if not model.options.bearings.number:
+        return start, 0.0
+    start[: layout.half] = model.links.bearings.settled
+    return start, np.array([motion_of(m, start, model).towards for m in range(layout.meshes)])
 
 
 def _against_roots(left: Trials, stand: Standing, model: Model) -> None:

@@ -70,6 +70,25 @@ class Couplings(NamedTuple):
     reaction_at_rest: Float[Array, "bearing 3"] = np.zeros((0, 3))
 
 
+class BearingNumbers(NamedTuple):
+    """Numbers of the bearings whose forces are evaluated in time."""
+
+    #: what coordinates at the places of `bearing_forces` move the rings against each other by: x, y, z, tilts
+    moves: Float[Array, "bearing 10"] = np.zeros((0, 2 * IN_SPACE))
+    cage: Float[Array, " bearing"] = np.zeros(0)  # rotation of the cage about +z over that of the body
+    constant: Float[Array, " bearing"] = np.zeros(0)  # load over compression to its power, of a point
+    apart: Float[Array, " bearing"] = np.zeros(0)  # of groove centres at rest; of rollers unused, m
+    normal: Float[Array, "bearing 2"] = np.zeros(
+        (0, 2)
+    )  # of rollers: of the outer raceway, radial and along z
+    around: Float[Array, " element"] = np.zeros(0)  # angles of all elements in their cages, rad
+    #: places on elements where they are pressed, and how far (rollers: in the first) they are at rest, m
+    point: Float[Array, "point 4"] = np.zeros((0, 4))
+    #: this and the next: at the mean loads: stiffness, displacement of all coordinates; no force reads them
+    tangent: Float[Array, "bearing 5 5"] = np.zeros((0, IN_SPACE, IN_SPACE))
+    settled: Float[Array, " coordinate"] = np.zeros(0)
+
+
 class Links(NamedTuple):
     """Springs and dampers between two bodies, or a body and the ground: bearings, shafts, couplings.
 
@@ -92,6 +111,7 @@ class Links(NamedTuple):
     lever: Float[Array, "link end 2"] = np.zeros((0, 2, 2))
     offset: Float[Array, "link 2"] = np.zeros((0, 2))  # how far apart in x and y the unloaded ends are, m
     coupled: Couplings = Couplings()
+    bearings: BearingNumbers = BearingNumbers()
 
 
 class GearMesh(NamedTuple):

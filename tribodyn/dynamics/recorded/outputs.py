@@ -20,6 +20,7 @@ from tribodyn.dynamics.recorded.extremes import LOWEST, Extremes, highest_loaded
 from tribodyn.dynamics.recorded.faces import over_faces
 from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.train.bearing_forces import bearing_answers, cage_power
 from tribodyn.train.layout import displacements, work_of, works_of_meshes
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import (
@@ -60,6 +61,7 @@ class Evaluated(NamedTuple):
     work: list[Any]  # contacts of every mesh
     powers: dict[str, Float[Array, " sample"]]  # by the names of `POWERS`
     model: Model  # with NumPy arrays
+    bearings: tuple[Any, ...]  # `bearing_answers`
 
     @property
     def size(self) -> int:
@@ -90,7 +92,7 @@ def evaluated(
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
         powers = derivatives(phase, whole, interval, y, model, work, {})
     named = {name: np.broadcast_to(power, len(cycles)) for name, power in zip(POWERS, powers, strict=True)}
-    return Evaluated(cycles, phase, interval, y, work, named, model)
+    return Evaluated(cycles, phase, interval, y, work, named, model, bearing_answers(cycles, y, model))
 
 
 def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, np.ndarray]:
@@ -208,6 +210,11 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         columns = [np.broadcast_to(values, samples.size) for values in places]
         return np.stack(columns, axis=-1) if columns else np.empty((samples.size, 0))
 
+    stored = np.broadcast_to(stored_energy(y, model, samples.work), samples.size)
+    cages: dict[str, np.ndarray] = {}
+    if samples.bearings:
+        stored = stored + sum(answer[-1] for answer in samples.bearings)
+        cages["power_cages"] = cage_power(samples.bearings, y, model)
     return {
         "time": samples.cycles * operation.pitch_angle / operation.nominal_speed + y[layout.lag],
         "reference_angle": angle,
@@ -223,7 +230,7 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
             f"bearing_force_{name}": over(
                 [
                     *(bearing_force(k, row, y, model) for k in holding_links(model)),
-                    *(reaction(k, row, y, model) for k in range(len(model.links.coupled.reaction_at_rest))),
+                    *(reaction(k, row, samples) for k in range(len(model.links.coupled.reaction_at_rest))),
                 ]
             )
             for row, name in enumerate("xy")
@@ -233,7 +240,8 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         "y_rate": over(y[layout.half + shift_of(b) + 1] for b in planar),
         "speed": over(speed_of(b, y, model) for b in bodies),
         **power,
-        "stored_energy": np.broadcast_to(stored_energy(y, model, samples.work), samples.size),
+        "stored_energy": stored,
+        **cages,
         **works,
         "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
         **clutch_outputs(samples.cycles, y, model),
@@ -263,9 +271,13 @@ def bearing_force(k: int, row: int, y: np.ndarray, model: Model) -> np.ndarray:
     return links.stiffness[k, row] * stretch_in_plane(k, row, y, model) + damping
 
 
-def reaction(k: int, row: int, y: np.ndarray, model: Model) -> np.ndarray:
-    """Force of a shaft on a bearing that is among the couplings, in x, y or z (0, 1, 2), N."""
+def reaction(k: int, row: int, samples: Evaluated) -> np.ndarray:
+    """Force of a shaft on a bearing of a drawn shaft, in x, y or z (0, 1, 2), N."""
+    model, y = samples.model, samples.y
     layout, parts = model.layout, model.links.coupled
+    if k in (in_time := model.options.bearings.bearings):
+        rows = (answer[row] for n, answer in zip(in_time, samples.bearings, strict=True) if n == k)
+        return np.broadcast_to(sum(rows), samples.size)
     places = displacements(layout)  # the reference has no micro-rotation
     force = np.tensordot(parts.reaction[k, row, places], np.stack([y[i] for i in places]), axes=1)
     return parts.reaction_at_rest[k, row] + force

@@ -6,7 +6,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model
-from tribodyn.dynamics.recorded.outputs import Evaluated, Sampled, evaluated, reaction, sampled
+from tribodyn.dynamics.recorded.outputs import (
+    Evaluated,
+    Sampled,
+    evaluated,
+    reaction,
+    sampled,
+)
 from tribodyn.gears.sensing.sensor_places import DRIVE, OUTPUT, Placed, Sensible
 from tribodyn.numerics.processes.work import in_threads, usable_cores
 from tribodyn.numerics.shapes import Array, Float
@@ -28,6 +34,7 @@ from tribodyn.signals.lines import SignalLine
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.integrator import REASONS, Status
+from tribodyn.train.bearing_forces import bearing_answers
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import rotational_error, turned
 
@@ -112,7 +119,7 @@ class Listener:
                 half = samples.model.layout.half
                 return parts.radiator.moved[direction] @ samples.y[half : 2 * half]
             case "force" if at not in parts.bearings:
-                return reaction(parts.reactions[at], direction, samples.y, samples.model)
+                return reaction(parts.reactions[at], direction, samples)
             case "force":
                 return force_on_bearing(parts.bearings[at], direction, samples)
             case "encoder":
@@ -284,7 +291,8 @@ def add(
         return
     _, phase, interval = interval_of(cycles, model.schedule)
     y = np.ascontiguousarray(states.T)
-    plain = Evaluated(cycles, phase, interval, y, [], {}, model)
+    answers = bearing_answers(cycles, y, model) if "force" in listener.kinds else ()
+    plain = Evaluated(cycles, phase, interval, y, [], {}, model, answers)
     angle = cycles * float(model.operation.pitch_angle)
     meshes = [
         {"transmission_error_rotational": rotational_error(states, m, model)}

@@ -198,6 +198,9 @@ def _broken_sizes(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
             yield InputError(
                 f"{key}.contact_angle", shown, rule, "write 10 to 45 deg, as the catalogue has it"
             )
+    if bearing.force != "linear" and bearing.type in _ALIGNING:
+        rule = f"has no law for type = {quoted(bearing.type)}, whose elements align themselves"
+        yield InputError(f"{key}.force", quoted(bearing.force), rule, "leave force out")
     length, distance = bearing.roller_length, bearing.row_distance
     if length is not None and size and length > _LONGEST * size:
         rule = f"is more than {_LONGEST:g} times the rollers' diameter, {shown_length(size)}"
@@ -256,6 +259,10 @@ def _overloaded(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
         yield InputError(f"{key}.{name}", shown_length(getattr(bearing, name)), rule, remedy)
 
 
+#: Types whose rolling elements align themselves.
+_ALIGNING = ("self-aligning-ball", "spherical-roller", "toroidal-roller")
+
+
 def shown_length(length: float) -> str:
     """A length as messages have it."""
     return f"{1e3 * length:.6g} mm"
@@ -264,6 +271,10 @@ def shown_length(length: float) -> str:
 def _broken_spring(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
     """What a spring or a matrix lacks, and what belongs to rolling bearings."""
     yield from broken_matrix(f"{key}.matrix", bearing.matrix, bearing.matrix_units)
+    if bearing.force != "linear":
+        rule = "is that of rolling elements, and type is missing"
+        remedy = 'add type = "deep-groove-ball" with its sizes, or leave force out'
+        yield InputError(f"{key}.force", quoted(bearing.force), rule, remedy)
     for name in (*_EXAMPLES, *OF_CATALOGUE, *_RATINGS):
         if getattr(bearing, name) is not None:
             rule = "is that of a rolling bearing, and type is missing"

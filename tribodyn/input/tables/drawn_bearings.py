@@ -68,6 +68,7 @@ class BearingOfShaft(Table):
     preload: Fit = written("0 um")
     preload_force: Rating | None = None
     locating: Switch = True
+    force: Literal["linear", "in-time"] = "linear"
     seat: Text | None = None
     dynamic_rating: Rating | None = None
     static_rating: Rating | None = None

@@ -177,7 +177,7 @@ def register_laws() -> None:
     for law in elementary.LAWS:
         if law not in _registered:
             _registered.add(law)
-            part(law, forceinline=True)
+            part(law, forceinline=True, implementation=elementary.COMPILED.get(law))
     cast(Any, cpu_target.typing_context).refresh()
 
 

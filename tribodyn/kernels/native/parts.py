@@ -127,12 +127,16 @@ _PART: Any = {
 }
 
 
-def part(function: Callable[..., Any], forceinline: bool = False) -> Callable[..., Any]:
-    """Decorator of a part of kernels, compiled into each that calls it."""
+def part(
+    function: Callable[..., Any],
+    forceinline: bool = False,
+    implementation: Callable[..., Any] | None = None,
+) -> Callable[..., Any]:
+    """Decorator of a part of kernels, compiled into each that calls it; or its `implementation` is."""
 
     @overload(function, jit_options=cast(Any, {**_PART, "forceinline": forceinline}), strict=False)
-    def implementation(*args, **kwargs):
-        return function
+    def _(*args, **kwargs):
+        return implementation or function
 
     return function
 

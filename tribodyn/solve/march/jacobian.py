@@ -220,6 +220,9 @@ def differentiate(place, y, f, scale, model, work, into):
         differentiate_clutches(time, y, model, jacobian)
     if layout.coupled > 0:
         differentiate_couplings(y, model, works + DAMPING, jacobian)
+    if options.bearings.number > 0:
+        turns = (place.cycle + place.phase) * operation.pitch_angle
+        options.bearings.differentiate(turns, y, scale, model, jacobian)
     if layout.frames > 0:
         for b in range(layout.planar):
             x, speed = shift_of(b), bodies.frame_speed[b]

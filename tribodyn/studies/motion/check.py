@@ -8,6 +8,7 @@ import numpy as np
 
 from tribodyn.cases.results import CheckResult, TextTable
 from tribodyn.dynamics.modes import Modes, modes
+from tribodyn.gears.bearings_in_time import passing_of
 from tribodyn.gears.check import check_gears
 from tribodyn.gears.plausibility import checks_gears, with_duty
 from tribodyn.gears.prepare import PreparedGears
@@ -68,6 +69,9 @@ def check(case: Gearbox) -> CheckResult:
     held = bearing_part(shafts, oil)
     if held:
         tables.insert(0, TextTable("Bearings", *bearing_rows(held["bearings"])))
+    if passes_in_bearings := _passing_elements(case):
+        tables.insert(0, _element_table(passes_in_bearings))
+        held["bearing_frequencies"] = passes_in_bearings
     if not case.named:
         (pair,) = of_meshes
         remarks = (*pair.remarks, *bearing_remarks(shafts, oil))
@@ -106,6 +110,20 @@ def check(case: Gearbox) -> CheckResult:
     sentences = _named(names, [checked.warnings for checked in of_meshes])
     warnings = tuple(dict.fromkeys((*locks, *jams(prepared), *sentences)))
     return CheckResult(data, tables, remarks, warnings, details)
+
+
+def _passing_elements(case: Gearbox) -> dict[str, dict[str, float]]:
+    """Frequencies of cages and elements of the bearings in time, Hz, by their names."""
+    return {
+        name: {what: turns * speed / (2.0 * pi) for what, turns in passing._asdict().items()}
+        for name, (speed, passing) in passing_of(case.system).items()
+    }
+
+
+def _element_table(frequencies: dict[str, dict[str, float]]) -> TextTable:
+    rows = [(name, *(f"{each:.5g}" for each in of.values())) for name, of in frequencies.items()]
+    head = ("bearing", "cage", "elements pass outer ring", "inner ring", "element spin")
+    return TextTable("Bearings in time: frequencies at nominal speed (Hz)", head, rows)
 
 
 def _named(names: list[str], remarks: list[Any]) -> Iterator[str]:

@@ -3,7 +3,9 @@
 from collections.abc import Iterator
 from math import gcd, pi
 
+from tribodyn.gears.bearings_in_time import passing_of
 from tribodyn.signals.lines import (
+    BEARING,
     FAULT,
     HUNTING,
     MESH,
@@ -73,12 +75,25 @@ def of_sets(prepared: PreparedGearbox) -> dict[str, SetFrequencies]:
     return by_set
 
 
+def bearing_lines(prepared: PreparedGearbox) -> list[SignalLine]:
+    """Rolling elements of the bearings in time that pass their rings, per turn of the reference."""
+    lines, turning = [], float(prepared.model.operation.nominal_speed)
+    for name, (speed, passing) in passing_of(prepared.case.system).items():
+        lines += [
+            SignalLine(f"{name} elements pass outer ring", BEARING, passing.outer_pass * speed / turning),
+            SignalLine(f"{name} elements pass inner ring", BEARING, passing.inner_pass * speed / turning),
+            SignalLine(f"{name} cage", BEARING, passing.cage * speed / turning),
+        ]
+    return lines
+
+
 def lines_of(prepared: PreparedGearbox) -> tuple[SignalLine, ...]:
     """Lines of a gearbox, per turn of the reference body; equal ones once."""
     case, shaft = prepared.case, reference_frequency(prepared)
     if not case.named:
         one, two = case.gears
-        return lines_of_pair(one.name, two.name, (abs(one.teeth), abs(two.teeth)))
+        of_gears = lines_of_pair(one.name, two.name, (abs(one.teeth), abs(two.teeth)))
+        return (*of_gears, *bearing_lines(prepared))
     lines = [SignalLine(name, MESH, frequency / shaft) for name, frequency in distinct_meshes(prepared)]
     if len(lines) == 1:
         lines = [lines[0]._replace(name="mesh")]
@@ -97,6 +112,7 @@ def lines_of(prepared: PreparedGearbox) -> tuple[SignalLine, ...]:
             one, two = (int(abs(case.gears[gear].teeth)) for gear in mesh.gears)
             again = frequency * gcd(one, two) / (one * two)
             lines.append(SignalLine(f"hunting tooth of {mesh.name}", HUNTING, again / shaft))
+    lines += bearing_lines(prepared)
     seen: set[tuple[str, float]] = set()
     distinct = []
     for line in lines:

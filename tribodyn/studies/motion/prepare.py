@@ -7,6 +7,7 @@ import numpy as np
 
 from tribodyn.dynamics import parameters
 from tribodyn.errors import InputError
+from tribodyn.gears.bearings_in_time import bearings_in_time
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.drawn_system import coupled_by
 from tribodyn.gears.model import gear_mesh, helix_sign, options_of, varying_load, with_own_teeth
@@ -186,8 +187,9 @@ def _model(
         *carriers_of(case, layout, new, damping, inertias, rim_coordinates(case)),
     ]
     layout, couplings = coupled_by(case.system, parts, layout, bodies, new, not drive)
+    forces, in_time = bearings_in_time(case.system, layout, new)
     varying = varying_of(case)
-    first = case.meshes[0].pair
+    first, cycles = case.meshes[0].pair, [each.cycle for each in tables]
     return parameters.Model(
         pushing_rims(case, tables, meshes),
         bodies,
@@ -198,6 +200,7 @@ def _model(
             *_in_space(case, damping, inertias, layout),
             *pins_of(case, layout),
             couplings,
+            in_time,
         ),
         schedule_of(
             [np.asarray(each.table.boundary) for each in tables],
@@ -215,7 +218,7 @@ def _model(
             **varying_load(varying.table, varying.harmonics),
             clutches=clutches_of(case.clutches),
         ),
-        options_of(first, [each.cycle for each in tables], closures[0], layout, drive)._replace(links=chain),
+        options_of(first, cycles, closures[0], layout, drive)._replace(links=chain, bearings=forces),
     )
 
 

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.recorded.outputs import IN_SPACE_NAMES, Sampled, holding_links
+from tribodyn.gears.bearings_in_time import cages_turn
 from tribodyn.gears.motion.course import REVOLUTION, of_revolutions, revolution_scale
 from tribodyn.gears.motion.recorded import OF_SLICES, PAIR, gears_layout, scales_of
 from tribodyn.gears.motion.recorded import SAMPLES as OF_A_PAIR
@@ -134,6 +135,10 @@ BEARINGS: dict[str, Variable] = {
     "bearing_force_x": Variable(("time", "bearing"), "N", "force of each body on its bearing or pin in x"),
     "bearing_force_y": Variable(("time", "bearing"), "N", "force of each body on its bearing or pin in y"),
 }
+#: Where forces of bearings are evaluated in time.
+CAGES = {
+    "power_cages": Variable(("time",), "W", "power with which cages carry loaded rolling elements on"),
+}
 _BEARING = {"bearing": Variable(("bearing",), "1", "bearing or pin, by the body that it holds")}
 #: And of one with clutches or brakes.
 CLUTCHES: dict[str, Variable] = {
@@ -215,12 +220,13 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
     numbers = [number for mesh in meshes for number in mesh_pairs(mesh.cycle)]
     pairs = tuple(range(min(numbers), max(numbers) + 1))
     scales = revolution_scale(case.output.revolutions(case.solver.cycles))
+    of_bearings = (BEARINGS if bearings else {}) | (CAGES if cages_turn(case.system) else {})
     if bearings:
         scales["bearing"] = np.array(bearings)
     if not case.named:
         cycle, in_space = prepared.cycle, model.layout.spatial > 0
         plain = gears_layout(cycle.slices, in_space=in_space)
-        samples = {**plain.samples, **OF_A_GEAR} | (BEARINGS if bearings else {})
+        samples = {**plain.samples, **OF_A_GEAR} | of_bearings
         axes = {**plain.scales, "body": SCALES["body"], "gear": SCALES["gear"]}
         axes |= _BEARING if bearings else {}
         described_groups = {**plain.groups, "geometry": GEOMETRY | OF_ONE_MESH}
@@ -259,7 +265,7 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
     if any(model.layout.rim_count):
         samples = samples | RIM
     if bearings:
-        samples, axes = samples | BEARINGS, axes | _BEARING
+        samples, axes = samples | of_bearings, axes | _BEARING
     if case.clutches:
         samples, axes = samples | CLUTCHES, axes | _CLUTCH_AXIS
         scales["clutch"] = np.array([one.name for one in case.clutches])

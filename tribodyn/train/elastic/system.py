@@ -15,6 +15,7 @@ import numpy as np
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.elastic.beam import DIRECTIONS, ShaftMetal, ShaftSection
 from tribodyn.train.elastic.beam_matrices import SIX, matrices
+from tribodyn.train.elastic.in_time import InTime, kept_in_time
 from tribodyn.train.elastic.rolling_bearing import BallRow, BearingRows, BearingState, RollerRow, answer
 
 #: Stiffness matrix of a support, five by five, N/m, N, N m/rad, as rows: hashable.
@@ -37,6 +38,7 @@ class PlacedBearing(NamedTuple):
     position: float  # along the shaft, m
     held: BallRow | RollerRow | BearingRows | Matrix
     seat: str | None = None  # of the housing; None: it stands still
+    in_time: bool = False  # whether its force is evaluated in time: no matrix stands for it
 
 
 class PlacedShaft(NamedTuple):
@@ -92,18 +94,23 @@ class Settled(NamedTuple):
 
 
 class Reduced(NamedTuple):
-    """What is left of a system: coordinates are six of each point, and modal ones behind, in m."""
+    """What is left of a system: coordinates are six of each point, and behind them some of no body, in m.
+
+    These are five of each node and seat of bearings in time that is no point, tilts times a length, and then
+    the modal ones. What these bearings do is in `in_time` and nowhere else.
+    """
 
     mass: Float[Array, "coordinate coordinate"]
     stiffness: Float[Array, "coordinate coordinate"]
     damping: Float[Array, "coordinate coordinate"]  # gyroscopic, and that of the housing
     force: Float[Array, " coordinate"]  # constant, so that −K q + f are the forces about the equilibrium
-    modes: int
-    frequencies: tuple[float, ...]  # of the modes kept, points held, Hz
+    modes: int  # coordinates of no body
+    frequencies: tuple[float, ...]  # of the modes kept, the other coordinates held, Hz
     next_frequency: float  # of the lowest that is left out, Hz
     recovery: Float[Array, "whole coordinate"]  # displacement of all coordinates of the structure
     reaction: Float[Array, "bearing 5 coordinate"]  # forces of shafts on bearings, x, y, z and moments
     reaction_at_rest: Float[Array, "bearing 5"]
+    in_time: tuple[InTime, ...] = ()
 
 
 def structure_of(system: ShaftSystem, elements: int = 1) -> SystemMatrices:
@@ -181,12 +188,14 @@ def _rows(node: int, seat: int, size: int) -> Float[Array, "5 coordinate"]:
 
 
 def _tangent(
-    structure: SystemMatrices, states: Sequence[BearingState]
+    structure: SystemMatrices, states: Sequence[BearingState], among: Sequence[bool] | None = None
 ) -> Float[Array, "coordinate coordinate"]:
+    """Stiffness with all bearings, or with those that are `among` them."""
     tangent = structure.stiffness.copy()
-    for state, node, seat in zip(states, structure.nodes, structure.seats, strict=True):
-        rows = _rows(node, seat, len(tangent))
-        tangent += rows.T @ state.stiffness @ rows
+    for number, (state, node, seat) in enumerate(zip(states, structure.nodes, structure.seats, strict=True)):
+        if among is None or among[number]:
+            rows = _rows(node, seat, len(tangent))
+            tangent += rows.T @ state.stiffness @ rows
     return tangent
 
 
@@ -259,19 +268,26 @@ def _not_held(structure: SystemMatrices, free: np.ndarray, motion: np.ndarray) -
 
 
 def reduced(state: Settled, modes_up_to: float = 0.0) -> Reduced:
-    """Condense a settled system to its points, with the modes up to a frequency (Hz) while these are held."""
+    """Condense a settled system to its points and bearings in time.
+
+    With the modes up to a frequency (Hz) while these are held.
+    """
     from scipy.linalg import eigh  # heavy, and most gearboxes need none
 
     structure = state.structure
     size = len(structure.stiffness)
-    kept = np.array([first + direction for first in structure.points for direction in range(SIX)])
+    of_points = [first + direction for first in structure.points for direction in range(SIX)]
+    ends = zip(structure.bearings, structure.nodes, structure.seats, strict=True)
+    scale_of = kept_in_time([end for end in ends if end[0].in_time], of_points)
+    kept = np.array([*of_points, *scale_of])
+    scale = np.array([*(1.0 for _ in of_points), *scale_of.values()])
     rest = np.setdiff1d(np.arange(size), kept)
-    tangent = state.tangent()
+    tangent = _tangent(structure, state.bearings, [not bearing.in_time for bearing in structure.bearings])
     inner = np.ix_(rest, rest)
     follows = np.zeros((size, len(kept)))
-    follows[kept, np.arange(len(kept))] = 1.0
+    follows[kept, np.arange(len(kept))] = scale
     # what turns without any spring, behind the last point of a shaft, turns with it
-    follows[rest] = -np.linalg.solve(tangent[inner], tangent[np.ix_(rest, kept)])
+    follows[rest] = -np.linalg.solve(tangent[inner], tangent[np.ix_(rest, kept)] * scale)
     frequencies, shapes, beyond = [], np.zeros((size, 0)), np.inf
     mass_inside = structure.mass[inner]
     if modes_up_to > 0.0:
@@ -286,25 +302,34 @@ def reduced(state: Settled, modes_up_to: float = 0.0) -> Reduced:
     stiffness = recovery.T @ tangent @ recovery
     count = shapes.shape[1]
     stiffness[len(kept) :, : len(kept)], stiffness[: len(kept), len(kept) :] = 0.0, 0.0  # rounding
-    at = np.concatenate([state.moved[kept], np.zeros(count)])
+    at = np.concatenate([state.moved[kept] / scale, np.zeros(count)])
     load = np.concatenate([state.load[kept], np.zeros(count)])
     reaction = np.zeros((len(structure.bearings), DIRECTIONS, len(at)))
+    in_time = []
+    force = stiffness @ at - load
     for number, bearing in enumerate(state.bearings):
         rows = _rows(structure.nodes[number], structure.seats[number], size)
-        reaction[number] = bearing.stiffness @ rows @ recovery
+        if structure.bearings[number].in_time:
+            own = np.zeros((DIRECTIONS, len(at)))
+            own[:, : len(kept)] = rows[:, kept] * scale
+            in_time.append(InTime(number, own, bearing, at))
+            force = force + own.T @ bearing.force
+        else:
+            reaction[number] = bearing.stiffness @ rows @ recovery
     at_rest = np.array([bearing.force for bearing in state.bearings]) - reaction @ at
     symmetric = [(each + each.T) / 2.0 for each in (mass, stiffness)]
     return Reduced(
         symmetric[0],
         symmetric[1],
         damping,
-        stiffness @ at - load,
-        count,
+        force,
+        len(at) - len(of_points),
         tuple(frequencies),
         beyond,
         recovery,
         reaction,
         at_rest,
+        tuple(in_time),
     )
 
 

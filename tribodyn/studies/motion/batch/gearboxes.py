@@ -9,6 +9,7 @@ import numpy as np
 
 from tribodyn.dynamics.recorded.outputs import Sampled
 from tribodyn.errors import InputError
+from tribodyn.gears.bearings_in_time import cages_turn
 from tribodyn.gears.motion.extremes import RunningExtremes
 from tribodyn.gears.tabulated import table_key
 from tribodyn.quantities.catalogue import QUANTITIES
@@ -82,6 +83,10 @@ def refuse_steady(case: Gearbox) -> None:
         rule = "teeth of a gear differ: no steady state repeats with the mesh, and none is sought"
         remedy = f"march: --transient {10 * turn} ({turn} mesh cycles are a turn of the slowest gear), or "
         remedy += "keep what sensors hear: --signals 1s"
+        raise InputError("--steady", None, rule, remedy)
+    if cages_turn(case.system):
+        rule = 'a bearing has force = "in-time": its cage turns at no rate of the meshes, nothing repeats'
+        remedy = "march: --transient 100, or keep what sensors hear: --signals 1s; or leave force out"
         raise InputError("--steady", None, rule, remedy)
     refuse_long_period(case)
 

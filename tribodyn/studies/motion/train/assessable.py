@@ -6,6 +6,7 @@ from typing import Any
 
 from tribodyn.cases.assessment_part import MeshAtDuty, Meshing, WholeDrive, shared_names
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.gears.bearings_in_time import cages_turn
 from tribodyn.gears.motion.tooth_loads import ToothLoads, tooth_loads
 from tribodyn.gears.rating.bearings import TurningShaft
 from tribodyn.geometry.drive import SIDES, Side
@@ -64,7 +65,7 @@ _LONG_PERIOD = 100
 
 def marched(case: Gearbox) -> int:
     """Mesh cycles of a run where meshes or teeth do not repeat, or after so many cycles alone; 0: they do."""
-    differ = any(any(pair.teeth) for pair in case.pairs)
+    differ = cages_turn(case.system) or any(any(pair.teeth) for pair in case.pairs)
     longest = min(case.max_period, max(_LONG_PERIOD // len(case.meshes), 1))
     return case.solver.cycles if differ or case.period > longest else 0
 
