@@ -240,8 +240,16 @@ def _of_balls(row: BallRow, moved: Float[Array, "5"]) -> BearingState:
         energy = float(np.sum(load * pressed)) / (1.0 + BALL_EXPONENT)
         return load, BALL_EXPONENT * constant * np.sqrt(pressed), energy
 
-    apart = np.inf if row.aligning else (2.0 * row.conformity - 1.0) * row.diameter
-    return _along_lines(row, moved, radius, apart, law)
+    return _along_lines(row, moved, radius, centres_apart(row), law)
+
+
+def centres_apart(row: BallRow) -> float:
+    """Distance between the centres of both raceways' profiles, on whose line a ball is pressed, m."""
+    if row.aligning:
+        return float(
+            row.pitch_diameter / (2.0 * np.cos(row.contact_angle)) + (row.conformity - 0.5) * row.diameter
+        )
+    return (2.0 * row.conformity - 1.0) * row.diameter
 
 
 def _along_lines(
