@@ -47,6 +47,7 @@ ALIKE = {
     "dtu-10mw-gearbox-assessment",
     "efficiency-helical-24-95",
     "efficiency-involute-18-36",
+    "electric-axle",
     "ehl-crc-23-47",
     "helical-car-27-71",
     "industrial-reducer",
