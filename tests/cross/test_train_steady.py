@@ -157,6 +157,31 @@ def test_so_has_one_with_a_compliant_shaft_over_a_whole_turn_of_it():
     assert_exact([at_speed(HUNTING, 6000, **LINEAR)])
 
 
+@pytest.mark.slow
+def test_leading_directions_of_a_long_period_have_its_multipliers():
+    train = at_speed(HUNTING, 6000, **LINEAR)
+    model = train.model
+    [steady] = steady_states([model], samples=20, tolerance=1e-8)
+    assert steady.message == ""
+    period_map = GearMap(
+        [model],
+        steady.state[None],
+        moving_states(model),
+        solver="dopri5",
+        rtol=1e-6,
+        fine_rtol=1e-10,
+        max_steps=100_000,
+        workers=1,
+    )
+    states, cases = steady.state[None, period_map.moving], np.array([0])
+    leading = period_map.leading_tangent(states, cases, 1, count=8)
+    assert len(period_map.moving) > 20
+    assert leading is not None
+    found = np.linalg.eigvals(leading.jacobian[0])
+    for multiplier in steady.multipliers[np.abs(steady.multipliers) > 1e-3]:
+        assert np.min(np.abs(found - multiplier)) < 1e-4
+
+
 @pytest.fixture(scope="module")
 def rubbing():
     trains = [at_speed(REDUCER, speed, **RUBBING) for speed in SPEEDS]

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from tribodyn.solve.orbit.motions import Marched, by_differences
+from tribodyn.solve.orbit.motions import BLOCK, Marched, by_differences
 
 
 class ClosedForm:
     """A map given as a function of the state and of one parameter."""
 
-    blur = 0.0
+    blur, block = 0.0, BLOCK
 
     def __init__(self, step, parameters, size):
         self.step = step

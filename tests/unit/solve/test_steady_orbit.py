@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import ClosedForm, logistic
-from tribodyn.solve.orbit.motions import wanderings
-from tribodyn.solve.orbit.search import BLOCK, find
+from tribodyn.solve.orbit.motions import BLOCK, wanderings
+from tribodyn.solve.orbit.search import find
 
 TOLERANCE = 1e-9
 

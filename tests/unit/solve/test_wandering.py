@@ -15,8 +15,8 @@ from tribodyn.solve.branch.arclength import (
     kind_of_end,
 )
 from tribodyn.solve.branch.continuation import PERIODS, VALUES, Leg, between, follow
-from tribodyn.solve.orbit.motions import Recurrence, recognised, recurrences, wanderings
-from tribodyn.solve.orbit.search import BLOCK, LOOK, NOISE, Progress
+from tribodyn.solve.orbit.motions import BLOCK, Recurrence, recognised, recurrences, wanderings
+from tribodyn.solve.orbit.search import LOOK, NOISE, Progress
 from tribodyn.solve.orbit.shooting import closed_orbit, critical_direction, eigenvalues, shoot, way_out
 
 

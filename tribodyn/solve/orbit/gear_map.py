@@ -19,7 +19,7 @@ from tribodyn.solve.choice import choose
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.integrator import MAX_STEPS, REASONS, Ensemble, Status, nothing_yet, put
 from tribodyn.solve.methods import Runs, runs
-from tribodyn.solve.orbit.motions import DIFFERENCE, Marched, Tangent, by_differences
+from tribodyn.solve.orbit.motions import BLOCK, DIFFERENCE, Marched, Tangent, by_differences
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.train.layout import TrainLayout, displacements, velocities
@@ -27,6 +27,9 @@ from tribodyn.train.layout import TrainLayout, displacements, velocities
 #: Relative tolerance of a march with coarse derivatives, and of these: a step of Newton's method with them
 #: leaves a thousandth of the residual or less (measured on pairs and planetary sets), at a third of the cost.
 COARSE = 1e-4
+#: Cycles of a map from which its derivative is sought in its leading directions alone, where there are over
+#: twice as many; how many these are, and the share of a state's scale that may be left in the last of them.
+LONG, LEADING, GONE = 24, 24, 1e-3
 
 
 class FreeStates(NamedTuple):
@@ -74,6 +77,7 @@ class GearMap:
         self.blur = 0.0 if self.exact else DIFFERENCE
         # a coarse derivative takes the time of 5 periods, differences two derivatives; of both twice
         self.shooting_cost = 10.0 if self.exact else 4.0 * (len(self.moving) + 2)
+        self.block = max(4, min(BLOCK, 4 * BLOCK // self.cycles))
         self.scale = np.array([state_scales(m, y)[self.moving] for m, y in zip(models, starts, strict=True)])
 
     @property
@@ -107,11 +111,53 @@ class GearMap:
         """See `motions.PeriodMap`; by the variational equations where `exact`, else by differences."""
         if not self.exact:
             return by_differences(self.march, states, cases, periods, self.scale)
+        if periods * self.cycles >= LONG and len(self.moving) > 2 * LEADING:
+            leading = self.leading_tangent(states, cases, periods, fine)
+            if leading:
+                return leading
+        everywhere = np.broadcast_to(np.eye(len(self.moving)), (len(cases), *2 * (len(self.moving),)))
+        image, slopes, reasons = self.derived(states, cases, periods, fine, everywhere)
+        return Tangent(image, slopes / self.scale[cases][:, None, :], reasons)
+
+    def leading_tangent(
+        self,
+        states: Float[Array, "row moving"],
+        cases: Int[Array, " row"],
+        periods: int,
+        fine: bool = True,
+        count: int = LEADING,
+    ) -> Tangent | None:
+        """The tangent but for what is gone after the period; None where more than `count` directions stay.
+
+        J ≈ J Q Qᵀ with Q an orthonormal basis of J Ω, Ω being directions at random: multipliers that are
+        small beside the share `GONE` are not resolved (N. Halko et al., SIAM Review 53 (2011) 217).
+        """
+        scale, size = self.scale[cases], len(self.moving)
+        start = np.linalg.qr(np.random.default_rng(0).standard_normal((size, count)))[0]
+        probed = self.derived(
+            states, cases, periods, False, np.broadcast_to(start, (len(cases), *start.shape))
+        )
+        if any(probed.reasons):
+            return None
+        kept, left = np.linalg.qr(probed.jacobian / scale[:, :, None])
+        if np.max(np.linalg.svd(left, compute_uv=False)[:, -1]) > GONE:
+            return None
+        image, slopes, reasons = self.derived(states, cases, periods, fine, kept)
+        return Tangent(image, slopes @ np.swapaxes(kept, 1, 2) / scale[:, None, :], reasons)
+
+    def derived(
+        self,
+        states: Float[Array, "row moving"],
+        cases: Int[Array, " row"],
+        periods: int,
+        fine: bool,
+        along: Float[Array, "row moving direction"],
+    ) -> Tangent:
+        """The image and its derivatives in some directions, these over the scale."""
         from tribodyn.solve.march.variational import march_with_derivative
 
-        scale = self.scale[cases]
-        directions = np.zeros((len(cases), self.layout.states, len(self.moving)))
-        directions[:, self.moving] = scale[:, :, None] * np.eye(len(self.moving))
+        directions = np.zeros((len(cases), self.layout.states, along.shape[-1]))
+        directions[:, self.moving] = self.scale[cases][:, :, None] * along
         derived = march_with_derivative(
             [self.models[case] for case in cases],
             self.full(states),
@@ -124,9 +170,9 @@ class GearMap:
             methods=[self.solvers[case] for case in cases],
             workers=self.settings["workers"] or usable_cores(),
         )
-        image, jacobian = derived.state[:, self.moving], derived.slopes[:, self.moving] / scale[:, None, :]
+        image = derived.state[:, self.moving]
         image[derived.status != Status.DONE] = np.nan
-        return Tangent(image, jacobian, reasons_of(derived.status, derived.reached))
+        return Tangent(image, derived.slopes[:, self.moving], reasons_of(derived.status, derived.reached))
 
     def integrate(
         self,

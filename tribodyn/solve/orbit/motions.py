@@ -18,6 +18,10 @@ from tribodyn.numerics.shapes import Array, Complex, Float, Int
 DIFFERENCE = 1e-3
 
 
+#: Periods, of maps that are not long, marched between two looks at the states.
+BLOCK = 12
+
+
 class Marched(NamedTuple):
     """States once per period, and what stopped a row."""
 
@@ -47,6 +51,8 @@ class PeriodMap(Protocol):
     blur: float
     #: Periods that are marched rather than that one is sought by shooting from afar.
     shooting_cost: float
+    #: Periods marched between two looks at the states: `BLOCK`, or fewer of long ones, 4 at least.
+    block: int
 
     def march(
         self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int, fine: bool

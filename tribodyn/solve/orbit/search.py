@@ -19,9 +19,8 @@ from tribodyn.solve.orbit.shooting import NEUTRAL, Shot, closed_orbit, critical_
 
 Method = Literal["auto", "marching", "shooting"]
 
-#: Periods marched between two looks at the states, and states that are looked at: more than twice
-#: `motions.MAX_PERIOD`.
-BLOCK, LOOK = 12, 25
+#: States that are looked at: more than twice `motions.MAX_PERIOD`.
+LOOK = 25
 #: Changes of a motion that falls no further, over the scale, which may be the integration's own noise: where
 #: contact opens and closes marching at 1e-6 leaves up to a few 1e-4. It is marched finely from then on; and
 #: the blocks over which a change must halve not to count as stuck.
@@ -89,7 +88,7 @@ class Progress:
     def take(self, case: int, states: Float[Array, "period state"]) -> None:
         """Take in a block that was marched, and look at the last states."""
         self.current[case] = states[-1]
-        self.marched[case] += BLOCK
+        self.marched[case] += len(states)
         self.track[case] = np.concatenate([self.track[case], states / self.scale[case]])[-LOOK:]
         recurrences = motions.recurrences(self.track[case])
         self.seen[case] = motions.recognised(recurrences)
@@ -163,16 +162,18 @@ class OrbitSearch:
         for period, cases in wanted.items():
             self._attempt(cases, period)
         unfinished = [case for case in self.pending.tolist() if case not in self.orbits]
-        self._last_resort([case for case in unfinished if progress.marched[case] + BLOCK > self.max_periods])
+        most = self.max_periods - self.period_map.block
+        self._last_resort([case for case in unfinished if progress.marched[case] > most])
         self.pending = np.array([case for case in unfinished if case not in self.orbits], dtype=int)
 
     def _block(self) -> Iterator[tuple[int, Float[Array, "period state"], str]]:
-        """March over a block: number, states (BLOCK, N) and what stopped it."""
+        """March over a block: number, states (period, N) and what stopped it."""
         fine = self.progress.fine[self.pending] | (self.method == "marching")
         for exactly in (False, True):
             cases = self.pending[fine == exactly]
             if cases.size:
-                marched = self.period_map.march(self.progress.current[cases], cases, BLOCK, exactly)
+                current, block = self.progress.current[cases], self.period_map.block
+                marched = self.period_map.march(current, cases, block, exactly)
                 yield from zip(map(int, cases), marched.states, marched.reasons, strict=True)
 
     def _candidate(self, case: int) -> int:

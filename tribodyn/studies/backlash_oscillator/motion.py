@@ -16,7 +16,7 @@ import numpy as np
 
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.orbit.motions import Marched, Tangent
+from tribodyn.solve.orbit.motions import BLOCK, Marched, Tangent
 
 #: Columns of a row of parameters: ζ, F_m, F_e, ε, Ω.
 DAMPING, MEAN_FORCE, ERROR_AMPLITUDE, STIFFNESS_VARIATION, FREQUENCY = range(5)
@@ -245,7 +245,7 @@ class OscillatorMap:
     the half backlash; it is its own scale.
     """
 
-    blur, shooting_cost = 0.0, 16.0
+    blur, shooting_cost, block = 0.0, 16.0, BLOCK
 
     def __init__(self, parameters: Float[Array, "case 5"]):
         self.parameters = np.ascontiguousarray(parameters, dtype=float)
