@@ -74,7 +74,9 @@ class GearMap:
         self.rtol = {False: rtol, True: min(rtol, fine_rtol)}
         self.settings: dict[str, Any] = {"max_steps": max_steps, "workers": workers}
         self.solvers = [choose(solver, m, y).method for m, y in zip(models, starts, strict=True)]
-        self.blur = 0.0 if self.exact else DIFFERENCE
+        #: whether its derivative is sought in leading directions
+        self.long = self.cycles >= LONG and len(self.moving) > 2 * LEADING
+        self.blur = 0.0 if self.exact and not self.long else DIFFERENCE
         # a coarse derivative takes the time of 5 periods, differences two derivatives; of both twice
         self.shooting_cost = 10.0 if self.exact else 4.0 * (len(self.moving) + 2)
         self.block = max(4, min(BLOCK, 4 * BLOCK // self.cycles))
@@ -111,7 +113,7 @@ class GearMap:
         """See `motions.PeriodMap`; by the variational equations where `exact`, else by differences."""
         if not self.exact:
             return by_differences(self.march, states, cases, periods, self.scale)
-        if periods * self.cycles >= LONG and len(self.moving) > 2 * LEADING:
+        if self.long:
             leading = self.leading_tangent(states, cases, periods, fine)
             if leading:
                 return leading
@@ -142,7 +144,11 @@ class GearMap:
         kept, left = np.linalg.qr(probed.jacobian / scale[:, :, None])
         if np.max(np.linalg.svd(left, compute_uv=False)[:, -1]) > GONE:
             return None
-        image, slopes, reasons = self.derived(states, cases, periods, fine, kept)
+        # a coarse march serves: over a long period a fine one of the derivatives takes five times as long
+        image, slopes, reasons = self.derived(states, cases, periods, False, kept)
+        if fine:
+            marched = self.march(states, cases, periods, True)
+            image, reasons = marched.states[:, -1], marched.reasons
         return Tangent(image, slopes @ np.swapaxes(kept, 1, 2) / scale[:, None, :], reasons)
 
     def derived(
