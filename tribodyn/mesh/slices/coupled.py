@@ -56,15 +56,28 @@ def tabulate_helical(
 ) -> MeshCycle:
     """Tabulate a pair in slices, which hold each other where the mesh says so.
 
-    Every number may be traced, unless flanks are modified; a traced helix angle or torque is not zero. Only
-    the energy method knows how slices hold each other, and only at a torque (N m).
+    Every number may be traced, unless flanks are modified; a traced torque is not zero. Only the energy
+    method knows how slices hold each other, and only at a torque (N m).
     """
     cycle = tabulate_slices(assembly, materials, mesh, layout, phase)
     held = mesh.compliance == "energy" and mesh.slice_coupling
-    loaded = all(is_jax(number) or number for number in (assembly.drive.helix_angle, gear_torque))
-    if not held or not loaded:
+    if not held or not (is_jax(gear_torque) or gear_torque):
         return cycle
-    return couple_slices(assembly, materials, mesh, cycle, gear_torque, layout.touching)
+    if len(cycle.compliance) == 1:
+        return couple_slices(assembly, materials, mesh, cycle, gear_torque, layout.touching)
+    coupled = [
+        couple_slices(assembly, materials, mesh, _segment(cycle, number), gear_torque, layout.touching)
+        for number in range(len(cycle.compliance))
+    ]
+    both = {name: np.concatenate([getattr(part, name) for part in coupled]) for name in ("compliance", "gap")}
+    return cycle._replace(**both)
+
+
+def _segment(cycle: MeshCycle, number: int) -> MeshCycle:
+    """One segment alone of a spur pair's table."""
+    shape = cycle.compliance.shape
+    fields = {name: value for name, value in cycle._asdict().items() if np.shape(value)[:3] == shape}
+    return cycle._replace(**{name: value[number : number + 1] for name, value in fields.items()})
 
 
 @one_blas_thread()

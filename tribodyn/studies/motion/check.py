@@ -72,13 +72,18 @@ def check(case: Gearbox) -> CheckResult:
     if passes_in_bearings := _passing_elements(case):
         tables.insert(0, _element_table(passes_in_bearings))
         held["bearing_frequencies"] = passes_in_bearings
+    names = [mesh.name for mesh in case.meshes]
+    faces = {name: of.data for name, of in zip(names, of_meshes, strict=True) if FACE[0].name in of.data}
+    if faces:
+        title = "Loads along the faces, in static equilibrium"
+        tables.insert(0, TextTable(title, *bearing_rows(faces, FACE)))
     if not case.named:
         (pair,) = of_meshes
         remarks = (*pair.remarks, *bearing_remarks(shafts, oil))
         return pair._replace(
             data=pair.data | of_modes | held, tables=(*pair.tables, *tables), remarks=remarks
         )
-    names, train = [mesh.name for mesh in case.meshes], _train(prepared)
+    train = _train(prepared)
     flow = flow_of(prepared) if case.sets else None
     powers = power_data(prepared, flow)
     of_powers, circling = power_table(prepared, powers)
@@ -97,10 +102,7 @@ def check(case: Gearbox) -> CheckResult:
         "mesh_frequencies": dict(zip(names, mesh_frequencies(prepared), strict=True)),
         "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
     }
-    faces = {name: of for name, of in data["meshes"].items() if FACE[0].name in of}
-    title = "Loads along the faces, in static equilibrium"
-    of_faces = [TextTable(title, *bearing_rows(faces, FACE))] if faces else []
-    tables = [*_train_tables(prepared, train), *of_powers, *_set_tables(prepared), *of_faces, *tables]
+    tables = [*_train_tables(prepared, train), *of_powers, *_set_tables(prepared), *tables]
     details = list(_once(names, [checked.tables for checked in of_meshes]))
     remarks = [
         *circling,

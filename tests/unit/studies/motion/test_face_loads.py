@@ -7,15 +7,33 @@ import numpy as np
 import pytest
 
 from tests.support.overhung_train import overhung_train
+from tests.support.planet_sets import helical_set
 from tests.support.train_scenarios import case_of_table
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
+from tribodyn.compliance.sharing.loaded_contact import roll_through
+from tribodyn.dynamics.parameters import Model
+from tribodyn.geometry.modification import Misalignment
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.methods import STIFF
 from tribodyn.solve.transient import Stop, TransientSettings, transient
 from tribodyn.studies.load_contact.run import quantities_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.train.assessable import pair_of
-from tribodyn.studies.motion.train.face_loads import FaceLoads, Spread, flattened, spread_of
+from tribodyn.studies.motion.train.face_loads import FaceLoads, Spread, flattened, of_deflected, spread_of
 from tribodyn.studies.protocol.load import load_data
+from tribodyn.train.schedule import intervals
+
+
+@lru_cache
+def spur() -> Spread:
+    written = overhung_train(mesh={"damping_ratio": 0.3})
+    del written["stage"][0]["helix_angle"], written["gear"]["one"]["hand"]
+    for shaft in written["shaft"]:
+        shaft["drawn"]["damping_ratio"] = 0.3
+    written["operating"]["input_speed"] = "0.1 rpm"
+    found = of_deflected(prepare(case_of_table(written)))
+    assert found is not None
+    return found
 
 
 @lru_cache
@@ -23,11 +41,12 @@ def spread(mirrored: bool = False, hand: str = "right") -> Spread:
     return spread_of(prepare(case_of_table(overhung_train(mirrored=mirrored, hand=hand))))
 
 
-def uniform(**more: Any) -> Spread:
-    """Slices of one stiffness that do not hold each other; the overlap ratio is 1."""
-    mesh = {"damping_ratio": 0.3, "slices": 7, "compliance": "constant", "stiffness": "1e8 N/m"}
+def uniform(stiffness: float = 1e8, slices: int = 7, crowning: str = "0 um", **more: Any) -> Spread:
+    """Slices of one stiffness (N/m) that do not hold each other; the overlap ratio is 1."""
+    mesh = {"damping_ratio": 0.3, "slices": slices, "compliance": "constant", "stiffness": f"{stiffness} N/m"}
     width = float(np.pi * 3.0 / np.sin(np.radians(15.0)))
     written = overhung_train(width=width, mesh=mesh)
+    written["gear"]["one"]["modification"] = {"crowning": crowning}
     for shaft in written["shaft"]:
         shaft["drawn"]["damping_ratio"] = 0.3
     written["operating"] |= more
@@ -109,28 +128,76 @@ def test_a_load_off_the_middle_tilts_the_gears_back():
 
 def test_uniform_stiffness_meets_the_closed_form():
     """κ = c f b/(2 F_bt), K_Hβ = 1 + κ at the end of the face; c per width of the face, along the path."""
-    found = uniform()
-    loads, assembly = only(found), found.prepared.assembly
-    width, slices = float(assembly.common_width), len(loads.place)
-    base_helix = np.arcsin(np.sin(np.radians(15.0)) * np.cos(np.radians(20.0)))
-    per_width = 1e8 / width * float(assembly.contact_ratio) * np.cos(base_helix) ** 2
-    force = np.mean(loads.line_load) * width * np.cos(base_helix)
-    kappa = per_width * loads.misalignment * width / (2.0 * force)
+    loads = only(uniform())
+    kappa, slices = opened(uniform(), 1e8), len(loads.place)
     assert 0.3 < kappa < 1.0
     assert loads.factor == pytest.approx(1.0 + kappa * (1.0 - 1.0 / slices), rel=1e-2)  # middle of the last
 
 
-def test_slow_motion_settles_where_statics_stand():
-    """From the unloaded position, in one mesh cycle at 0.1 rpm."""
-    model = uniform(input_speed="0.1 rpm").prepared.model
+def opened(found: Spread, stiffness: float) -> float:
+    """κ = c f b/(2 F_bt)."""
+    loads, assembly = only(found), found.prepared.assembly
+    width = float(assembly.common_width)
+    base_helix = np.arcsin(np.sin(np.radians(15.0)) * np.cos(np.radians(20.0)))
+    per_width = stiffness / width * float(assembly.contact_ratio) * np.cos(base_helix) ** 2
+    force = np.mean(loads.line_load) * width * np.cos(base_helix)
+    return per_width * loads.misalignment * width / (2.0 * force)
+
+
+def test_a_part_of_the_face_carries_as_the_closed_form_says():
+    """Triangular load over 2/√(4κ) of the face: K_Hβ = √(4κ) at its end, κ/n less in a slice's middle."""
+    stiffness, slices = 6e8, 15
+    found = uniform(stiffness, slices)
+    kappa, loads = opened(found, stiffness), only(found)
+    assert kappa > 1.3
+    carries = loads.line_load > 0.02 * np.max(loads.line_load)
+    assert np.mean(carries) == pytest.approx(2.0 / np.sqrt(4.0 * kappa), abs=1.0 / slices)
+    assert loads.factor == pytest.approx(np.sqrt(4.0 * kappa) - kappa / slices, rel=2e-2)
+
+
+def settles(model: Model) -> None:
+    """From the unloaded position, in one mesh cycle at 0.1 rpm; before the next pair enters."""
     layout, start = model.layout, np.zeros(model.layout.states)
     *_, end = transient(model, start, TransientSettings(STIFF, 1e-9, 1, 100_000, 8))
     assert isinstance(end, Stop)
     assert not end.reason
-    statics = static_equilibrium(model, 0.0, int(model.schedule.first[1 % model.schedule.period]))
+    statics = static_equilibrium(model, 1.0, intervals(model.schedule, 0)[-1])
     moved, stands = end.state[: layout.half], statics[: layout.half]
+    moved, stands = np.delete(moved, layout.lag), np.delete(stands, layout.lag)
     assert np.linalg.norm(moved - stands) < 1e-6 * np.linalg.norm(stands)
     np.testing.assert_allclose(moved, stands, rtol=1e-5, atol=1e-6 * np.max(np.abs(stands)))
+
+
+def test_slow_motion_settles_where_statics_stand():
+    settles(uniform(input_speed="0.1 rpm").prepared.model)
+
+
+def test_slow_motion_of_a_spur_mesh_settles_where_statics_stand():
+    settles(spur().prepared.model)
+
+
+@pytest.mark.slow
+def test_slow_motion_of_a_set_settles_where_statics_stand():
+    written = helical_set(planets=3, mesh={"slices": 5, "damping_ratio": 0.3})
+    written["operating"]["input_speed"] = "0.1 rpm"
+    found = of_deflected(prepare(case_of_table(written)))
+    assert found is not None
+    assert all(loads is not None and loads.factor > 1.05 for loads in found.meshes)
+    settles(found.prepared.model)
+
+
+def test_load_contact_of_a_spur_mesh_agrees():
+    """K_Hβ, means over the mesh cycle, by finite elements in twice as many slices."""
+    found = spur()
+    loads, (mesh,) = only(found), found.prepared.case.meshes
+    pair, assembly = mesh.pair, found.prepared.assembly
+    flexible = flexibility(assembly, pair.materials, lead=True, held=pair.mesh.held)
+    stand = Misalignment(loads.misalignment / float(assembly.common_width), 0.0)
+    flanks = LoadedFlanks(flexible, pair.mesh.modifications._replace(misalignment=stand), 21, True)
+    rolled = roll_through(flanks, pair.operating.gear_torque, 12)
+    along = np.mean(np.sum(rolled.line_load, axis=1), axis=0)
+    assert loads.factor == pytest.approx(np.max(along) / np.mean(along), rel=0.02)
+    assert loads.factor > 2.0
 
 
 @pytest.mark.slow

@@ -17,11 +17,23 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.modification import FlankModification, Misalignment
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.motion.assembly import PreparedGearbox
-from tribodyn.studies.motion.case import TrainMesh
+from tribodyn.studies.motion.assembly import PreparedGearbox, table_numbers
+from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.prepare import assemble
-from tribodyn.studies.motion.train.operating_point import PHASES, equilibria, tables_about, tilt_of, turned
+from tribodyn.studies.motion.train.operating_point import (
+    PHASES,
+    equilibria,
+    settled,
+    tables_about,
+    tilt_of,
+    turned,
+)
 from tribodyn.tribology.contact import hertz_pressure
+
+#: Width of a spur mesh's slices, modules, where none are given: K_Hβ is that of load contact in finer ones.
+SLICE_WIDTH = 0.9
+#: Numbers of them.
+FEWEST, MOST = 7, 31
 
 
 class FaceLoads(NamedTuple):
@@ -83,7 +95,7 @@ def flattened(spread: Spread, phases: int = PHASES) -> tuple[dict[str, Any], ...
     """
     case, found = spread.prepared.case, [dict[str, Any]() for _ in spread.meshes]
     for name, of_mesh, tilt in (("helix_slope", _helix, _middle), ("crowning", _crowning, _under_load)):
-        amounts = [loads and of_mesh(spread, m, loads) for m, loads in enumerate(spread.meshes)]
+        amounts = _alike(case, [loads and of_mesh(spread, m, loads) for m, loads in enumerate(spread.meshes)])
         meshes = tuple(
             mesh if amount is None else _with_lead(mesh, name, amount)
             for mesh, amount in zip(case.meshes, amounts, strict=True)
@@ -97,6 +109,15 @@ def flattened(spread: Spread, phases: int = PHASES) -> tuple[dict[str, Any], ...
                 proposal[f"proposed_{name}"] = amount
                 proposal[f"face_load_factor_{name}"] = loads.factor
     return tuple(found)
+
+
+def _alike(case: Gearbox, amounts: list[float | None]) -> list[float | None]:
+    """The mean amounts of equal meshes: planets of a set are alike."""
+    numbers = table_numbers(case)
+    found = {number: list[float]() for number in numbers}
+    for number, amount in zip(numbers, amounts, strict=True):
+        found[number] += [] if amount is None else [amount]
+    return [float(np.mean(found[number])) if found[number] else None for number in numbers]
 
 
 def _lift(spread: Spread, m: int, tilt: float) -> float:
@@ -144,17 +165,39 @@ def _with_lead(mesh: TrainMesh, name: str, amount: float) -> TrainMesh:
 
 
 def of_deflected(prepared: PreparedGearbox) -> Spread | None:
-    """The same of a gearbox whose shafts are drawn; None of others, and where nothing presses its flanks."""
-    if prepared.case.system is None:
+    """The same of a gearbox whose bodies stand on shafts, matrices or pins, with spur meshes in slices too.
+
+    None of others, and where nothing presses its flanks.
+    """
+    if not prepared.case.supports:
         return None
     with suppress(SimulationError, InputError):  # of loads and tilts that no user has written
-        return spread_of(prepared)
+        return spread_of(in_slices(prepared))
     return None
 
 
+def in_slices(prepared: PreparedGearbox) -> PreparedGearbox:
+    """The gearbox about where it stands, its external spur meshes cut into slices by the energy method."""
+    case, spatial = prepared.case, prepared.order[: prepared.model.layout.spatial]
+    meshes = list(case.meshes)
+    for m, mesh in enumerate(meshes):
+        tilting = mesh.driver in spatial and mesh.driven in spatial
+        external = min(case.gears[gear].teeth for gear in mesh.gears) > 0
+        if tilting and external and prepared.tables[m].cycle.slices == 1:
+            by = "energy" if mesh.pair.mesh.at_load else mesh.pair.mesh.compliance
+            width = float(prepared.tables[m].cycle.face_width) / float(mesh.pair.drive.module)
+            slices = min(max(int(width / SLICE_WIDTH) | 1, FEWEST), MOST)
+            data = replace(mesh.pair.mesh, slices=slices, compliance=by, backlash=None)
+            meshes[m] = replace(mesh, pair=replace(mesh.pair, mesh=data))
+    if tuple(meshes) != case.meshes:
+        return settled(assemble(replace(case, meshes=tuple(meshes))), assemble)
+    # tables of many meshes, for 0.1 % in sets
+    return prepared if case.system is not None or case.sets else settled(prepared, assemble)
+
+
 def proposals(spread: Spread | None, meshes: int) -> tuple[dict[str, Any], ...]:
-    """`flattened`, of so many meshes; empty where what is proposed cannot be made."""
-    if spread is not None:
+    """`flattened`, of so many meshes; empty where what is proposed cannot be made, and of planets' meshes."""
+    if spread is not None and not spread.prepared.case.sets:
         with suppress(SimulationError, InputError):
             return flattened(spread)
     return tuple({} for _ in range(meshes))
