@@ -40,6 +40,46 @@ class PlateMetal(NamedTuple):
     density: float = 7200.0  # kg/m³
 
 
+class WholeBox(NamedTuple):
+    """All of a box by finite elements: nodes with three displacements each, in their order."""
+
+    places: Float[Array, "node 3"]
+    stiffness: Any  # sparse
+    mass: Any
+    surface: Any  # ∫ n u n v dS over what is outside
+    centres: Float[Array, "seat 3"]
+    rings: list[Any]  # nodes of each bore
+    bolted: Any  # nodes under the four corners, over a tenth of the sides
+
+
+def whole_box(
+    size: Sequence[float],
+    thickness: float,
+    bores: Mapping[str, Sequence[Any]],
+    metal: PlateMetal = PlateMetal(),
+    element_size: float | None = None,
+) -> WholeBox:
+    """The finite elements that `plate_housing` reduces; arguments and errors as there."""
+    placed = {name: Bore(*bore) for name, bore in bores.items()}
+    lengths = np.asarray(size, dtype=float)
+    _check(lengths, thickness, placed)
+    side = element_size or float(np.max(lengths)) / 6.0
+    mesh = _box(lengths, thickness, list(placed.values()), side)
+    places, stiffness, mass, surface = _assembled(mesh, metal)
+    centres = np.array(
+        [
+            (bore.x, bore.y, thickness / 2.0 if bore.wall == "front" else lengths[2] - thickness / 2.0)
+            for bore in placed.values()
+        ]
+    )
+    rings = [
+        _ring(places, bore, centre, thickness) for bore, centre in zip(placed.values(), centres, strict=True)
+    ]
+    corner = np.min([places[:, ::2], lengths[::2] - places[:, ::2]], axis=0) < 0.1 * lengths[::2]
+    bolted = np.flatnonzero((places[:, 1] < 1e-9) & corner.all(axis=1))
+    return WholeBox(places, stiffness, mass, surface, centres, rings, bolted)
+
+
 def plate_housing(
     size: Sequence[float],
     thickness: float,
@@ -70,26 +110,11 @@ def plate_housing(
 
     Raises InputError for walls too thick for plates, bores outside their wall or too near to each other.
     """
-    placed = {name: Bore(*bore) for name, bore in bores.items()}
-    lengths = np.asarray(size, dtype=float)
-    _check(lengths, thickness, placed)
-    side = element_size or float(np.max(lengths)) / 6.0
-    mesh = _box(lengths, thickness, list(placed.values()), side)
-    places, stiffness, mass, surface = _assembled(mesh, metal)
-    dofs = np.arange(3 * len(places)).reshape(-1, 3)
-    centres = np.array(
-        [
-            (bore.x, bore.y, thickness / 2.0 if bore.wall == "front" else lengths[2] - thickness / 2.0)
-            for bore in placed.values()
-        ]
+    places, stiffness, mass, surface, centres, rings, bolted = whole_box(
+        size, thickness, bores, metal, element_size
     )
-    rings = [
-        _ring(places, bore, centre, thickness) for bore, centre in zip(placed.values(), centres, strict=True)
-    ]
-    count, fixed = stiffness.shape[0], np.zeros(0, dtype=int)
-    if held:
-        corner = np.min([places[:, ::2], lengths[::2] - places[:, ::2]], axis=0) < 0.1 * lengths[::2]
-        fixed = dofs[(places[:, 1] < 1e-9) & corner.all(axis=1)].ravel()
+    dofs = np.arange(3 * len(places)).reshape(-1, 3)
+    count, fixed = stiffness.shape[0], dofs[bolted].ravel() if held else np.zeros(0, dtype=int)
     if rigid_bores:
         spread = with_rigid_bores(places, rings, dofs, centres)
         kept = np.setdiff1d(np.arange(count), np.concatenate([dofs[ring].ravel() for ring in rings]))
@@ -106,7 +131,7 @@ def plate_housing(
     nodes = [int(np.argmin(np.linalg.norm(places - place, axis=1))) for place in named.values()]
     recovery = basis_of_all[dofs[nodes]] if nodes else np.zeros((0, 3, basis_of_all.shape[1]))
     element = SuperElement(
-        tuple(placed),
+        tuple(bores),
         centres,
         len(left.frequency),
         left.mass,
