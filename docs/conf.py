@@ -29,6 +29,7 @@ CONTENTS = {
         "how-to/relief",
         "how-to/speeds",
         "how-to/own-law",
+        "how-to/housing",
         "how-to/measured",
         "how-to/scripts",
         "data-sets",
