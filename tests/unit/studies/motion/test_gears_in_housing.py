@@ -71,6 +71,23 @@ def test_the_housing_moves_as_the_forces_of_its_bearings_drive_it(tmp_path):
     assert numbers["sound_power"] < 0.1 * lost
 
 
+def test_seats_that_are_not_where_the_bearings_are_are_refused(tmp_path):
+    """Seats of both shafts the wrong way round, and a housing with another axis along the shafts."""
+    table = written(tmp_path)
+    turned = {seat: [f"{1e3 * place[axis]} mm" for axis in (2, 1, 0)] for seat, place in _places().items()}
+    for change, key, words in (
+        ({"housing.seats": ["C", "D", "A", "B"]}, "shaft.1.drawn.bearing.0.seat", "-155.3, 0, 0 mm from the"),
+        ({"housing.places": turned}, "shaft.0.drawn.bearing.1.seat", "is 175, 0, 0 mm from the seat A"),
+    ):
+        with pytest.raises(InputError, match=words) as refused:
+            td.scenario(table, change)
+        assert refused.value.key == key
+
+
+def _places() -> dict[str, np.ndarray]:
+    return dict(zip(box().seats, box().places, strict=True))
+
+
 @pytest.mark.parametrize(
     ("housing", "words"),
     [

@@ -4,14 +4,14 @@ A mesh is seen as a pair of gears is drawn: x along its pitch tangent, y from th
 one's, the driver turning clockwise. Where it turns counter-clockwise, seen from +z, that is the view from -z.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from typing import Any
 
 import numpy as np
 
 from tribodyn.dynamics.data import BearingData, in_space
-from tribodyn.errors import InputError, unknown_name
+from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.gears.drawn_system import DrawnSystem, ShaftData, check_room_of_shafts, starts
 from tribodyn.gears.supports import (
     STILL,
@@ -31,10 +31,13 @@ from tribodyn.studies.motion.drivetrain.duty import TrainDuty
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics, tip_radius
 from tribodyn.studies.motion.drivetrain.structure import OF_DRIVE, Structure
 from tribodyn.studies.motion.planetary.in_space import on_pin
+from tribodyn.train.elastic.superelement import SuperElement
 from tribodyn.train.positions import frame_of
 
 #: c_γ over the width, N/m²: 20 N/(mm µm) of steel, ISO 6336-1.
 MESH_STIFFNESS = 20e9
+#: Difference of the places of seats and bearings, over the distance of the bearings.
+MISPLACED = 0.1
 
 
 def supports_of_bodies(
@@ -137,10 +140,35 @@ def drawn_system(
             if bearing.seat is not None and bearing.seat not in housing.seats:
                 key = f"{shaft.key}.bearing.{number}.seat"
                 raise unknown_name(key, bearing.seat, housing.seats, "seat of the housing")
+    _check_places(shafts, housing)
     numbers = housing.mass, housing.stiffness, housing.damping, housing.recovery, *(housing.radiation or ())
     digest = sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in numbers)).digest()
     settings = scenario.housing.modes_up_to, scenario.housing.radiation_efficiency
     return DrawnSystem(tuple(shafts), on_points, housing, digest, *settings)
+
+
+def _check_places(shafts: Sequence[ShaftData], housing: SuperElement) -> None:
+    """Raise InputError where seats are not as far apart, in x, y and z of the train, as their bearings."""
+    places = dict(zip(housing.seats, housing.places, strict=True))
+    found = [
+        (f"{shaft.key}.bearing.{number}.seat", bearing.seat, (*shaft.centre, shaft.start + bearing.position))
+        for shaft in shafts
+        for number, bearing in enumerate(shaft.drawing.bearing)
+        if bearing.seat is not None
+    ]
+    bearings = np.array([place for *_, place in found])
+    seats = np.array([places[seat] for _, seat, _ in found])
+    between = (seats - seats[0]) - (bearings - bearings[0])
+    span = float(np.max(np.linalg.norm(bearings - bearings[0], axis=1)))
+    worst = int(np.argmax(np.linalg.norm(between, axis=1)))
+    if np.linalg.norm(between[worst]) <= MISPLACED * span:
+        return
+    key, seat, _ = found[worst]
+    there, due = (
+        ", ".join(f"{1e3 * value:.4g}" for value in each[worst] - each[0]) for each in (seats, bearings)
+    )
+    rule = f"is {there} mm from the seat {found[0][1]} in x, y, z, and its bearing {due} mm from that one"
+    raise InputError(key, quoted(seat), rule, "give the housing in the axes of the train, z along the shafts")
 
 
 def _require_seats(scenario: Any, drawn: list[tuple[str, DrawnShaft]]) -> None:
