@@ -181,5 +181,7 @@ class WholeDrive(NamedTuple):
     #: case -> shares of the time, their sum 1, and cases of the duties of its load spectrum; empty: none
     duties: Callable[[Any], Sequence[tuple[float, Any]]]
     shafts: Callable[[Any], Sequence[Any]]  # case -> its drawn shafts, see `gears.rating.bearings`
+    #: case -> quantities of the loads along the faces in static equilibrium of all, of meshes by name
+    faces: Callable[[Any], Mapping[str, Mapping[str, Any]]]
     #: (record of a run, case, name of a mesh) -> `gears.motion.tooth_loads.ToothLoads` at its end
     loads: Callable[[Any, Any, str], Any]

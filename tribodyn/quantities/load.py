@@ -313,5 +313,7 @@ PROPOSED = (
         "Of the gearbox computed again with this crowning, of all meshes together."
     ),
 )
+#: Names of what tables say of such a mesh.
+OF_FACE = ("deflected_misalignment", "face_load_factor", "load_centre", *(one.name for one in PROPOSED))
 #: Of shafts and their bearings under the mean load of the mesh.
 OF_SHAFTS = (*BEARINGS, *TILTS, *ALONG_FACE, *PROPOSED)

@@ -30,6 +30,10 @@ _OF_GEARBOX = (
 OF_MESH = "_of_mesh"
 
 
+#: Of a mesh: its load along the face in static equilibrium of the gearbox, and what makes it even.
+IN_EQUILIBRIUM = "equilibrium"
+
+
 class MeshFindings(NamedTuple):
     """What was found of a mesh."""
 
@@ -73,10 +77,14 @@ def findings_of(
         )
         return GearboxFindings(quantities, {"": only}, rows, _over_speed(curves, {}, case.speed), {})
     run, meshes = done[DUTY].summary, dict[str, MeshFindings]()
+    faces = case.whole.faces(case.gearbox.case)
     with Record(done[DUTY].path) as record:
         for mesh in case.whole.meshes(case.gearbox.case):
             of_teeth = teeth.get(mesh.alike or mesh.name, Findings({}))
-            meshes[mesh.name] = _of_mesh(case, mesh, run, of_teeth, motion, record)
+            found = _of_mesh(case, mesh, run, of_teeth, motion, record)
+            if mesh.name in faces:
+                found = found._replace(quantities={**found.quantities, IN_EQUILIBRIUM: faces[mesh.name]})
+            meshes[mesh.name] = found
     at_duty = {name: run[name] for name in _OF_GEARBOX if run.get(name) is not None}
     over_speed = _over_speed(curves, run, case.speed)
     of_input = {"input_speed": case.speed, **motion.quantities, **at_duty, STAGES: run.get(STAGES, {})}

@@ -19,6 +19,7 @@ from tribodyn.studies.assessment.pages.front import tiles
 from tribodyn.studies.assessment.pages.limit_table import holds, holds_of_mesh, room
 from tribodyn.studies.assessment.parts import DUTY, Part, answers, assessment_parts
 from tribodyn.studies.assessment.report import (
+    face_table,
     groups_of,
     mesh_table,
     meshes_of,
@@ -45,7 +46,7 @@ def page(record: Record) -> str:
     if MESHES not in summary:
         body = [by_standard(summary), reasons(summary), picture, points(summary), factors(summary)]
     else:
-        every = [mesh_table(summary, part) for part in ("simulated", "iso")]
+        every = [*(mesh_table(summary, part) for part in ("simulated", "iso")), face_table(summary)]
         body = [picture, *(numbers_table(*table, " meshes") for table in every if table.rows)]
         body += [_of_mesh(record, name, of_teeth.get(group, ())) for group, name in _worst_first(summary)]
     body += [first_page.folded_sums(miner_tables(summary)), first_page.bearings_table(summary)]

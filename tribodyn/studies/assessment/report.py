@@ -1,6 +1,6 @@
 """Reported quantities of an assessment, how far to trust them, and tables of its meshes."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from tribodyn.cases.results import TextTable
@@ -13,8 +13,10 @@ from tribodyn.gears.rating.rating_text import unit_of
 from tribodyn.gears.rating.spectrum import spectrum_tables
 from tribodyn.post.verdict import numbers, outside, with_unit
 from tribodyn.quantities.catalogue import QUANTITIES, quantities, scatter_of
+from tribodyn.quantities.load import OF_FACE
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.assessment.findings import IN_EQUILIBRIUM
 
 REPORTED: Reported = {
     "Train": quantities("train_ratio", "input_speed"),
@@ -132,11 +134,41 @@ def mesh_table(summary: Mapping[str, Any], part: str) -> TextTable:
     return TextTable(heading, ("", *groups, ""), [row for row in rows if set(row[1:-1]) - {"–"}])
 
 
+def face_table(summary: Mapping[str, Any]) -> TextTable:
+    """Loads along the faces in static equilibrium, beside K_Hβ of the rating; without rows where none are."""
+    meshes = summary.get(MESHES, {})
+    groups = {
+        group: [meshes[name] for name in names if IN_EQUILIBRIUM in meshes[name]]
+        for group, names in groups_of(meshes).items()
+    }
+    groups = {group: found for group, found in groups.items() if found}
+
+    def row(title: str, quantity: Quantity, every: Iterable[Sequence[float | None]]) -> list[str]:
+        known = [[value for value in values if value is not None] for values in every]
+        written = [quantity.written(max(values, key=abs)) if values else "–" for values in known]
+        return [title, *written, unit_of(quantity)]
+
+    face = QUANTITIES["face_load_factor"]
+    rows = [
+        row(
+            f"{face.title} of the rating",
+            face,
+            ([mesh.get(face.name) for mesh in of] for of in groups.values()),
+        )
+    ]
+    for quantity in quantities(*OF_FACE):
+        of_quantity = ([mesh[IN_EQUILIBRIUM].get(quantity.name) for mesh in of] for of in groups.values())
+        rows.append(row(quantity.title, quantity, of_quantity))
+    heading = "Loads along the faces, in static equilibrium of the gearbox"
+    heading += "; of several planets the largest" if len(groups) < len(meshes) else ""
+    return TextTable(heading, ("", *groups, ""), [one for one in rows if groups and set(one[1:-1]) - {"–"}])
+
+
 def tables(record: Record) -> list[TextTable]:
     """Every mesh simulated and by the standards, every planetary stage, Miner's sums, bearings."""
     summary = record.summary
     found = [stage_table(summary), mesh_table(summary, "simulated"), mesh_table(summary, "iso")]
-    found += miner_tables(summary)
+    found += [face_table(summary), *miner_tables(summary)]
     if bearings := summary.get("bearings"):
         found.append(TextTable("Bearings", *bearing_rows(bearings)))
     return [table for table in found if table.rows]

@@ -17,8 +17,6 @@ from tribodyn.gears.rating.bearings import (
     bearing_remarks,
     bearing_rows,
 )
-from tribodyn.quantities.catalogue import quantities
-from tribodyn.quantities.load import PROPOSED
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
@@ -34,13 +32,9 @@ from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
-from tribodyn.studies.motion.train.face_loads import along_face, of_deflected, proposals
+from tribodyn.studies.motion.train.face_loads import FACE, along_face, of_deflected, proposals
 from tribodyn.train.flow import flow
 
-#: Quantities of a mesh's loads along its face.
-FACE = quantities(
-    "deflected_misalignment", "face_load_factor", "load_centre", *(one.name for one in PROPOSED)
-)
 #: Share of a mode's energy below which a body is left out of a table.
 LITTLE = 0.005
 #: Harmonics of the meshes whose crossing with a mode is said.

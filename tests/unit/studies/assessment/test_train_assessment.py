@@ -8,14 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.overhung_train import overhung_train
 from tests.support.planet_sets import ASSESSED_SET
+from tests.support.train_scenarios import case_of_table
 from tests.support.verbs import invoke, sets
 from tribodyn.errors import InputError
 from tribodyn.gears.motion.tooth_loads import ToothLoads, tooth_loads
 from tribodyn.gears.prepare import assembled
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.parts import assessment_parts
-from tribodyn.studies.assessment.report import of_mesh
+from tribodyn.studies.assessment.report import face_table, of_mesh
+from tribodyn.studies.motion.check import check
+from tribodyn.studies.motion.train.assessable import WHOLE
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.tasks import case_of
 
@@ -226,6 +230,20 @@ def test_a_mesh_that_was_not_run_has_no_simulated_safety_of_the_standard():
     shown = {name: of_mesh(mesh, "simulated", name) for name in ("S_H", "S_B", "dynamic_factor")}
     assert shown == {"S_H": None, "S_B": 8.3, "dynamic_factor": 1.01}
     assert of_mesh(mesh, "iso", "S_H") == 1.24
+
+
+def test_the_page_has_the_face_as_it_stands_beside_the_rating():
+    """K_Hβ in equilibrium and with what is proposed, as `check` finds them."""
+    case = case_of_table(overhung_train(mesh={"damping_ratio": 0.05, "slices": 5}))
+    stands = WHOLE.faces(case)
+    checked = check(case).data[MESHES]["only"]
+    assert stands["only"] == {name: checked[name] for name in stands["only"]}
+    of_mesh = {"face_load_factor": 1.25, "equilibrium": stands["only"]}
+    rows = {row[0]: row[1] for row in face_table({MESHES: {"only": of_mesh, "other": {}}}).rows}
+    assert rows["Face load factor K_Hβ of the rating"] == "1.250"
+    assert rows["Face load factor K_Hβ"] == f"{checked['face_load_factor']:.3f}"
+    assert float(rows["Helix slope that flattens the load"]) < 0.0
+    assert not face_table({MESHES: {"only": {"face_load_factor": 1.25}}}).rows
 
 
 def test_loads_of_a_slower_mesh_are_those_of_its_teeth():

@@ -15,6 +15,8 @@ from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
+from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.train.face_loads import FACE, along_face, of_deflected, proposals
 from tribodyn.studies.motion.train.pair_view import stiffness_key
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.train.planetary import CARRIER
@@ -190,6 +192,17 @@ def shafts(case: Gearbox) -> list[TurningShaft]:
     ]
 
 
+def faces(case: Gearbox) -> dict[str, dict[str, float]]:
+    """Loads along the faces of meshes on drawn shafts, matrices or pins, and what makes them even."""
+    spread = of_deflected(prepare(case))
+    proposed, found = proposals(spread, len(case.meshes)), dict[str, dict[str, float]]()
+    for m, mesh in enumerate(case.meshes):
+        of_mesh = along_face(spread, m) | proposed[m]
+        if of_mesh:
+            found[mesh.name] = {one.name: of_mesh[one.name] for one in FACE if one.name in of_mesh}
+    return found
+
+
 #: Positions of a mesh cycle at which the loads of its teeth are taken.
 _POSITIONS = 80
 
@@ -212,5 +225,6 @@ WHOLE = WholeDrive(
     meshes_of_gear,
     duties,
     shafts,
+    faces,
     loads,
 )
