@@ -51,8 +51,7 @@ class PowerFlow(NamedTuple):
     torque: tuple[float, ...]  # that every row of what is not a mesh puts in, as of `willis.reactions`
     rolling: tuple[float, ...]  # of every mesh, what enters: positive where its first gear drives
     loss: tuple[float, ...]  # of every mesh
-    #: power that the meshes put into every body by what they do to its axis, carriers included
-    into: tuple[tuple[float, float, float], ...]  # of every mesh: first body, second body, carrier
+    on: tuple[tuple[float, float, float], ...]  # torques of every mesh on its first and second body, carrier
     put_in: float
     taken_out: float
 
@@ -136,14 +135,13 @@ def _flow(
     forward: Sequence[bool],
     found: Sequence[float],
 ) -> PowerFlow:
-    entering, lost, into = [], [], []
+    entering, lost, on = [], [], []
     for mesh, way, force, speed in zip(meshes, forward, found, rolling, strict=False):
         one, two = (force * torque for torque in mesh.torques(way))
         power = -force * speed
         entering.append(power)
         lost.append(mesh.loss * abs(power))
-        carried = -(one + two) * speeds[mesh.carrier] if mesh.carrier >= 0 else 0.0
-        into.append((one * speeds[mesh.one], two * speeds[mesh.two], carried))
+        on.append((one, two, -one - two))
     torque = tuple(found[len(meshes) :])
     powers = [load * speeds[body] for body, load in loads.items()]
     for row, multiplier in zip(rows, torque, strict=True):
@@ -152,4 +150,4 @@ def _flow(
             powers.append(multiplier * float(factor) * speeds[body])
     put_in = sum(power for power in powers if power > 0.0)
     taken_out = -sum(power for power in powers if power < 0.0)
-    return PowerFlow(torque, tuple(entering), tuple(lost), tuple(into), put_in, taken_out)
+    return PowerFlow(torque, tuple(entering), tuple(lost), tuple(on), put_in, taken_out)

@@ -85,8 +85,9 @@ def test_power_of_a_ravigneaux_set_closes(held, driving):
     flow = turned(ravigneaux(0.013), held, driving, RING)
     assert flow is not None
     assert abs(flow.put_in - flow.taken_out - sum(flow.loss)) < 1e-12 * flow.put_in
-    for mesh, loss in zip(flow.into, flow.loss, strict=True):  # what a mesh is given and gives its loss
-        assert sum(mesh) == pytest.approx(-loss, abs=1e-14)
+    for on, rolling, loss in zip(flow.on, flow.rolling, flow.loss, strict=True):
+        assert sum(on) == pytest.approx(0.0, abs=1e-14)
+        assert loss == pytest.approx(0.013 * abs(rolling), rel=1e-12)
     if held == CARRIER:
         assert flow.efficiency == pytest.approx((1.0 - 0.013) ** (3 if driving == SMALL else 2), rel=1e-12)
     # small losses leave the directions as they are: each costs its share of the rolling power

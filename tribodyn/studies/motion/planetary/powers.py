@@ -22,9 +22,7 @@ LOCKS = (
 
 def flow_of(prepared: PreparedGearbox) -> PowerFlow | None:
     """Power flow at the nominal duty; None: no torque of the input turns the loads."""
-    case, model = prepared.case, prepared.model
-    reference = float(model.operation.nominal_speed)
-    speeds = [float(body.ratio) * body.sense * reference for body in case.bodies]
+    case, speeds = prepared.case, speeds_of(prepared)
     loads: dict[int, float] = {}
     for load in case.loads:
         along = 1.0 if speeds[load.body] > 0.0 else -1.0
@@ -33,6 +31,12 @@ def flow_of(prepared: PreparedGearbox) -> PowerFlow | None:
     rows = [of_coupling(one, two) for one, two in joined if two >= 0]
     rows += [of_speed(case.source.body), *(of_speed(link.ends[0]) for link in case.links if link.holds)]
     return power_flow(_meshes(prepared), rows, speeds, loads)
+
+
+def speeds_of(prepared: PreparedGearbox) -> list[float]:
+    """Nominal speeds of the case's bodies, counter-clockwise, rad/s."""
+    reference = float(prepared.model.operation.nominal_speed)
+    return [float(body.ratio) * body.sense * reference for body in prepared.case.bodies]
 
 
 def _meshes(prepared: PreparedGearbox) -> list[LossyMesh]:
@@ -49,8 +53,11 @@ def _meshes(prepared: PreparedGearbox) -> list[LossyMesh]:
 
 
 def power_data(prepared: PreparedGearbox, flow: PowerFlow | None) -> dict[str, Any]:
-    """For programs, W: of every mesh, and into the sets at every member; nothing of a train without power."""
-    case = prepared.case
+    """For programs: powers (W) of every mesh; torques (N m, counter-clockwise) and powers into every set.
+
+    Nothing of a train without power.
+    """
+    case, speeds = prepared.case, speeds_of(prepared)
     if flow is None or not flow.put_in:
         return {}
     meshes = {
@@ -60,12 +67,15 @@ def power_data(prepared: PreparedGearbox, flow: PowerFlow | None) -> dict[str, A
     members = {}
     for gearset in case.sets:
         carrier = gearset.members[CARRIER]
-        given = dict.fromkeys(gearset.members.values(), 0.0)
-        for mesh, powers in zip(case.meshes, flow.into, strict=True):
+        torques = dict.fromkeys(gearset.members.values(), 0.0)
+        for mesh, on in zip(case.meshes, flow.on, strict=True):
             if mesh.carrier == carrier:
-                for body, power in zip((mesh.driver, mesh.driven, carrier), powers, strict=True):
-                    given[body] = given.get(body, 0.0) - power
-        members[gearset.name] = {name: given[body] for name, body in gearset.members.items()}
+                for body, torque in zip((mesh.driver, mesh.driven, carrier), on, strict=True):
+                    torques[body] = torques.get(body, 0.0) - torque
+        members[gearset.name] = {
+            name: {"torque": torques[body] + 0.0, "power": torques[body] * speeds[body] + 0.0}
+            for name, body in gearset.members.items()
+        }
     totals = {"put_in": flow.put_in, "taken_out": flow.taken_out, "efficiency": flow.efficiency}
     return {"power_flow": {**totals, "meshes": meshes, "members": members}}
 
@@ -76,24 +86,27 @@ def power_table(prepared: PreparedGearbox, powers: dict[str, Any]) -> tuple[list
         return [], []
     of, rows, circling = powers["power_flow"], [], []
     put_in, names = of["put_in"], dict[str, list[str]]()
-    rows += [("in", f"{put_in:.5g}", "100", ""), ("out", *_cells(of["taken_out"], put_in), "")]
+    rows += [("in", "", f"{put_in:.5g}", "100", ""), ("out", "", *_cells(of["taken_out"], put_in), "")]
     for mesh, alike in zip(prepared.case.meshes, alike_of(prepared.case), strict=True):
         names.setdefault(alike or mesh.name, []).append(mesh.name)
     for each in names.values():
         power, loss = (sum(of["meshes"][name][key] for name in each) for key in ("rolling_power", "loss"))
-        rows.append((f"rolls in {together(each)}", *_cells(power, put_in), f"{loss:.4g}"))
+        rows.append((f"rolls in {together(each)}", "", *_cells(power, put_in), f"{loss:.4g}"))
         if power > put_in * (1.0 + _ROUNDING):
             circling.append((power, f"the rolling power of {together(each)}"))
     for name, members in of["members"].items():
-        for member, power in members.items():
-            rows.append((f"into {name} at the {member}", *_cells(power, put_in), ""))
+        for member, values in members.items():
+            torque, power = values["torque"], values["power"]
+            rows.append((f"into {name} at the {member}", f"{torque:.5g}", *_cells(power, put_in), ""))
             if abs(power) > put_in * (1.0 + _ROUNDING):
                 circling.append((abs(power), f"the power at the {member} of {name}"))
     title = f"Power flow by Willis, with losses in slow rotation: efficiency {100.0 * of['efficiency']:.3f} %"
     remarks = [
         f"Power circulates: {what} is {power / put_in:.3g} times the power in." for power, what in circling
     ]
-    return [TextTable(title, ("where", "power (W)", "of the power in (%)", "loss (W)"), rows)], remarks
+    return [
+        TextTable(title, ("where", "torque (N m)", "power (W)", "of the power in (%)", "loss (W)"), rows)
+    ], remarks
 
 
 def _cells(power: float, put_in: float) -> tuple[str, str]:
