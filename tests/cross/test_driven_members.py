@@ -9,6 +9,7 @@ from tests.support.states import altered
 from tests.support.train_scenarios import case_of_table
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
+from tribodyn.studies.motion.check import check
 from tribodyn.studies.motion.planetary.powers import flow_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.run import run
@@ -95,6 +96,21 @@ def test_torques_of_members_are_those_of_willis():
     del table["operating"]["output_torque"]
     table["operating"]["input_torque"] = "600 N*m"
     assert case_of_table(table).loads[0].torque == pytest.approx(600.0 * 84 / 108)
+
+
+def test_check_says_torques_and_powers_of_all_members():
+    """Without friction 24 : 84 : −108, and the powers add up."""
+    table = free_set(("sun", "carrier"), {"ring": "-1/10"}, 1000, "108 N*m", friction={"law": "none"})
+    del table["friction"]["coefficient"]
+    checked = check(case_of_table(table))
+    flow = checked.data["power_flow"]
+    members = flow["members"]["set"]
+    torques = [members[name]["torque"] for name in ("sun", "ring", "carrier")]
+    assert torques == pytest.approx([24.0, 84.0, -108.0])
+    assert sum(member["power"] for member in members.values()) == pytest.approx(0.0, abs=1e-9)
+    assert flow["put_in"] == pytest.approx(members["sun"]["power"])
+    assert (flow["efficiency"], flow["taken_out"]) == pytest.approx((1.0, flow["put_in"]))
+    assert any(table.title.startswith("Power flow by Willis") for table in checked.tables)
 
 
 @pytest.mark.slow
