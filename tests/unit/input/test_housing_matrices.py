@@ -102,6 +102,26 @@ def test_what_contradicts_itself_is_one_line(housing, key, words):
     assert "\n" not in str(refused.value)
 
 
+def test_radiation_is_the_same_in_any_units():
+    """Power of a rate: m²/s² times m² of an area, W of a resistance; modes keep their scale."""
+    metres, millimetres = (
+        element_of(_housing(_sounding(*of, units=text, area=_area(of[0]))))
+        for of, text in (((1.0, 1.0), "m, kg, s"), ((1e-3, 1e3), "mm, t, s"))
+    )
+    scale = np.sqrt(np.diag(millimetres.mass) / np.diag(metres.mass))
+    for name in ("area", "resistance"):
+        one, other = (getattr(each.radiation, name) for each in (metres, millimetres))
+        np.testing.assert_allclose(other / np.outer(scale, scale), one, rtol=1e-9, atol=1e-9 * np.max(one))
+    assert metres.radiation.resistance.shape == (2, metres.coordinates, metres.coordinates)
+    np.testing.assert_allclose(np.diag(metres.radiation.area)[:3], 0.3)
+
+
+def _area(length):
+    """0.3 m² for displacements of both seats, in units of so many m."""
+    each = [0.3 / length**2] * 3 + [0.0] * 3
+    return np.diag([*each, *each, *[0.0] * bar().modes]).tolist()
+
+
 def test_a_scenario_names_the_seats_and_their_places():
     places = {"left": ["0 mm", "0 mm", "0 mm"], "foot": ["0 mm", "0 mm", "500 mm"]}
     table = _written(units="m, kg, s", places=(), seats=())
