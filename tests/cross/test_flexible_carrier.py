@@ -5,8 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.epicyclic_sets import meshed_set
 from tests.support.planet_sets import IN_PHASE, helical_set, planet_set, tangent_loads
-from tests.support.spider import RADIUS, spider
+from tests.support.spider import RADIUS, around, spider
 from tests.support.states import recorded
 from tests.support.train_scenarios import case_of_table
 from tribodyn.dynamics.modes import natural_frequencies
@@ -35,7 +36,7 @@ def rest(prepared: PreparedGearbox) -> np.ndarray:
 @pytest.mark.parametrize("helical", [False, True])
 def test_a_stiff_one_is_the_rigid_carrier(helical, ends):
     radius = RADIUS / np.cos(np.radians(15.0)) if helical else RADIUS
-    carrier = spider([STIFF] * 3, mode=MODE, radius=radius)
+    carrier = spider([STIFF] * 3, mode=MODE, at=around(3, radius))
     rigid, given = (made(helical, ends=ends, **more) for more in ({}, {"flexible_carrier": carrier}))
     np.testing.assert_allclose(rest(given), rest(rigid), rtol=1e-4, atol=1e-10)
     at_rest = [tangent_loads(each.model, static_equilibrium(each.model)) for each in (rigid, given)]
@@ -55,6 +56,15 @@ def test_arms_that_give_alike_are_pins_in_series_with_the_bearings(ends):
     pinned = made(ends=ends, pin={"stiffness": f"{arm} N/m"})
     given = made(ends=ends, flexible_carrier=spider([arm] * 3))
     np.testing.assert_allclose(rest(given), rest(pinned), rtol=1e-5, atol=1e-9)
+
+
+def test_planets_that_mesh_with_each_other_have_pins_of_their_own():
+    arm, body = 2e8, {"body": [{"name": "carrier", "mass": "8 kg", "inertia": "0.2 kg*m**2"}]}
+    pinned = prepare(case_of_table(meshed_set(pin={"stiffness": f"{arm} N/m"}) | body))
+    bodies = pinned.case.bodies
+    at = [bodies[planet].centre for planet in pinned.case.sets[0].planets]
+    table = meshed_set(flexible_carrier=spider([arm] * 6, at=at)) | body
+    np.testing.assert_allclose(rest(prepare(case_of_table(table))), rest(pinned), rtol=1e-5, atol=1e-9)
 
 
 def test_the_planet_on_a_flexible_arm_carries_less_by_the_closed_form():

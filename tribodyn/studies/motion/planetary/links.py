@@ -130,7 +130,7 @@ def set_data(gearset: SetPart, train: TrainKinematics, placed: PlacedTrain) -> S
     carrier = None
     if stage.flexible_carrier is not None:
         key = f"{gearset.key}.flexible_carrier"
-        carrier = carrier_of(key, stage.flexible_carrier, stage.planets)
+        carrier = carrier_of(key, stage.flexible_carrier, len(planets))
     return SetData(
         stage.name,
         gearset.key,
