@@ -134,14 +134,19 @@ def test_uniform_stiffness_meets_the_closed_form():
     assert loads.factor == pytest.approx(1.0 + kappa * (1.0 - 1.0 / slices), rel=1e-2)  # middle of the last
 
 
-def opened(found: Spread, stiffness: float) -> float:
-    """κ = c f b/(2 F_bt)."""
+def softness(found: Spread, stiffness: float) -> float:
+    """b c/F_bt, 1/m."""
     loads, assembly = only(found), found.prepared.assembly
     width = float(assembly.common_width)
     base_helix = np.arcsin(np.sin(np.radians(15.0)) * np.cos(np.radians(20.0)))
     per_width = stiffness / width * float(assembly.contact_ratio) * np.cos(base_helix) ** 2
     force = np.mean(loads.line_load) * width * np.cos(base_helix)
-    return per_width * loads.misalignment * width / (2.0 * force)
+    return per_width * width / force
+
+
+def opened(found: Spread, stiffness: float) -> float:
+    """κ = c f b/(2 F_bt)."""
+    return softness(found, stiffness) * only(found).misalignment / 2.0
 
 
 def test_a_part_of_the_face_carries_as_the_closed_form_says():
@@ -174,6 +179,15 @@ def test_slow_motion_settles_where_statics_stand():
 
 def test_slow_motion_of_a_spur_mesh_settles_where_statics_stand():
     settles(spur().prepared.model)
+
+
+def test_a_crowned_face_carries_as_the_closed_form_says():
+    """Parabola over l = b (3 F_bt/(2 b c C))^⅓, wherever the tilt puts it: K_Hβ = 3 b/(2 l)."""
+    stiffness, crowning = 6e8, 60e-6
+    found = uniform(stiffness, 27, f"{crowning} m")
+    share = (1.5 / (softness(found, stiffness) * crowning)) ** (1.0 / 3.0)
+    assert share < 0.7
+    assert only(found).factor == pytest.approx(1.5 / share, rel=2e-2)
 
 
 @pytest.mark.slow
