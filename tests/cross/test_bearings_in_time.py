@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import root
 
 import tribodyn as td
-from tests.support.bearings_in_time import on_bearings, shafts_of
+from tests.support.bearings_in_time import alone, on_bearings, shafts_of
 from tests.support.drawn_shafts import BALL, ROLLER
 from tests.support.right_hand_sides import assert_right_hand_sides_agree
 from tests.support.states import random_place, random_state
@@ -23,6 +24,7 @@ from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
 from tribodyn.studies import STUDIES
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.train.elastic.rolling_bearing import BallRow
 from tribodyn.train.layout import displacements, velocities
 
 FLOATING = BALL | {"locating": False}
@@ -101,6 +103,43 @@ def test_energy_balances_with_the_cages_power(formulation: str, tmp_path):
             forces.append(np.asarray(record["bearing_force_y"]))
             assert list(record["bearing"])[-2:] == ["pinion-1", "pinion-2"]
     assert forces[0] == pytest.approx(forces[1], abs=1e-4 * np.abs(forces[1]).max())
+
+
+@pytest.mark.slow
+def test_passing_balls_move_the_shaft_as_the_statics_have_it(tmp_path):
+    """Far below all modes: both bearings under half the load each, at every angle of their cages.
+
+    Balls pass 3.6 times in a turn; the amplitude there, in x and y.
+    """
+    changes: dict[str, Any] = PLAIN | {
+        "shaft": {"pinion": on_bearings(BALL, FLOATING)},
+        "operating.pinion_speed": "60 rad/s",
+        "solver.method": "dopri5",
+        "solver.cycles": 115,
+        "output.samples_per_cycle": 20,
+    }
+    run = td.run("involute-23-47", changes, output=tmp_path / "slow.h5")
+    with Record(run.path) as record:
+        names, moved = list(record["dof"]), np.asarray(record["displacement"])
+        turns = np.asarray(record["pinion_angle"])
+        load = np.array([np.mean(np.asarray(record[f"bearing_force_{d}"])[:, -2:]) for d in "xy"])
+    wave = np.exp(-3.6j * turns)[:-1]
+    found = np.array([2.0 * np.mean(moved[:-1, names.index(name)] * wave) for name in ("x_p", "y_p")])
+    row = BallRow(9, 12e-3, 60e-3, clearance=10e-6)
+    angles = 2.0 * np.pi / 9 * np.arange(24) / 24
+    path, at = [], load / np.linalg.norm(load) * 30e-6
+
+    def left(u: np.ndarray, angle: float) -> np.ndarray:
+        return np.array(alone(row, np.array([*u, 0.0, 0.0, 0.0]), angle)[:2]) - load
+
+    for angle in angles:
+        at = root(
+            lambda u, a=angle: np.array(alone(row, np.array([*u, 0, 0, 0]), a)[:2]) - load, at, tol=1e-12
+        ).x
+        path.append(at)
+    expected = np.abs(2.0 * np.mean(np.array(path) * np.exp(-9j * angles)[:, None], axis=0))
+    assert np.max(expected) > 1e-7
+    assert np.abs(found) == pytest.approx(expected, rel=0.03)
 
 
 @pytest.mark.slow

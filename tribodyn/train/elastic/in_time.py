@@ -34,6 +34,15 @@ def tangent_of(bearings: Iterable[InTime]) -> Any:
     return sum((one.rows.T @ one.state.stiffness @ one.rows for one in bearings), 0.0)
 
 
+def push_in_time(bearings: Iterable[InTime], moved: Float[Array, " coordinate"]) -> Any:
+    """Forces of coordinates on bearings about the mean loads, N or N m; 0.0 of none."""
+    forces = (
+        one.rows.T @ (one.state.force + one.state.stiffness @ one.rows @ (moved - one.moved))
+        for one in bearings
+    )
+    return sum(forces, 0.0)
+
+
 def kept_in_time(bearings: Iterable[tuple[Any, int, int]], others: Collection[int]) -> dict[int, float]:
     """Coordinates of nodes and seats that are kept for bearings beside others, and what each is times.
 

@@ -22,6 +22,7 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_equilibria
 from tribodyn.studies.motion.assembly import PreparedGearbox, table_numbers
 from tribodyn.train.elastic.beam_matrices import SIX
+from tribodyn.train.elastic.in_time import push_in_time
 from tribodyn.train.schedule import interval_of
 
 #: Phases of every mesh, at least.
@@ -132,4 +133,5 @@ def _on_shafts(
     turns = np.arange(SIX - 1, count, SIX)
     stiffness = left.stiffness.copy()
     stiffness[turns], stiffness[:, turns] = 0.0, 0.0
-    return (stiffness @ moved - left.force)[:count].reshape(-1, SIX)[:, : SIX - 1]
+    held = stiffness @ moved - left.force + push_in_time(left.in_time, moved)
+    return held[:count].reshape(-1, SIX)[:, : SIX - 1]
