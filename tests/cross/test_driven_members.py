@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.support.epicyclic_sets import meshed_set, ravigneaux_set
 from tests.support.planet_sets import planet_set
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.support.states import altered
@@ -96,6 +97,29 @@ def test_torques_of_members_are_those_of_willis():
     del table["operating"]["output_torque"]
     table["operating"]["input_torque"] = "600 N*m"
     assert case_of_table(table).loads[0].torque == pytest.approx(600.0 * 84 / 108)
+
+
+@pytest.mark.parametrize(
+    ("table", "kept", "torque"),
+    [
+        # a ring with twice the teeth of the sun: sun and carrier bear 600 N m each, in a curve
+        (
+            meshed_set((48, 16, 17, 96), 3, "sun", ("ring", "carrier")),
+            {"at": "sun", "speed_ratio": "6/5"},
+            1200,
+        ),
+        # 2.4 T_s - 2 T_l = 600 = T_s + T_l: the carrier is free
+        (ravigneaux_set(), {"at": "large", "speed_ratio": "-1/10"}, 600 * 15 / 22),
+    ],
+    ids=["differential", "ravigneaux"],
+)
+def test_sets_of_two_planets_on_every_arm_have_two_driven_members_too(ran, table, kept, torque, request):
+    table["stage"][0] |= {"frame_forces": False}
+    del table["stage"][0]["held"]
+    table["load"] = [kept]
+    assert case_of_table(table).source.torque == pytest.approx(torque, rel=1e-9)
+    record = ran(table, request.node.callspec.id)
+    assert abs(record.summary["energy_residual"]) < 1e-6
 
 
 def test_check_says_torques_and_powers_of_all_members():
