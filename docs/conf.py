@@ -22,6 +22,7 @@ CONTENTS = {
         "notebooks/load-contact-and-relief",
         "notebooks/your-own-law",
         "notebooks/rating-by-hand",
+        "notebooks/reducer-from-data-sheet",
         "notebooks/find-a-crack",
     ],
     "How to": [

@@ -19,6 +19,7 @@ SHORTER = {
         "[0.04, 0.05, 0.06, 0.08, 0.1]": "[0.05, 0.1]",
     },
     "compare-tooth-forms": {"(3, 5, 10, 20, 40, 80)": "(3, 80)"},
+    "reducer-from-data-sheet": {'"slices": 11': '"slices": 5', '"cycles": 14': '"cycles": 7'},
     "find-a-crack": {'drives = "1:16:1"': 'drives = "1:4:1"'},
 }
 #: Packages of the documentation that a notebook needs besides.
