@@ -1,6 +1,6 @@
-"""Figures of docs/trains.md, of the reducer that the page describes.
+"""Figures of docs/trains.md, of the reducer that the page describes, and of a thin ring.
 
-python -m tools.train_pictures            # writes docs/pictures/train-*.png
+python -m tools.train_pictures            # writes docs/pictures/train-*.png, ring-shape.png
 """
 
 import re
@@ -76,6 +76,11 @@ def draw_run(runs: dict[str, td.Run]) -> None:
     print(save(figure, PICTURES / "train-loads.png", force=True))
 
 
+def draw_ring(run: td.Run) -> None:
+    """Draw the thin ring that planets bend."""
+    print(save(run.plot("ring-shape"), PICTURES / "ring-shape.png", force=True))
+
+
 def last_period(run: td.Run) -> Any:
     """Samples of the last common period, with `cycle`: cycles of the first mesh since its beginning."""
     cycle = run.data.mesh_phase[:, 0]
@@ -98,6 +103,7 @@ def main() -> None:
         rigid, soft = td.run(file), td.run(file, SHAFT)
         draw_run({"(a) rigid shaft": rigid, "(b) shaft of 0.5 MN m/rad": soft})
         print(save(rigid.plot("train"), PICTURES / "train.png", force=True))
+        draw_ring(td.run("planetary-thin-ring"))
 
 
 if __name__ == "__main__":

@@ -12,14 +12,17 @@ from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.modes import modes
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError
+from tribodyn.post.figures.panel import View
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.solve.transient import TransientSettings
+from tribodyn.studies.motion.pictures.ring_figure import bent_rim, ring_figure
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.run import run
+from tribodyn.train.coupling import coupling_forces
 from tribodyn.train.elastic.pin import Pin, pin_stiffness
-from tribodyn.train.elastic.ring import Rim, rim_matrices, rows_at
+from tribodyn.train.elastic.ring import Rim, pin_coupling, rim_matrices, rows_at
 
 STIFF = {"orders": 4, "stiffness": "1e15 N/m"}
 
@@ -94,10 +97,59 @@ def test_the_waves_are_what_a_mesh_leaves_out_of_its_rim():
         assert fitted[direction, direction] + row @ found @ row == pytest.approx(whole, rel=0.02)
 
 
-def test_energy_balances_where_the_rim_passes_the_planets():
-    rim = {"orders": 4, "pins": 12, "stiffness": "5e7 N/m"}
+def test_pins_are_the_sum_of_single_ones(rng):
+    """Of seven and eight pins anywhere: springs under the outside of the rim, one by one."""
+    rim = Rim(0.9, 1.0, 0.1, 206e9, 0.3, 7850.0)
+    for pins, orders in ((7, 5), (8, 6), (12, 6)):
+        radial, tangential, begin = rng.uniform(1e6, 1e8), rng.uniform(1e6, 1e8), rng.uniform(0.0, 6.0)
+        single = rim_matrices(rim, orders).stiffness
+        for angle in begin + 2.0 * np.pi * np.arange(pins) / pins:
+            out, along = rows_at(rim, orders, angle, rim.outside)
+            single = single + radial * np.outer(out, out) + tangential * np.outer(along, along)
+        held = pins * radial, pins * tangential
+        cosine, sine = pin_coupling(orders, pins, held)
+        found = rim_matrices(rim, orders, held).stiffness
+        found = found + cosine * np.cos(pins * begin) + sine * np.sin(pins * begin)
+        np.testing.assert_allclose(found, single, rtol=1e-9, atol=1e-6 * radial)
+
+
+def test_pins_pass_as_fast_as_the_carrier_turns(rng):
+    """Of 24/30/84 teeth, ring held: a cycle is 1/84 turn of the carrier, and of pins back in its frame."""
+    pins, orders, stiffness = 7, 5, 1e8
+    rim = {"orders": orders, "pins": pins, "stiffness": f"{stiffness} N/m"}
+    prepared = prepared_set(ring_rim=rim)
+    assert prepared.case.period == 12  # 84 teeth over 7 pins
+    layout = prepared.model.layout
+    first, count = layout.rim_first[3], layout.rim_count[3]
+    y = np.zeros(layout.states)
+    y[first : first + count] = rng.uniform(-1e-5, 1e-5, count)
+    carrier = prepared.case.bodies[prepared.case.sets[0].members["carrier"]]
+
+    def forces(cycles: float) -> np.ndarray:
+        changes = np.zeros(layout.states)
+        coupling_forces(cycles, y, prepared.model, changes)
+        return changes[layout.half + first : layout.half + first + count]
+
+    def by_pins(cycles: float) -> np.ndarray:
+        found, rim = np.zeros((count, count)), Rim(0.9, 1.0, 0.1, 206e9, 0.3, 7850.0)
+        for angle in 2.0 * np.pi * (np.arange(pins) / pins - carrier.sense * cycles / 84.0):
+            rows = rows_at(rim, orders, angle, rim.outside)
+            found += stiffness * rows.T @ rows
+        return -found @ y[first : first + count]
+
+    for cycles in (0.7, 5.0, 11.3):
+        change = forces(cycles) - forces(0.0)
+        assert np.max(np.abs(change)) > 1.0
+        np.testing.assert_allclose(change, by_pins(cycles) - by_pins(0.0), rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(forces(12.0), forces(0.0), rtol=1e-9)
+
+
+@pytest.mark.parametrize("pins", [12, 7])
+def test_energy_balances_where_the_rim_passes_the_planets(pins: int):
+    rim = {"orders": 4, "pins": pins, "stiffness": "5e7 N/m"}
     model = prepared_set(held="carrier", ends=("sun", "ring"), ring_rim=rim).model
     assert np.any(np.abs(model.links.coupled.damping) > 0.0)
+    assert len(model.links.coupled.passing_rate) == int(pins == 7)
     run = recorded(model, TransientSettings("rodas4", 1e-8, 1, 10**6, 40))
     into = run["work_in"] - run["work_out"] - run["work_friction"] - run["work_damping"]
     into = into + run["work_parametric"]
@@ -109,9 +161,9 @@ def test_energy_balances_where_the_rim_passes_the_planets():
     ("stage", "key", "rule"),
     [
         (
-            {"ring_rim": {"orders": 6, "pins": 12, "stiffness": "1e8 N/m"}},
+            {"ring_rim": {"orders": 6, "pins": 7, "stiffness": "1e8 N/m"}},
             "ring_rim.orders",
-            "below 6",
+            "higher orders than 5",
         ),
         ({"ring_rim": {"orders": 4, "pins": 12}}, "ring_rim.stiffness", "missing beside pins"),
         ({"pin": {"stiffness": "1e8 N/m", "length": "20 mm"}}, "pin.stiffness", "contradicts length"),
@@ -141,3 +193,10 @@ def test_a_record_has_what_the_rim_does_at_its_meshes(tmp_path):
         values = np.asarray(record[name])[-16:]
         assert np.all(np.isnan(values[:, :3]))
         assert np.ptp(values[:, 3:], axis=1).max() < 1e-3 * np.abs(values[:, 3:]).max()
+    # the outside moves outwards by what it moves the mesh under it, from the ring's axis to the planet's
+    (ring,) = set(record.geometry["wave_ring"].astype(int).tolist())
+    places = record.geometry["centre"][[str(name).startswith("planet") for name in record["body"]]]
+    out = bent_rim(record, ring, np.arctan2(places[:, 1], places[:, 0]))[:, 0]
+    np.testing.assert_allclose(np.abs(out), np.abs(record["rim_across"][:, 3:]), rtol=1e-9, atol=1e-15)
+    figure = ring_figure([record], View())
+    assert len(figure.axes) == 2

@@ -175,7 +175,7 @@ def test_energy_balances_over_a_load_step(drive, turning):
     for state in (start, ends[0]):
         work = work_array(after)
         rhs(0.0, 0.0, 0, state, with_shared_code(after), work, np.empty(layout.states))
-        stored.append(float(stored_energy(state, after, work)))
+        stored.append(float(stored_energy(0.0, state, after, work)))
     work_in, work_out, damped, parametric = (
         float(ends[0][work_of(layout, which)]) for which in (IN, OUT, DAMPING, PARAMETRIC)
     )

@@ -183,8 +183,11 @@ def engagement(interval, y, model, work):
 
 
 @law
-def stored_energy(y, model, work):
-    """Kinetic and strain energy of the whole train, J; `work` as `contact_forces` left it."""
+def stored_energy(cycles, y, model, work):
+    """Kinetic and strain energy of the whole train after so many reference cycles, J.
+
+    `work` is as `contact_forces` left it.
+    """
     layout, bodies = model.options.layout, model.bodies
     half = layout.half
     energy = 0.0 * y[0]
@@ -204,5 +207,5 @@ def stored_energy(y, model, work):
             for i in range(first + 1, first + 3):
                 energy = energy + 0.5 * bodies.tilting[b] * y[i] * y[i]
     if layout.coupled > 0 or layout.inertial > 0:
-        energy = energy + coupling_energy(y, model)
+        energy = energy + coupling_energy(cycles, y, model)
     return energy + link_energy(y, model)

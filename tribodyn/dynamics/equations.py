@@ -185,7 +185,9 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
     if layout.clutches > 0:
         clutch_forces(time, rate, y, model, dy)
     if layout.coupled > 0:
-        damping_power = damping_power + coupling_forces(y, model, dy)
+        by_damping, torque = coupling_forces(cycle + phase, y, model, dy)
+        damping_power = damping_power + by_damping
+        parametric = parametric + torque
     if layout.frames > 0:
         add_frame_forces(y, model, dy)
     of_cages = zero

@@ -1,9 +1,11 @@
 """What couples any coordinates of a train linearly: shafts of several gears, housings, pins in space, rings.
 
 Entries of matrices by their places in the state, which the layout keeps: force and power of an entry are
-−k q_j − c q_j' on coordinate i. A gyroscopic matrix is skew and takes no power. Where the inertia of
-coordinates is coupled, forces are spread by diag(m) M⁻¹, so that each divided by the mass that its body has
-of its own is its acceleration; coordinates of no body have the mass 1. For all compilers.
+−k q_j − c q_j' on coordinate i. Of what passes, such as pins of a ring in the frame of its carrier, k is a
+cosine and a sine of the reference's rotation, which does work on it. A gyroscopic matrix is skew and takes no
+power. Where the inertia of coordinates is coupled, forces are spread by diag(m) M⁻¹, so that each divided by
+the mass that its body has of its own is its acceleration; coordinates of no body have the mass 1. For all
+compilers.
 """
 
 from collections.abc import Sequence
@@ -11,10 +13,29 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.elementary import RuntimeIndices, law
+from tribodyn.numerics.elementary import RuntimeIndices, cos, law, sin
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.train.layout import TrainLayout
-from tribodyn.train.structure import Bodies, Couplings, shift_of, speed_of, turn_of
+from tribodyn.train.structure import (
+    DAMPING,
+    PARAMETRIC,
+    Bodies,
+    Couplings,
+    shift_of,
+    speed_of,
+    turn_of,
+)
+
+#: A period of what passes, rad.
+TURN = 2.0 * np.pi
+
+
+class PassingStiffness(NamedTuple):
+    """A stiffness C cos φ + S sin φ with φ = 2π `rate` times the reference cycles; symmetric matrices."""
+
+    rate: float
+    cosine: Float[Array, "coordinate coordinate"]
+    sine: Float[Array, "coordinate coordinate"]
 
 
 class CoupledMatrices(NamedTuple):
@@ -25,6 +46,7 @@ class CoupledMatrices(NamedTuple):
     damping: Float[Array, "coordinate coordinate"]
     mass: Float[Array, "coordinate coordinate"]  # beside that of the bodies
     force: Float[Array, " coordinate"]
+    passing: tuple[PassingStiffness, ...] = ()
 
 
 def coupled(
@@ -57,8 +79,17 @@ def coupled(
     spread = _spread(mass + own, weights, moved, layout.lag if prescribed else -1)
     inertial = np.array([(i, j) for i in moved for j in moved if spread[i, j] or mass[i, j] or i == j])
     i, j = inertial.T if len(inertial) else np.zeros((2, 0), dtype=int)
+    passing = [(part.places, one) for part in parts for one in part.passing]
+    entries = [np.nonzero((one.cosine != 0.0) | (one.sine != 0.0)) for _, one in passing]
     kind = type(layout.half)
     layout = layout._replace(
+        passing_first=_places([0, *np.cumsum([len(at) for at, _ in entries])] if passing else []),
+        passing_rows=_places(
+            place for (at, _), (own, _) in zip(entries, passing, strict=True) for place in own[at]
+        ),
+        passing_columns=_places(
+            place for (_, at), (own, _) in zip(entries, passing, strict=True) for place in own[at]
+        ),
         coupled=kind(int(len(rows) + len(forced) > 0)),
         coupled_rows=_places(rows),
         coupled_columns=_places(columns),
@@ -70,6 +101,16 @@ def coupled(
     numbers = Couplings(
         stiffness[rows, columns], damping[rows, columns], force[forced], spread[i, j], mass[i, j]
     )
+    if passing:
+        numbers = numbers._replace(
+            passing_rate=np.array([one.rate for _, one in passing]),
+            passing_cosine=np.concatenate(
+                [one.cosine[at] for (_, one), at in zip(passing, entries, strict=True)]
+            ),
+            passing_sine=np.concatenate(
+                [one.sine[at] for (_, one), at in zip(passing, entries, strict=True)]
+            ),
+        )
     return layout, numbers
 
 
@@ -109,8 +150,11 @@ def _spread(
 
 
 @law
-def coupling_forces(y, model, dy):
-    """Add the forces of entries to those in `dy`; returns the power that they take by damping, W."""
+def coupling_forces(cycles, y, model, dy):
+    """Add the forces of entries to those in `dy` after so many reference cycles.
+
+    Returns the power that they take by damping, W, and the torque ∂V/∂φ on the reference of what passes, N m.
+    """
     layout, parts = model.options.layout, model.links.coupled
     half = layout.half
     power = 0.0 * y[0]
@@ -123,7 +167,19 @@ def coupling_forces(y, model, dy):
     for e in range(parts.force.shape[0]):
         i = layout.forced[e]
         dy[half + i] = dy[half + i] + parts.force[e]
-    return power
+    torque = 0.0 * y[0]
+    for t in range(parts.passing_rate.shape[0]):
+        turned = TURN * parts.passing_rate[t]
+        cosine, sine = cos(turned * cycles), sin(turned * cycles)
+        slope = 0.5 * turned / model.operation.pitch_angle
+        for e in range(layout.passing_first[t], layout.passing_first[t + 1]):
+            i, j = layout.passing_rows[e], layout.passing_columns[e]
+            force = (parts.passing_cosine[e] * cosine + parts.passing_sine[e] * sine) * y[j]
+            dy[half + i] = dy[half + i] - force
+            torque = torque + slope * y[i] * (
+                (parts.passing_sine[e] * cosine - parts.passing_cosine[e] * sine) * y[j]
+            )
+    return power, torque
 
 
 @law
@@ -154,7 +210,7 @@ def rate_at(place, y, model):
 
 
 @law
-def coupling_energy(y, model):
+def coupling_energy(cycles, y, model):
     """Strain energy of the entries less the work of constant forces, and the kinetic one of `mass`, J."""
     layout, parts = model.options.layout, model.links.coupled
     energy = 0.0 * y[0]
@@ -162,6 +218,11 @@ def coupling_energy(y, model):
         i = layout.coupled_rows[e]
         if i != layout.lag:
             energy = energy + 0.5 * parts.stiffness[e] * y[i] * y[layout.coupled_columns[e]]
+    for t in range(parts.passing_rate.shape[0]):
+        turned = TURN * parts.passing_rate[t] * cycles
+        for e in range(layout.passing_first[t], layout.passing_first[t + 1]):
+            stiffness = parts.passing_cosine[e] * cos(turned) + parts.passing_sine[e] * sin(turned)
+            energy = energy + 0.5 * stiffness * y[layout.passing_rows[e]] * y[layout.passing_columns[e]]
     for e in range(parts.force.shape[0]):
         energy = energy - parts.force[e] * y[layout.forced[e]]
     for e in range(parts.mass.shape[0]):
@@ -172,8 +233,12 @@ def coupling_energy(y, model):
 
 
 @law
-def differentiate_couplings(y, model, lost, jacobian):
-    """Add what the entries do to the forces of a Jacobian, and to the row `lost` of the power of damping."""
+def differentiate_couplings(cycles, y, model, works, jacobian):
+    """Add what the entries do to the forces of a Jacobian, and to the power of damping among the `works`.
+
+    The row of parametric work receives the torque on the reference.
+    """
+    lost, parametric = works + DAMPING, works + PARAMETRIC
     layout, parts = model.options.layout, model.links.coupled
     half = layout.half
     for e in range(parts.stiffness.shape[0]):
@@ -183,6 +248,16 @@ def differentiate_couplings(y, model, lost, jacobian):
         if i != layout.lag:
             jacobian[lost, half + j] += parts.damping[e] * y[half + i]
             jacobian[lost, half + i] += parts.damping[e] * y[half + j]
+    for t in range(parts.passing_rate.shape[0]):
+        turned = TURN * parts.passing_rate[t]
+        cosine, sine = cos(turned * cycles), sin(turned * cycles)
+        slope = 0.5 * turned / model.operation.pitch_angle
+        for e in range(layout.passing_first[t], layout.passing_first[t + 1]):
+            i, j = layout.passing_rows[e], layout.passing_columns[e]
+            jacobian[half + i, j] -= parts.passing_cosine[e] * cosine + parts.passing_sine[e] * sine
+            change = slope * (parts.passing_sine[e] * cosine - parts.passing_cosine[e] * sine)
+            jacobian[parametric, i] += change * y[j]
+            jacobian[parametric, j] += change * y[i]
 
 
 @law

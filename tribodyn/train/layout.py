@@ -48,6 +48,10 @@ class TrainLayout(NamedTuple):
     inertial: int = 0  # likewise of coordinates whose inertia is coupled
     inertial_rows: tuple[int, ...] = RuntimeIndices(())
     inertial_columns: tuple[int, ...] = RuntimeIndices(())
+    #: of every stiffness that passes the first entry, and the number of all; the next two: their places
+    passing_first: tuple[int, ...] = RuntimeIndices(())
+    passing_rows: tuple[int, ...] = RuntimeIndices(())
+    passing_columns: tuple[int, ...] = RuntimeIndices(())
 
 
 def layout_of(

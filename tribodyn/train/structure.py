@@ -68,6 +68,10 @@ class Couplings(NamedTuple):
     #: this and the next: elastic forces on bearings that are in the entries, along x, y, z, by coordinates
     reaction: Float[Array, "bearing 3 coordinate"] = np.zeros((0, 3, 0))
     reaction_at_rest: Float[Array, "bearing 3"] = np.zeros((0, 3))
+    #: stiffness that passes: periods per reference cycle, amplitudes of cosine and sine by entry
+    passing_rate: Float[Array, " tone"] = np.zeros(0)
+    passing_cosine: Float[Array, " passing"] = np.zeros(0)
+    passing_sine: Float[Array, " passing"] = np.zeros(0)
 
 
 class BearingNumbers(NamedTuple):

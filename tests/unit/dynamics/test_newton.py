@@ -223,4 +223,4 @@ def test_every_rate_is_newtons(model, rng, drive, sliding):
         # the loads set in over a width
         np.testing.assert_allclose(found, rates, rtol=1e-5, atol=1e-9 * np.abs(rates).max())
         assert powers[5] == pytest.approx(motor, rel=1e-6)
-        assert stored_energy(y, model, works) == pytest.approx(energy, rel=1e-5)
+        assert stored_energy(0.0, y, model, works) == pytest.approx(energy, rel=1e-5)

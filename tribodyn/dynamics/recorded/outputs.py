@@ -21,7 +21,7 @@ from tribodyn.dynamics.recorded.faces import over_faces
 from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.train.bearing_forces import bearing_answers, cage_power
-from tribodyn.train.layout import displacements, work_of, works_of_meshes
+from tribodyn.train.layout import TrainLayout, displacements, work_of, works_of_meshes
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import (
     ACROSS,
@@ -210,7 +210,7 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         columns = [np.broadcast_to(values, samples.size) for values in places]
         return np.stack(columns, axis=-1) if columns else np.empty((samples.size, 0))
 
-    stored = np.broadcast_to(stored_energy(y, model, samples.work), samples.size)
+    stored = np.broadcast_to(stored_energy(samples.cycles, y, model, samples.work), samples.size)
     cages: dict[str, np.ndarray] = {}
     if samples.bearings:
         stored = stored + sum(answer[-1] for answer in samples.bearings)
@@ -226,6 +226,7 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         "x": over(y[shift_of(b)] for b in planar),
         "y": over(y[shift_of(b) + 1] for b in planar),
         "moved": over(_moved(b, y, model) for b in planar),
+        "rim_wave": over(y[place] for place in rim_places(layout)),
         **{
             f"bearing_force_{name}": over(
                 [
@@ -246,6 +247,12 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
         **clutch_outputs(samples.cycles, y, model),
     }
+
+
+def rim_places(layout: TrainLayout) -> list[int]:
+    """Places of the coordinates of all rims."""
+    runs = zip(layout.rim_first, layout.rim_count, strict=True)
+    return sorted({first + e for first, count in runs for e in range(count)})
 
 
 def holding_links(model: Model) -> list[int]:

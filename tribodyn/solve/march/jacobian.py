@@ -219,7 +219,7 @@ def differentiate(place, y, f, scale, model, work, into):
     if layout.clutches > 0:
         differentiate_clutches(time, y, model, jacobian)
     if layout.coupled > 0:
-        differentiate_couplings(y, model, works + DAMPING, jacobian)
+        differentiate_couplings(place.cycle + place.phase, y, model, works, jacobian)
     if options.bearings.number > 0:
         turns = (place.cycle + place.phase) * operation.pitch_angle
         options.bearings.differentiate(turns, y, scale, model, jacobian)

@@ -141,6 +141,13 @@ class RimData:
     orders: int  # waves around the rim, from 2
     held: tuple[float, float]  # stiffness of all pins together or of the fit, radial and tangential, N/m
     damping_ratio: float  # of every mode of the rim alone
+    pins: int = 0  # that hold it, evenly spaced, one of them at x where all angles are 0; 0: a fit
+    pin_rate: Fraction = Fraction(0)  # of them that pass a planet in a cycle of the reference mesh, signed
+
+    @property
+    def pins_pass(self) -> bool:
+        """Whether its waves are so short that they see single pins."""
+        return 2 * self.orders >= self.pins > 0
 
 
 @dataclass(frozen=True)

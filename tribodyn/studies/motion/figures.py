@@ -35,6 +35,7 @@ from tribodyn.studies.motion.pictures.planet_figures import (
     orbit_figure,
     planet_load_figure,
 )
+from tribodyn.studies.motion.pictures.ring_figure import has_waves, ring_figure
 from tribodyn.studies.motion.pictures.shafts_figure import has_shafts, shafts_figure
 from tribodyn.studies.motion.pictures.train_picture import draw_train, train_figure
 
@@ -239,6 +240,7 @@ DRAWINGS: dict[str, Drawing] = {
         planet_load_figure,
         lambda record: bool(sets_of(record)),
     ),
+    "ring-shape": _held("ring-shape", "rims of rings as their waves bend them", ring_figure, has_waves),
     "orbit": _held("orbit", "orbits of the central gears of planetary sets", orbit_figure, has_orbits),
     "mesh-force": drawing(
         "force of every mesh along its pitch tangent",

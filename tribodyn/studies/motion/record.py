@@ -24,6 +24,7 @@ from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.shaft_lines import HOUSING_GEOMETRY, SHAFT_GEOMETRY, shaft_arrays
+from tribodyn.studies.motion.planetary.rims import waves_of
 from tribodyn.studies.motion.prepare import geometry_of
 
 _TIME, _BODY, _MESH, _PAIRS = ("time",), ("time", "body"), ("time", "mesh"), ("time", "mesh", "pair")
@@ -122,6 +123,14 @@ RIM: dict[str, Variable] = {
         _MESH, "m", "bending of the ring's rim at each mesh along the pitch tangent, as the driver's motion"
     ),
     "rim_across": Variable(_MESH, "m", "likewise across, from the driver's axis to the driven one's"),
+    "rim_wave": Variable(("time", "wave"), "m", "amplitudes of the waves of every rim, of its outside"),
+}
+#: In the group "geometry" then; at θ of the carrier's frame the outside of a rim moves outwards by the sum of
+#: a cos nθ + a' sin nθ, and along the circle, counter-clockwise, by that of b sin nθ − b' cos nθ.
+RIM_GEOMETRY: dict[str, Variable] = {
+    "wave_ring": Variable(("wave",), "1", "number of the body whose rim each amplitude is of"),
+    "wave_order": Variable(("wave",), "1", "order n of each amplitude; those of one are a, b, a', b'"),
+    "wave_pins": Variable(("wave",), "1", "number of the pins that hold its rim; 0: none"),
 }
 #: And of meshes in slices.
 LINE_LOAD: dict[str, Variable] = {
@@ -264,6 +273,10 @@ def record_of(prepared: PreparedGearbox, meshes: Sequence[MeshOfRun]) -> Gearbox
         scales["slice"] = np.arange(1, slices + 1)
     if any(model.layout.rim_count):
         samples = samples | RIM
+        groups["geometry"] |= waves_of(case, prepared.order)
+        tables["geometry"] = tables["geometry"] | RIM_GEOMETRY
+        axes = axes | {"wave": Variable(("wave",), "1", "amplitude of a wave of a rim")}
+        scales["wave"] = np.arange(1, len(groups["geometry"]["wave_order"]) + 1)
     if bearings:
         samples, axes = samples | of_bearings, axes | _BEARING
     if case.clutches:

@@ -12,9 +12,11 @@ v as at rest, its inertia with them; what a load inside turns the section by whi
 to the mesh, which has the rim's deflection in such a fit. Of order 0 the rotation, and of order 1 the shift,
 are those of the body; what else these have, that the rim widens and stretches, is left out.
 
-N pins of the stiffness k each, evenly spaced, hold orders below N/2 as a fit of the stiffness N k does,
-wherever they stand: Σ cos nψ_k cos mψ_k = N/2 for n = m and else 0, as long as n + m < N. So they do not vary
-the matrices of a frame that turns against them. How the rim sags between two pins are higher orders.
+N pins of the stiffness k each, evenly spaced from β on, hold a wave as a fit of the stiffness N k does and,
+where n + m = N, couple two orders: Σ cos nψ_k cos mψ_k = N/2 [δ(n, m) + δ(n + m, N) cos Nβ], with − of two
+sines, and N/2 δ(n + m, N) sin Nβ of one of each. That is exact for orders up to N − 2; the order N − 1 they
+would couple with the shift of the body. Orders below N/2 alone do not see single pins: how the rim sags
+between two of them are higher ones.
 
 Material that passes the frame with the speed s moves by D = ∂_t + s ∂_θ: M q'' + 2 s M J q' + s² M J² q, J
 being ∂_θ of the amplitudes. What a rim's own rotation against the housing adds, as its hoop tension, is left
@@ -84,6 +86,28 @@ def rim_matrices(
         gyroscopic[at, at] = 2.0 * passing * turned
         stiffness[at, at] = np.kron(np.eye(2), elastic) - (passing * n) ** 2 * twice
     return RimMatrices(mass, gyroscopic, stiffness)
+
+
+def pin_coupling(
+    orders: int, pins: int, held: tuple[float, float]
+) -> tuple[Float[Array, "amplitude amplitude"], Float[Array, "amplitude amplitude"]]:
+    """What evenly spaced pins add to the stiffness of a fit: C cos Nβ + S sin Nβ, β the angle of one of them.
+
+    `held` is as in `rim_matrices`; orders up to `pins` − 2.
+    """
+    size = PER_ORDER * (orders + 1 - FIRST_ORDER)
+    cosine, sine = np.zeros((2, size, size))
+    radial, tangential = np.divide(held, 2.0)
+    for n in range(max(FIRST_ORDER, pins - orders), orders + 1):
+        one, other = PER_ORDER * (n - FIRST_ORDER), PER_ORDER * (pins - n - FIRST_ORDER)
+        if pins - n < FIRST_ORDER:
+            continue
+        # a goes with cos nθ and a' with sin nθ, b with sin nθ and b' with −cos nθ
+        for first, second, stiffness, way in ((0, 2, radial, 1.0), (3, 1, tangential, -1.0)):
+            cosine[one + first, other + first] = stiffness
+            cosine[one + second, other + second] = -stiffness
+            sine[one + first, other + second] = sine[one + second, other + first] = way * stiffness
+    return cosine, sine
 
 
 def rows_at(rim: Rim, orders: int, angle: float, radius: float) -> Float[Array, "2 amplitude"]:

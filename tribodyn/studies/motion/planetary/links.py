@@ -1,6 +1,6 @@
 """Links of planetary sets: pins of the planets, what holds members, or keeps them at speeds of their own."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -10,11 +10,10 @@ from tribodyn.dynamics.data import BearingData
 from tribodyn.input.tables.bearings import bearing_of
 from tribodyn.studies.motion.case import HOUSING, LinkData, RimData, SetData
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
-from tribodyn.studies.motion.drivetrain.tables import PlanetaryStage
 from tribodyn.studies.motion.planetary.carriers import carrier_of
 from tribodyn.studies.motion.planetary.in_space import along_axis, on_pin
 from tribodyn.studies.motion.planetary.stages import SetPart, pin_offset
-from tribodyn.train.planetary import CARRIER
+from tribodyn.train.planetary import CARRIER, RING
 from tribodyn.train.structure import BRAKES, DRIVES
 
 #: Stiffness on its pitch circle with which a member is held where none is given, N/m: of a stiff bearing.
@@ -96,13 +95,23 @@ def behind(data: BearingData, stiffness: float) -> BearingData:
     return replace(data, stiffness_x=x, stiffness_y=y)
 
 
-def _rim(stage: PlanetaryStage) -> RimData | None:
-    rim = stage.ring_rim
+def _rim(gearset: SetPart, members: Mapping[str, int], train: TrainKinematics) -> RimData | None:
+    rim, motion = gearset.table.ring_rim, train.motion
     if rim is None:
         return None
+    ring, carrier = members[RING], members[CARRIER]
+    m = next(m for m, ends in enumerate(zip(motion.driver, motion.driven, strict=True)) if ring in ends)
+    (teeth,) = (
+        abs(train.parts.gears[gear].teeth)
+        for gear, body in zip(motion.gears[m], (motion.driver[m], motion.driven[m]), strict=True)
+        if body == ring
+    )
+    against = motion.sense[ring] * motion.ratio[ring] - motion.sense[carrier] * motion.ratio[carrier]
+    pins = rim.pins or 0
+    rate = motion.rate[m] * pins / teeth * (1 if against > 0 else -1)
     radial = (rim.stiffness or 0.0) * (rim.pins or 1)
     tangential = radial if rim.tangential_stiffness is None else rim.tangential_stiffness * (rim.pins or 1)
-    return RimData(rim.orders, (radial, tangential), rim.damping_ratio)
+    return RimData(rim.orders, (radial, tangential), rim.damping_ratio, pins, rate)
 
 
 def _radius(body: int, train: TrainKinematics, placed: PlacedTrain) -> float:
@@ -141,6 +150,6 @@ def set_data(gearset: SetPart, train: TrainKinematics, placed: PlacedTrain) -> S
         stage.held or "",
         stage.frame_forces,
         bool(stage.helix_angle),
-        _rim(stage),
+        _rim(gearset, members, train),
         carrier,
     )

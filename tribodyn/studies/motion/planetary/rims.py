@@ -1,8 +1,9 @@
 """Rings of planetary sets whose rim bends: their waves as coordinates of no body, pushed by their meshes.
 
 The waves stand in the frame of the carrier, where the planets are: what the meshes push them by is constant,
-and the rim passes with the ring's speed against the carrier. The mesh keeps the tooth and the rim
-deflected in a fit that holds its outside (`rim = "fixed"` of the gear); the waves are those of the outside.
+and the rim passes with the ring's speed against the carrier, as do the pins that hold it. The mesh keeps the
+tooth and the rim deflected in a fit that holds its outside (`rim = "fixed"` of the gear); the waves are those
+of the outside.
 """
 
 from collections.abc import Iterator, Sequence
@@ -13,10 +14,18 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.geometry.drive import Side
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox, RimData, SetData
 from tribodyn.studies.motion.planetary.frames import carried_ratio
-from tribodyn.train.coupling import CoupledMatrices
-from tribodyn.train.elastic.ring import FIRST_ORDER, PER_ORDER, Rim, rim_matrices, rows_at
+from tribodyn.train.coupling import CoupledMatrices, PassingStiffness
+from tribodyn.train.elastic.ring import (
+    FIRST_ORDER,
+    PER_ORDER,
+    Rim,
+    pin_coupling,
+    rim_matrices,
+    rows_at,
+)
 from tribodyn.train.elastic.superelement import modal_damping
 from tribodyn.train.layout import TrainLayout
 from tribodyn.train.planetary import CARRIER, RING
@@ -52,6 +61,19 @@ def rim_coordinates(case: Gearbox) -> int:
     return sum(rim.size for rim in _placed(case))
 
 
+def waves_of(case: Gearbox, bodies: Sequence[int]) -> dict[str, Float[Array, " wave"]]:
+    """Of every coordinate of the rims the body by its place among `bodies`, the order, the number of pins."""
+    rims = _placed(case)
+    rings = [bodies.index(rim.gearset.members[RING]) for rim in rims]
+    return {
+        "wave_ring": np.repeat(rings, [rim.size for rim in rims]),
+        "wave_order": np.concatenate(
+            [np.repeat(np.arange(FIRST_ORDER, rim.data.orders + 1), PER_ORDER) for rim in rims]
+        ),
+        "wave_pins": np.repeat([rim.data.pins for rim in rims], [rim.size for rim in rims]),
+    }
+
+
 def with_rims(case: Gearbox, layout: TrainLayout) -> TrainLayout:
     """The layout with the places of rims, which are the first of no body."""
     rims = _placed(case)
@@ -78,7 +100,13 @@ def rims_of(case: Gearbox, tables: Sequence[Tabulated], layout: TrainLayout) -> 
         damped = modal_damping(matrices.mass, matrices.stiffness, data.damping_ratio, rounding=0.0)
         damping = matrices.gyroscopic + damped
         places = layout.half - layout.modes + placed.first + np.arange(placed.size)
-        yield CoupledMatrices(places, matrices.stiffness, damping, matrices.mass, np.zeros(placed.size))
+        passing = ()
+        if data.pins_pass:
+            coupling = pin_coupling(data.orders, data.pins, data.held)
+            passing = (PassingStiffness(float(data.pin_rate), *coupling),)
+        yield CoupledMatrices(
+            places, matrices.stiffness, damping, matrices.mass, np.zeros(placed.size), passing
+        )
 
 
 def pushing_rims(

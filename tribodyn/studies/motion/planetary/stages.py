@@ -185,10 +185,10 @@ def _elastic(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputEr
         if held_by != "fixed":
             rule = f"counts the bending of the rim twice, for {key}.ring_rim has it"
             yield InputError(f"gear.{stage.ring}.rim", quoted(held_by), rule, "leave it out")
-        if rim.pins is not None and 2 * rim.orders >= rim.pins:
-            rule = f"{rim.pins} pins hold waves of orders below {rim.pins / 2:g} evenly, and no others"
+        if rim.pins is not None and rim.orders > rim.pins - 2:
+            rule = f"{rim.pins} pins couple waves of higher orders than {rim.pins - 2} with the ring's shift"
             yield InputError(
-                f"{key}.ring_rim.orders", rim.orders, rule, f"give at most {(rim.pins - 1) // 2}"
+                f"{key}.ring_rim.orders", rim.orders, rule, f"give at most {rim.pins - 2}, or more pins"
             )
         for name in ("pins", "tangential_stiffness"):
             if rim.stiffness is None and getattr(rim, name) is not None:

@@ -78,6 +78,7 @@ from tribodyn.studies.motion.train.supports import (
     supports_of_mesh,
 )
 from tribodyn.train.links import LINK_LAWS
+from tribodyn.train.schedule import common_period
 
 
 def _sort(mesh: Any) -> str:
@@ -149,6 +150,8 @@ def case_of(
     held |= system.supports() if system is not None else {}
     meshes = _meshes(scenario, train, placed, duty, (toml, sha256), held)
     head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
+    sets = tuple(set_data(gearset, train, placed) for gearset in train.parts.sets)
+    rims = [gearset.rim for gearset in sets if gearset.rim is not None]
     return Gearbox(
         **head,
         gears=gears,
@@ -159,7 +162,7 @@ def case_of(
         meshes=meshes,
         source=_source(scenario, train, duty),
         loads=duty.loads,
-        period=train.motion.period,
+        period=common_period([*train.motion.rate, *(rim.pin_rate for rim in rims if rim.pins_pass)]),
         max_period=scenario.solver.max_period,
         solver=solver_data(scenario.solver, teeth),
         output=output_data(
@@ -167,7 +170,7 @@ def case_of(
         ),
         sensors=sensors_of(scenario.sensor),
         housing=housing_of(scenario.housing),
-        sets=tuple(set_data(gearset, train, placed) for gearset in train.parts.sets),
+        sets=sets,
         clutches=tuple(clutch_data(part, train.numbers) for part in train.parts.clutches),
     )
 
