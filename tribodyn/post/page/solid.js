@@ -4,7 +4,7 @@ const solids = (function () {
   const AROUND = 20, LIGHT = [0.35, 0.75, 0.55];
   const RGB = { pinion: [120, 180, 222], gear: [232, 170, 120], ring: [168, 176, 186], shaft: [203, 207, 213] };
   function unpacked(solid, numbers) {
-    for (const name of ["station", "moved", "section", "bearing", "force", "spot", "spot_moved"]) solid[name] = numbers(solid[name], Float32Array);
+    for (const name of ["station", "moved", "section", "bearing", "force", "carried"]) solid[name] = numbers(solid[name], Float32Array);
     solid.frames = solid.frames && numbers(solid.frames, Uint32Array);
     for (const disc of solid.discs) disc.pose = numbers(disc.pose, Float32Array);
     solid.most = solid.force.reduce((most, one) => Math.max(most, Math.abs(one)), 1e-30);
@@ -121,23 +121,14 @@ const solids = (function () {
       line([own[0].at.slice(1), own[own.length - 1].at.slice(1)], color("--ink"), 0.8, [8 * ratio, 3 * ratio, 2 * ratio, 3 * ratio]);
       line(own.map((one) => on(one, 0, 0)), "#cc0000", 1.8);
     }
-    const near = (list, stride, at) => { for (let k = 0; k < list.length; k += stride) if (Math.hypot(list[k] - at[0], list[k + 1] - at[1], list[k + 2] - at[2]) < 1e-3) return k / stride; return -1; };
-    const spots = solid.spot.length / 3;
     for (let k = 0, n = solid.bearing.length / 4; k < n; k++) {
-      const [x, y, z, radius] = solid.bearing.subarray(4 * k, 4 * k + 4), spot = near(solid.spot, 3, [x, y, z]);
-      const first = 3 * (spots * frame + spot), d = spot < 0 ? [0, 0, 0] : Array.from(solid.spot_moved.subarray(first, first + 3));
+      const [x, y, z, radius] = solid.bearing.subarray(4 * k, 4 * k + 4), first = 3 * (n * frame + k);
+      const d = solid.carried.length ? Array.from(solid.carried.subarray(first, first + 3)) : [0, 0, 0];
       for (const [r, half] of [[1.12, 0.28], [1.6, 0.28], [1.12, -0.28], [1.6, -0.28]])
         line(Array.from({ length: 41 }, (_, i) => placed([x, y, z], d, 0, 0, r * radius, i * Math.PI / 20, half * radius)), color("--accent"), 0.9);
       const force = solid.force.subarray(2 * (n * frame + k), 2 * (n * frame + k) + 2), node = nodes.find((one) => Math.hypot(one.at[1] - x, one.at[2] - y, one.at[3] - z) < 1e-6);
       const from = node ? on(node, 0, 0) : [x, y, z], long = 0.14 * solid.size / solid.most;
       arrow(flat(from), flat([from[0] + long * force[0], from[1] + long * force[1], from[2]]));
-    }
-    for (let k = 0; k < spots; k++) {
-      const at = solid.spot.subarray(3 * k, 3 * k + 3), d = solid.spot_moved.subarray(3 * (spots * frame + k), 3 * (spots * frame + k) + 3);
-      const [x, y] = flat([at[0] + times * d[0], at[1] + times * d[1], at[2] + times * d[2]]), [x0, y0] = flat(Array.from(at));
-      context.strokeStyle = context.fillStyle = color("--accent");
-      context.beginPath(); context.moveTo(x0, y0); context.lineTo(x, y); context.stroke();
-      context.fillRect(x - 3 * ratio, y - 3 * ratio, 6 * ratio, 6 * ratio);
     }
     function arrow([x, y], [u, v]) {
       const length = Math.hypot(u - x, v - y), head = Math.min(9 * ratio, 0.5 * length);

@@ -37,20 +37,21 @@ class Solid(NamedTuple):
     discs: Sequence[CarriedDisc]
     bearing: Float[Array, "bearing 4"]  # x, y, z, radius of the shaft there
     force: Float[Array, "time bearing 2"]  # of the shaft on it, in x and y
-    spot: Float[Array, "spot 3"]  # x, y, z of places of the housing
-    spot_moved: Float[Array, "time spot 3"]
+    carried: Float[Array, "time bearing 3"]  # what the housing moves them by; of none: it is stiff
     times: float  # displacements are drawn so many times as large
 
 
 def solid_data(solid: Solid) -> dict[str, Any]:
     """A solid as the page reads it."""
     samples = len(solid.moved)
-    numbers = 3 * len(solid.station) + 6 * len(solid.discs) + 2 * len(solid.bearing) + 3 * len(solid.spot)
+    numbers = (
+        3 * len(solid.station) + 6 * len(solid.discs) + 2 * len(solid.bearing) + 3 * solid.carried.shape[1]
+    )
     frames, kept = kept_frames(samples, max(_LEAST_FRAMES, _MOST_NUMBERS // numbers))
     return {
         "frames": kept,
         "discs": [disc._asdict() | {"pose": packed(disc.pose[frames])} for disc in solid.discs],
         "times": solid.times,
-        **{name: packed(getattr(solid, name)) for name in ("station", "section", "bearing", "spot")},
-        **{name: packed(getattr(solid, name)[frames]) for name in ("moved", "force", "spot_moved")},
+        **{name: packed(getattr(solid, name)) for name in ("station", "section", "bearing")},
+        **{name: packed(getattr(solid, name)[frames]) for name in ("moved", "force", "carried")},
     }

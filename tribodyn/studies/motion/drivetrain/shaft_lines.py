@@ -44,7 +44,7 @@ SHAFT_GEOMETRY: dict[str, Variable] = {
 
 #: And of a housing that gives.
 HOUSING_GEOMETRY: dict[str, Variable] = {
-    "housing_place": Variable(("spot", "direction"), "m", "x, y, z of each seat of the housing"),
+    "seat_spot": Variable(("seat",), "1", "number of the housing's seat that each bearing is in; -1: none"),
     "housing_follows": SHAFT_GEOMETRY["station_follows"]._replace(
         dims=("spot", "direction", "place", "motion"),
         long_name="displacement of each seat of the housing, likewise",
@@ -89,7 +89,8 @@ def shaft_arrays(
     housing = system.housing
     if housing is not None:
         start = len(settled.moved) - housing.coordinates
-        rows["housing_place"] = list(housing.places)
+        held = [bearing.seat for bearing in settled.structure.bearings]
+        rows["seat_spot"] = [housing.seats.index(name) if name else -1 for name in held]
         rows["housing_follows"], rows["housing_at_rest"] = _followed(
             system, [start + housing.seat(name) for name in housing.seats]
         )

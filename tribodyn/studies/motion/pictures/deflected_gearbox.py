@@ -34,7 +34,10 @@ def deflected_gearbox(record: Record) -> Solid | None:
         x, y = place[place[:, 0] == shaft][0, 1:3]
         seats.append((x, y, z, _radius(radii, float(shaft), float(z))))
     discs = _discs(record, place, radii)
-    spots = "housing_place" in parts
+    carried = np.zeros((len(moved), 0, 3))
+    if "seat_spot" in parts:
+        spot = np.asarray(parts["seat_spot"], int)
+        carried = np.where((spot >= 0)[:, None], deflections(record, "housing")[:, spot], 0.0)
     size = float(np.hypot(np.ptp(place[:, 3]), np.max(np.ptp(place[:, 1:3], axis=0))))
     largest = float(np.max(np.abs(moved)))
     return Solid(
@@ -44,8 +47,7 @@ def deflected_gearbox(record: Record) -> Solid | None:
         discs,
         np.array(seats),
         np.stack([record["bearing_force_x"], record["bearing_force_y"]], axis=-1),
-        np.asarray(parts["housing_place"]) if spots else np.zeros((0, 3)),
-        deflections(record, "housing") if spots else np.zeros((len(moved), 0, 3)),
+        carried,
         rounded_down(_BENT * size / largest) if largest > 0.0 else 1.0,
     )
 
@@ -71,6 +73,9 @@ def _discs(record: Record, place: np.ndarray, radii: np.ndarray) -> list[Carried
         centre = (float(parts["centre"][body][0]), float(parts["centre"][body][1]))
         return CarriedDisc(name, float(z_of[body]), *sizes, teeth, twist, tooth, centre, fill, pose)
 
+    def shaft_of(body: int) -> float:
+        return float(place[np.argmin(np.hypot(*(place[:, 1:3] - parts["centre"][body]).T)), 0])
+
     found, toothed = [], set()
     for gear in gear_outlines(record):
         if gear.body not in z_of:
@@ -78,7 +83,9 @@ def _discs(record: Record, place: np.ndarray, radii: np.ndarray) -> list[Carried
         toothed.add(gear.body)
         reach = np.hypot(*gear.outline[np.all(np.isfinite(gear.outline), axis=1)].T)
         tip, root = (gear.outside, gear.outside) if gear.internal else (gear.tip_radius, float(np.min(reach)))
-        sizes = float(parts["face_width"][gear.number]), tip, root, abs(gear.bore_radius)
+        shaft = shaft_of(gear.body)
+        bore = min(abs(gear.bore_radius), _radius(radii, shaft, float(z_of[gear.body])))
+        sizes = float(parts["face_width"][gear.number]), tip, root, bore
         teeth, slope = twists[gear.number]
         twist = slope * sizes[0] / abs(gear.pitch_radius)
         tooth = float(parts["tooth_direction"][gear.number])
@@ -86,8 +93,7 @@ def _discs(record: Record, place: np.ndarray, radii: np.ndarray) -> list[Carried
         found.append(disc(gear.body, gear.name, sizes, teeth, twist, tooth))
     for body in z_of:
         if body not in toothed:
-            shaft = place[np.argmin(np.hypot(*(place[:, 1:3] - parts["centre"][body]).T)), 0]
-            radius = _WIDER * _radius(radii, float(shaft), float(z_of[body]))
+            radius = _WIDER * _radius(radii, shaft_of(body), float(z_of[body]))
             sizes = 2.0 * _FLAT * radius, radius, radius, 0.0
             found.append(disc(body, str(record["body"][body]), sizes))
     return found
