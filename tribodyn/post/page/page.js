@@ -386,7 +386,7 @@
       waits = false;
       const found = getComputedStyle(document.documentElement), sample = indexAt(record.axis, at);
       const times = solid.times * Number($("solid-factor").value);
-      $("solid-times").textContent = times ? "displacements × " + written(times).replace(/\.?0+$/, "") : "displacements not drawn";
+      $("solid-times").textContent = times ? "displacements × " + times : "displacements not drawn";
       solids.draw($("solid"), solid, solid.frames ? indexAt(solid.frames, sample) : sample, times, view, (name) => found.getPropertyValue(name).trim());
       document.body.dataset.solid = String(sample);
     });
@@ -470,7 +470,8 @@
   if (first.window[0] <= span()[0] && first.window[1] >= span()[1]) $("view").parentElement.hidden = true;
   choose($("color"), first.series.filter((one) => one.curves.length > 1).map((one) => [one.name, one.short]));
   if (first.byName[data.load]) $("color").value = data.load;
-  choose($("solid-factor"), [["1", "as proposed"], ["4", "four times that"], ["0.25", "a quarter of that"], ["0", "none"]]);
+  const bent = ((data.records.find((one) => one.solid) || {}).solid || {}).times;
+  choose($("solid-factor"), [1, 4, 0.25, 0].map((share) => [String(share), share ? "× " + share * bent : "none"]));
   choose($("which"), data.records.map((one, k) => [String(k), one.label]));
   const looks = () => {
     const sights = (data.records[which].teeth || {}).sights || [];
