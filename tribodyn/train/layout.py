@@ -120,6 +120,12 @@ def displacements(layout: TrainLayout) -> list[int]:
     return [i for i in range(layout.half) if i != layout.lag]
 
 
+def rim_places(layout: TrainLayout) -> list[int]:
+    """Places of the coordinates of all rims."""
+    runs = zip(layout.rim_first, layout.rim_count, strict=True)
+    return sorted({first + e for first, count in runs for e in range(count)})
+
+
 def velocities(layout: TrainLayout) -> list[int]:
     """Places of their rates."""
     return [layout.half + i for i in displacements(layout)]

@@ -21,7 +21,7 @@ from tribodyn.dynamics.recorded.faces import over_faces
 from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.train.bearing_forces import bearing_answers, cage_power
-from tribodyn.train.layout import TrainLayout, displacements, work_of, works_of_meshes
+from tribodyn.train.layout import displacements, rim_places, work_of, works_of_meshes
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import (
     ACROSS,
@@ -247,12 +247,6 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
         **clutch_outputs(samples.cycles, y, model),
     }
-
-
-def rim_places(layout: TrainLayout) -> list[int]:
-    """Places of the coordinates of all rims."""
-    runs = zip(layout.rim_first, layout.rim_count, strict=True)
-    return sorted({first + e for first, count in runs for e in range(count)})
 
 
 def holding_links(model: Model) -> list[int]:

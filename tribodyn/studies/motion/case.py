@@ -19,6 +19,7 @@ from tribodyn.geometry.drive import BodyMass, Side
 from tribodyn.numerics.curve import Table
 from tribodyn.sensing.data import HousingData, SensorData
 from tribodyn.solve.methods import SolverData
+from tribodyn.train.elastic.ring import RimData
 from tribodyn.train.links.law import LAW as LINEAR_LINK
 from tribodyn.train.links.law import LinkLaw
 from tribodyn.train.phases import ToothedShaft
@@ -132,22 +133,6 @@ class TrainMesh:
     #: the driven gear
     pair: LubricatedCase
     carrier: int = -1  # body that carries it; -1: the housing
-
-
-@dataclass(frozen=True)
-class RimData:
-    """What a scenario says of a ring whose rim bends."""
-
-    orders: int  # waves around the rim, from 2
-    held: tuple[float, float]  # stiffness of all pins together or of the fit, radial and tangential, N/m
-    damping_ratio: float  # of every mode of the rim alone
-    pins: int = 0  # that hold it, evenly spaced, one of them at x where all angles are 0; 0: a fit
-    pin_rate: Fraction = Fraction(0)  # of them that pass a planet in a cycle of the reference mesh, signed
-
-    @property
-    def pins_pass(self) -> bool:
-        """Whether its waves are so short that they see single pins."""
-        return 2 * self.orders >= self.pins > 0
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,8 @@ being ∂_θ of the amplitudes. What a rim's own rotation against the housing ad
 out: it counts as the square of that speed over a natural frequency of the rim.
 """
 
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
@@ -56,6 +58,22 @@ class Rim(NamedTuple):
     def thickness(self) -> float:
         """In radial direction, m."""
         return self.outside - self.inside
+
+
+@dataclass(frozen=True)
+class RimData:
+    """What a scenario says of a ring whose rim bends."""
+
+    orders: int  # waves around the rim, from 2
+    held: tuple[float, float]  # stiffness of all pins together or of the fit, radial and tangential, N/m
+    damping_ratio: float  # of every mode of the rim alone
+    pins: int = 0  # that hold it, evenly spaced, one of them at x where all angles are 0; 0: a fit
+    pin_rate: Fraction = Fraction(0)  # of them that pass a planet in a cycle of the reference mesh, signed
+
+    @property
+    def pins_pass(self) -> bool:
+        """Whether its waves are so short that they see single pins."""
+        return 2 * self.orders >= self.pins > 0
 
 
 class RimMatrices(NamedTuple):

@@ -8,11 +8,12 @@ import numpy as np
 
 from tribodyn.dynamics.data import BearingData
 from tribodyn.input.tables.bearings import bearing_of
-from tribodyn.studies.motion.case import HOUSING, LinkData, RimData, SetData
+from tribodyn.studies.motion.case import HOUSING, LinkData, SetData
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
 from tribodyn.studies.motion.planetary.carriers import carrier_of
 from tribodyn.studies.motion.planetary.in_space import along_axis, on_pin
 from tribodyn.studies.motion.planetary.stages import SetPart, pin_offset
+from tribodyn.train.elastic.ring import RimData
 from tribodyn.train.planetary import CARRIER, RING
 from tribodyn.train.structure import BRAKES, DRIVES
 

@@ -15,13 +15,14 @@ from tribodyn.errors import InputError
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.geometry.drive import Side
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.motion.case import Gearbox, RimData, SetData
+from tribodyn.studies.motion.case import Gearbox, SetData
 from tribodyn.studies.motion.planetary.frames import carried_ratio
 from tribodyn.train.coupling import CoupledMatrices, PassingStiffness
 from tribodyn.train.elastic.ring import (
     FIRST_ORDER,
     PER_ORDER,
     Rim,
+    RimData,
     pin_coupling,
     rim_matrices,
     rows_at,
