@@ -71,6 +71,14 @@ def test_the_housing_moves_as_the_forces_of_its_bearings_drive_it(tmp_path):
     assert numbers["sound_power"] < 0.1 * lost
 
 
+def test_a_housing_of_no_known_surface_is_not_heard(tmp_path):
+    scenario = written(tmp_path, sensor=[{"name": "loud", "kind": "sound", "rate": f"{RATE} Hz"}])
+    td.write_matrices(box()._replace(radiation=None), tmp_path / "housing.h5")
+    with pytest.raises(InputError, match="needs a housing by matrices with area or radiation") as refused:
+        td.run(scenario)
+    assert refused.value.key == "sensor.0.kind"
+
+
 def test_seats_that_are_not_where_the_bearings_are_are_refused(tmp_path):
     """Seats of both shafts the wrong way round, and a housing with another axis along the shafts."""
     table = written(tmp_path)
