@@ -137,6 +137,8 @@ class Contribution(NamedTuple):
     answer: Callable[[Request, Mapping[str, TaskResult]], Findings]
     #: `TEETH`: an assessment of a pair asks it, and one of a train of every mesh; of the others one of both
     of: Literal["teeth", "pair", "gearbox"] = PAIR
+    #: request -> quantities of the load along the face in static equilibrium on shafts; None: it knows none
+    face: Callable[[Request], Mapping[str, Any]] | None = None
 
 
 class Meshing(NamedTuple):

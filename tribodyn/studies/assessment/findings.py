@@ -71,6 +71,9 @@ def findings_of(
         (mesh,) = case.meshes.values()
         own = teeth[""]
         quantities, rows = {**own.quantities, **motion.quantities}, {**own.spread, **motion.spread}
+        for part in requested.motion:
+            if part.role.face is not None and (stands := part.role.face(part.request)):
+                quantities[IN_EQUILIBRIUM] = stands
         share = mesh.rated.settings.mesh_load_factor or 1.0
         only = MeshFindings(
             mesh.mesh, mesh, ("", ""), quantities, {}, own.along, motion.motion, share, rows, curves

@@ -44,7 +44,9 @@ def page(record: Record) -> str:
     front = first_page.Front(verdict(record), holds(summary), asked_for(case, summary), tiles(summary), below)
     picture = _pictures(record, [*of_teeth.get("", ()), *motion])
     if MESHES not in summary:
+        every = [face_table(summary)]
         body = [by_standard(summary), reasons(summary), picture, points(summary), factors(summary)]
+        body += [numbers_table(*table) for table in every if table.rows]
     else:
         every = [*(mesh_table(summary, part) for part in ("simulated", "iso")), face_table(summary)]
         body = [picture, *(numbers_table(*table, " meshes") for table in every if table.rows)]

@@ -136,7 +136,7 @@ def mesh_table(summary: Mapping[str, Any], part: str) -> TextTable:
 
 def face_table(summary: Mapping[str, Any]) -> TextTable:
     """Loads along the faces in static equilibrium, beside K_Hβ of the rating; without rows where none are."""
-    meshes = summary.get(MESHES, {})
+    meshes = meshes_of(summary)
     groups = {
         group: [meshes[name] for name in names if IN_EQUILIBRIUM in meshes[name]]
         for group, names in groups_of(meshes).items()

@@ -2,6 +2,7 @@
 
 import json
 import math
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +13,16 @@ from tests.support.overhung_train import overhung_train
 from tests.support.planet_sets import ASSESSED_SET
 from tests.support.train_scenarios import case_of_table
 from tests.support.verbs import invoke, sets
+from tribodyn.cases.assessment_part import Request
 from tribodyn.errors import InputError
 from tribodyn.gears.motion.tooth_loads import ToothLoads, tooth_loads
 from tribodyn.gears.prepare import assembled
+from tribodyn.input.sources import find_scenario
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.parts import assessment_parts
 from tribodyn.studies.assessment.report import face_table, of_mesh
 from tribodyn.studies.motion.check import check
+from tribodyn.studies.motion.pair.assess import face
 from tribodyn.studies.motion.train.assessable import WHOLE
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.tasks import case_of
@@ -244,6 +248,32 @@ def test_the_page_has_the_face_as_it_stands_beside_the_rating():
     assert rows["Face load factor K_Hβ"] == f"{checked['face_load_factor']:.3f}"
     assert float(rows["Helix slope that flattens the load"]) < 0.0
     assert not face_table({MESHES: {"only": {"face_load_factor": 1.25}}}).rows
+
+
+def test_a_pair_on_shafts_has_its_face_as_check_has_it():
+    """By the energy method, whatever its motion has; nothing without shafts."""
+    drawn = {"shaft": tomllib.loads(find_scenario("load-contact-shafts").read_text("utf-8"))["shaft"]}
+    tables = {
+        "drive": "helical-23-47",
+        "lubricant": "iso-vg-220-mineral",
+        "bearings": {},
+        "oil_temperature": "60 degC",
+        "damping_ratio": 0.05,
+    }
+    request = Request("Overhung", tables | drawn, 150.0, 300.0, (), (), ("none",), 0.0, ())
+    stands = face(request)
+    scenario = {name: tables[name] for name in ("drive", "lubricant")} | {
+        "title": "The same",
+        "kind": "gear-pair",
+        "operating": request.operating(),
+        "mesh": {"damping_ratio": 0.05},
+        "friction": {"law": "none"},
+    }
+    checked = check(case_of_table(scenario | drawn)).data
+    assert stands["face_load_factor"] == pytest.approx(checked["face_load_factor"], rel=1e-6)
+    assert stands["face_load_factor"] > 2.0
+    assert face_table({"face_load_factor": 2.4, "equilibrium": stands}).rows
+    assert not face(request._replace(tables=tables))
 
 
 def test_loads_of_a_slower_mesh_are_those_of_its_teeth():

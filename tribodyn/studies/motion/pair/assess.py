@@ -1,6 +1,8 @@
 """The part in an assessment of a pair: steady states over the speed, and loads of the teeth at the duty."""
 
 from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -9,6 +11,8 @@ from tribodyn.gears.motion.tooth_loads import tooth_loads
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion import PAIR as STUDY
 from tribodyn.studies.motion.over_speed import speed_findings, speed_tasks
+from tribodyn.studies.motion.train.assessable import faces
+from tribodyn.studies.protocol.load import load_data
 
 _AT_DUTY = "steady-duty"
 #: Mesh cycles until the motion at the duty counts as steady, and samples of each, for vibrations of some ten
@@ -24,8 +28,16 @@ def tasks(request: Request) -> tuple[Task, ...]:
 
     The oil is taken as it enters, for friction changes the loads little.
     """
+    scenario = _scenario(request)
+    over_time = {"solver": {"cycles": _CYCLES}, "output": {"samples_per_cycle": _RESOLVED}}
+    about = "loads of the teeth over time at the duty"
+    first, *others = speed_tasks(request, scenario, _SPEED, slices=_SLICES)
+    return first, Task(_AT_DUTY, about, scenario | over_time, needed=False), *others
+
+
+def _scenario(request: Request) -> dict[str, Any]:
     tables = request.tables
-    scenario = {
+    return {
         "title": request.title,
         "kind": STUDY.kind,
         "drive": tables["drive"],
@@ -36,10 +48,16 @@ def tasks(request: Request) -> tuple[Task, ...]:
         "friction": {"law": request.laws[0]},
         **{name: tables[name] for name in ("shaft", "film") if name in tables},
     }
-    over_time = {"solver": {"cycles": _CYCLES}, "output": {"samples_per_cycle": _RESOLVED}}
-    about = "loads of the teeth over time at the duty"
-    first, *others = speed_tasks(request, scenario, _SPEED, slices=_SLICES)
-    return first, Task(_AT_DUTY, about, scenario | over_time, needed=False), *others
+
+
+def face(request: Request) -> dict[str, float]:
+    """The load along the face on drawn shafts or matrices, by the energy method; nothing without these."""
+    if not request.supports():
+        return {}
+    case = load_data(_scenario(request), "face").case
+    if case.pair.drive.helix_angle:  # spur gears are cut anyhow
+        case = case.with_pair(mesh=replace(case.pair.mesh, compliance="energy"))
+    return next(iter(faces(case).values()), {})
 
 
 def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
@@ -58,4 +76,4 @@ def _loads(run: TaskResult) -> dict[str, np.ndarray]:
     return of_teeth._asdict()
 
 
-ROLE = Contribution(2, "Steady states over the speed", tasks, answer)
+ROLE = Contribution(2, "Steady states over the speed", tasks, answer, face=face)
