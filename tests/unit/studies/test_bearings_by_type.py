@@ -149,6 +149,8 @@ def test_bearings_of_every_type_are_taken(bearing: dict[str, Any]):
         (TYPES["spherical"] | {"elements": 22}, "elements", "fit side by side"),
         (FLOATING["toroidal"] | {"raceway_radius": "30 mm"}, "raceway_radius", "not larger"),
         (FLOATING["needle"] | {"rows": 1}, "row_distance", "no effect"),
+        (FLOATING["toroidal"] | {"force": "in-time"}, "force", 'no law for type = "toroidal-roller"'),
+        (FLOATING["floating"] | {"force": "in-time"}, "force", "no law for a pair whose rings slide"),
         (BARRELS | {"type": "toroidal-roller"}, "raceway_radius", "missing"),
         ({"stiffness_x": "1e8 N/m", "arrangement": "O"}, "arrangement", "type is missing"),
     ],

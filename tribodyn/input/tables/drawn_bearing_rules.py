@@ -198,9 +198,12 @@ def _broken_sizes(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
             yield InputError(
                 f"{key}.contact_angle", shown, rule, "write 10 to 45 deg, as the catalogue has it"
             )
-    if bearing.force != "linear" and bearing.type in _ALIGNING:
-        rule = f"has no law for type = {quoted(bearing.type)}, whose elements align themselves"
-        yield InputError(f"{key}.force", quoted(bearing.force), rule, "leave force out")
+    rows = bearing.arrangement is not None or bearing.type == "four-point-contact-ball"
+    sliding = rows and not bearing.locating
+    if bearing.force != "linear" and (sliding or bearing.type == "toroidal-roller"):
+        what = "a pair whose rings slide" if sliding else f"type = {quoted(bearing.type)}"
+        rule, remedy = f"has no law for {what}", "leave force out"
+        yield InputError(f"{key}.force", quoted(bearing.force), rule, remedy)
     length, distance = bearing.roller_length, bearing.row_distance
     if length is not None and size and length > _LONGEST * size:
         rule = f"is more than {_LONGEST:g} times the rollers' diameter, {shown_length(size)}"
@@ -257,10 +260,6 @@ def _overloaded(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
             return
         remedy = "check its unit: fits are micrometres"
         yield InputError(f"{key}.{name}", shown_length(getattr(bearing, name)), rule, remedy)
-
-
-#: Types whose rolling elements align themselves.
-_ALIGNING = ("self-aligning-ball", "spherical-roller", "toroidal-roller")
 
 
 def shown_length(length: float) -> str:

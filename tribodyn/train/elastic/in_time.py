@@ -16,6 +16,7 @@ from tribodyn.train.elastic.rolling_bearing import (
     BearingState,
     RollerRow,
     ball_constant,
+    centres_apart,
     roller_constant,
 )
 
@@ -76,14 +77,17 @@ class RowInTime(NamedTuple):
 
 
 def row_in_time(row: BallRow | RollerRow) -> RowInTime:
-    """What the forces in time of a row take; forces are those of `rolling_bearing.answer`."""
-    assert not row.aligning
+    """What the forces in time of a row take; forces are those of `rolling_bearing.answer`.
+
+    Points of a row that aligns itself are in the bearing's middle, which no tilt moves.
+    """
     around = 2.0 * np.pi * np.arange(row.elements) / row.elements
     sine, cosine = np.sin(row.contact_angle), np.cos(row.contact_angle)
     normal = cosine, row.thrust * sine
     if isinstance(row, BallRow):
-        apart = (2.0 * row.conformity - 1.0) * row.diameter
+        apart = centres_apart(row)
         radius = row.pitch_diameter / 2.0 + (row.conformity - 0.5) * row.diameter * cosine
+        radius = 0.0 if row.aligning else radius
         rest = apart * cosine - row.clearance / 2.0, row.thrust * (apart * sine + row.preload)
         return RowInTime(
             BALLS, ball_constant(row), apart, normal, around, np.array([[radius, row.offset, *rest]])
@@ -92,6 +96,10 @@ def row_in_time(row: BallRow | RollerRow) -> RowInTime:
     point = np.zeros((SLICES, 4))
     point[:, 0], point[:, 1] = row.pitch_diameter / 2.0 - place * normal[1], row.offset + place * cosine
     point[:, 2] = abs(normal[1]) * row.preload - cosine * row.clearance / 2.0
+    if row.aligning:
+        assert np.isinf(row.centres)
+        point[:, :2] = 0.0
+        point[:, 2] -= row.crown * place**2 / 2.0
     if row.profiled:
         point[:, 2] += 2.0 * PROFILE * row.diameter * np.log(1.0 - (2.0 * place / row.length) ** 2)
     return RowInTime(ROLLERS, roller_constant(row) / SLICES, 0.0, normal, around, point)
