@@ -20,7 +20,9 @@ from tests.support.train_scenarios import case_of_table
 from tribodyn.errors import InputError
 from tribodyn.gears.case import STAGES
 from tribodyn.record.reader import Record
-from tribodyn.studies.motion.frequencies import of_sets
+from tribodyn.signals.lines import FAULT
+from tribodyn.studies.motion.frequencies import lines_of, of_sets
+from tribodyn.studies.motion.planetary.powers import flow_of
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.run import run
 from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly
@@ -154,6 +156,22 @@ def test_stepped_planets_have_two_mesh_frequencies():
     assert rates["rin"] / rates["sun"] == pytest.approx(expected["ring"] / expected["sun"], rel=1e-12)
 
 
+def test_teeth_of_every_gear_meet_their_mates_as_often_as_these_pass():
+    """Of gears on the axis: planets past them; of planets: their own turns in the carrier's frame."""
+    case = case_of_table(ravigneaux_set())
+    speeds, arms = turning(case), 3
+    passing = {name: abs(float(speeds[name] - speeds["carrier"])) for name in speeds}
+    orders = {line.name: line.order for line in lines_of(prepare(case)) if line.sort == FAULT}
+    expected = {"sun": arms * passing["sun"], "second sun": arms * passing["large"]}
+    expected |= {"planet": passing["planet-1"], "second planet": passing["step-1"]}
+    for name, order in expected.items():
+        found = orders.get(f"{name} tooth of set")
+        if found is None:  # one line for what is equal
+            assert any(other == pytest.approx(order, rel=1e-12) for other in orders.values())
+        else:
+            assert found == pytest.approx(order, rel=1e-12)
+
+
 def test_stepped_planets_fit_where_one_of_their_places_does(rng):
     """Every place of a planet tried: turned about its axis by pitches, with its first gear in its gaps."""
     fitted = 0
@@ -201,6 +219,14 @@ def test_energy_closes_and_planets_share(record):
     assert abs(summary["energy_residual"]) < 1e-6
     assert stage["power_friction_mean"] == pytest.approx(summary["power_friction_mean"], rel=1e-9)
     np.testing.assert_allclose(stage["planet_shares"], 1.0 / 3.0, atol=2e-3)
+
+
+def test_efficiency_is_that_of_slow_rotation(record):
+    """Of the motion's friction, against the quasi-static losses of all meshes by Willis."""
+    case, found = record
+    flow = flow_of(prepare(case))
+    lost = 1.0 - found.summary[STAGES]["set"]["efficiency"]
+    assert lost == pytest.approx(1.0 - flow.efficiency, rel=0.1)
 
 
 def test_pins_bear_what_the_carrier_passes_on(record):

@@ -19,7 +19,7 @@ from tribodyn.signals.lines import (
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of, together
 from tribodyn.studies.motion.planetary.results import meshes_of_member
-from tribodyn.train.planetary import CARRIER, RING, SECOND_SUN, SUN
+from tribodyn.train.planetary import CARRIER, IN_PAIRS, RING, SECOND_SUN, SUN
 
 
 def mesh_frequencies(prepared: PreparedGearbox) -> list[float]:
@@ -101,12 +101,18 @@ def lines_of(prepared: PreparedGearbox) -> tuple[SignalLine, ...]:
     for number, body in zip(prepared.order, prepared.bodies, strict=False):
         if number not in planets and body.ratio:
             lines.append(SignalLine(body.name, SHAFT, float(body.ratio)))
-    for name, gearset in of_sets(prepared).items():
+    for own, (name, gearset) in zip(case.sets, of_sets(prepared).items(), strict=True):
         lines += [
             SignalLine(f"planets of {name} pass", PASS, gearset.planet_pass / shaft),
             SignalLine(f"sun tooth of {name}", FAULT, gearset.sun_fault / shaft),
             SignalLine(f"planet tooth of {name}", FAULT, gearset.planet_fault / shaft),
         ]
+        order = gearset.mesh / shaft
+        if own.teeth.kind in IN_PAIRS:
+            lines.append(SignalLine(f"second planet tooth of {name}", FAULT, order / own.teeth.second_planet))
+        if own.teeth.second_sun:
+            fault = own.arms * order / own.teeth.second_sun
+            lines.append(SignalLine(f"second sun tooth of {name}", FAULT, fault))
     for mesh, frequency in zip(case.meshes, mesh_frequencies(prepared), strict=True):
         if mesh.carrier < 0:
             one, two = (int(abs(case.gears[gear].teeth)) for gear in mesh.gears)

@@ -97,7 +97,8 @@ def power_table(prepared: PreparedGearbox, powers: dict[str, Any]) -> tuple[list
     for name, members in of["members"].items():
         for member, values in members.items():
             torque, power = values["torque"], values["power"]
-            rows.append((f"into {name} at the {member}", f"{torque:.5g}", *_cells(power, put_in), ""))
+            where = f"into {name} at the {member.replace('_', ' ')}"
+            rows.append((where, f"{torque:.5g}", *_cells(power, put_in), ""))
             if abs(power) > put_in * (1.0 + _ROUNDING):
                 circling.append((abs(power), f"the power at the {member} of {name}"))
     title = f"Power flow by Willis, with losses in slow rotation: efficiency {100.0 * of['efficiency']:.3f} %"
