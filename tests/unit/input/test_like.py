@@ -1,5 +1,6 @@
 """`like` with keys of one's own is what `--set` of the same keys gives: every model and nested table."""
 
+import shutil
 import tomllib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -72,6 +73,8 @@ def test_keys_of_ones_own_over_a_model(tmp_path: Path, name: str, key: tuple[str
             place = place.setdefault(part, {})
         place[leaf[-1]] = value
     at(written, key[:-1])[key[-1]] = changed
+    for beside in find_scenario(name).parent.glob("*.csv"):  # columns that a scenario names
+        shutil.copy(beside, tmp_path)
     path = tmp_path / f"{name}.toml"
     path.write_text(tomli_w.dumps(written), encoding="utf-8")
     overrides = {".".join(map(str, (*key, *leaf))): value for leaf, value in own.items()}
