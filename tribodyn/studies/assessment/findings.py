@@ -84,10 +84,8 @@ def findings_of(
     with Record(done[DUTY].path) as record:
         for mesh in case.whole.meshes(case.gearbox.case):
             of_teeth = teeth.get(mesh.alike or mesh.name, Findings({}))
-            found = _of_mesh(case, mesh, run, of_teeth, motion, record)
-            if mesh.name in faces:
-                found = found._replace(quantities={**found.quantities, IN_EQUILIBRIUM: faces[mesh.name]})
-            meshes[mesh.name] = found
+            stands = faces.get(mesh.name, {})
+            meshes[mesh.name] = _of_mesh(case, mesh, run, of_teeth, motion, record, stands)
     at_duty = {name: run[name] for name in _OF_GEARBOX if run.get(name) is not None}
     over_speed = _over_speed(curves, run, case.speed)
     of_input = {"input_speed": case.speed, **motion.quantities, **at_duty, STAGES: run.get(STAGES, {})}
@@ -102,13 +100,19 @@ def _of_mesh(
     teeth: Findings,
     motion: Findings,
     record: Record,
+    stands: Mapping[str, Any],
 ) -> MeshFindings:
-    """A mesh by the run at the duty, whose loads are those of its teeth."""
+    """A mesh by the run at the duty, whose loads are those of its teeth.
+
+    Where these cannot be pressed together its K_Hβ is that in equilibrium, where it `stands`.
+    """
     of_run, rated = run[MESHES][mesh.name], case.meshes.get(mesh.name)
     stage, number = run.get(STAGES, {}).get(mesh.stage, {}), record.meshes.index(mesh.name)
     given = case.settings.mesh_load_factor if mesh.stage else None
     share = float(stage.get("mesh_load_factor", 1.0)) if given is None else given
-    quantities = {"face_load_factor": 1.0, **teeth.quantities}
+    quantities = {"face_load_factor": stands.get("face_load_factor", 1.0), **teeth.quantities}
+    if stands:
+        quantities[IN_EQUILIBRIUM] = stands
     quantities |= {name: of_run[name] for name in _OF_MESH if of_run.get(name) is not None}
 
     def of_this(every: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import tomli_w
 
 from tests.support.overhung_train import overhung_train
 from tests.support.planet_sets import ASSESSED_SET
@@ -21,6 +22,7 @@ from tribodyn.input.sources import find_scenario
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.parts import assessment_parts
 from tribodyn.studies.assessment.report import face_table, of_mesh
+from tribodyn.studies.assessment.run import quantities_of
 from tribodyn.studies.motion.check import check
 from tribodyn.studies.motion.pair.assess import face
 from tribodyn.studies.motion.train.assessable import WHOLE
@@ -274,6 +276,24 @@ def test_a_pair_on_shafts_has_its_face_as_check_has_it():
     assert stands["face_load_factor"] > 2.0
     assert face_table({"face_load_factor": 2.4, "equilibrium": stands}).rows
     assert not face(request._replace(tables=tables))
+
+
+@pytest.mark.slow
+def test_a_face_too_skew_to_be_pressed_is_rated_as_it_stands(tmp_path: Path):
+    train = overhung_train(mesh={"damping_ratio": 0.05, "slices": 7}, solver={"cycles": 2})
+    (tmp_path / "train.toml").write_text(tomli_w.dumps(train | {"quality": 6}), "utf-8")
+    scenario = {
+        "title": "Skew",
+        "kind": "train-assessment",
+        "scenario": {"like": "train.toml"},
+        "assessment": {"speeds": 0, "samples": 0},
+    }
+    path = tmp_path / "skew.toml"
+    path.write_text(tomli_w.dumps(scenario), "utf-8")
+    (mesh,) = quantities_of(load_scenario(path))[MESHES].values()
+    assert "pinion_root_tension_max" not in mesh
+    assert mesh["face_load_factor"] == mesh["equilibrium"]["face_load_factor"] > 2.0
+    assert mesh["load_factors"]["K_Hbeta"] == mesh["face_load_factor"]
 
 
 def test_loads_of_a_slower_mesh_are_those_of_its_teeth():
