@@ -17,6 +17,7 @@ from tribodyn.dynamics.modes import linearised, modes
 from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import InputError
 from tribodyn.interface.scenario import scenario
+from tribodyn.kernels.native.arguments import packed
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.march.jacobian import Differences, differentiate
@@ -24,6 +25,7 @@ from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
 from tribodyn.studies import STUDIES
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
+from tribodyn.train.bearing_forces import IN_TIME
 from tribodyn.train.elastic.rolling_bearing import BallRow
 from tribodyn.train.layout import displacements, velocities
 
@@ -189,12 +191,27 @@ def test_frequencies_and_lines_of_a_bearing():
     assert any("Bearings in time" in table.title for table in found.tables)
 
 
+def test_numbers_are_not_compiled_in():
+    """Clearance, sizes, how many balls: the same machine code, which linear bearings have nothing of."""
+    other = BALL | {"elements": 8, "clearance": "20 um", "element_diameter": "13 mm", "force": "in-time"}
+    shafts = shafts_of(FLOATING)
+    shafts["gear"]["bearing"][0] |= other
+    changed = prepare(scenario("involute-23-47", PLAIN | {"shaft": shafts})).model
+    model, linear = prepared("ball", "in-time").model, prepared("ball", "linear").model
+    assert packed(changed).layout is packed(model).layout
+    assert IN_TIME.act not in linear.options.bearings
+
+
 def test_it_is_refused_where_it_means_nothing(tmp_path):
     springs = {"stiffness_x": "1e9 N/m", "stiffness_y": "1e9 N/m", "stiffness_axial": "1e8 N/m"}
     shaft = {"pinion": on_bearings(BALL, springs)}
     with pytest.raises(InputError, match="that of rolling elements, and type is missing") as refused:
         scenario("involute-23-47", {"shaft": shaft})
     assert refused.value.key == "shaft.pinion.bearing.1.force"
+    aligning = {"type": "self-aligning-ball", "contact_angle": "10 deg", "position": "15 mm"}
+    sizes = {name: BALL[name] for name in ("elements", "element_diameter", "pitch_diameter")}
+    with pytest.raises(InputError, match="elements align themselves"):
+        scenario("involute-23-47", {"shaft": {"pinion": on_bearings(BALL, aligning | sizes)}})
     vary = {"operating.pinion_speed": ["10 rad/s", "20 rad/s"]}
     with pytest.raises(InputError, match="nothing repeats"):
         td.sweep("involute-23-47", vary, {"shaft": shafts_of()}, output=tmp_path / "s.h5")
