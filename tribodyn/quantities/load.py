@@ -307,7 +307,8 @@ PROPOSED = (
         "face_load_factor_helix_slope", "Face load factor with it", digits=".3f", symbol="K_Hβ"
     ).defined_as("Of the gearbox computed again with this helix angle modification, of all meshes together."),
     Quantity("proposed_crowning", "Crowning that flattens the load", "µm", ".3g").defined_as(
-        "crowning of the driving gear in place of a helix angle: √3/4 of what tilts and misalignment open."
+        "crowning of the driving gear in place of a helix angle, by which both gears have √3/4 of what tilts "
+        "and misalignment open."
     ),
     Quantity("face_load_factor_crowning", "Face load factor with it", digits=".3f", symbol="K_Hβ").defined_as(
         "Of the gearbox computed again with this crowning, of all meshes together."

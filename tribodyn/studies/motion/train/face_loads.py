@@ -91,11 +91,12 @@ def spread_of(prepared: PreparedGearbox, phases: int = PHASES) -> Spread:
 def flattened(spread: Spread, phases: int = PHASES) -> tuple[dict[str, Any], ...]:
     """Propose for every mesh what makes its load more even, and compute K_Hβ with it; by catalogue names.
 
-    On the driving gear, beside what it has: a helix angle that undoes what tilts and misalignment open under
-    a load in the middle of the face; or, where that is not to be ground, a crowning of √3/4 of what they open
-    under their load. That is the one of the smallest maximum line load where the whole face touches, with
-    uniform stiffness c per length, misalignment f over the face, mean line load q: K_Hβ − 1 falls from
-    c f/(2 q) to c f/(2 √3 q). Nothing for meshes that are not cut into slices.
+    On the driving gear: a helix angle that undoes what tilts and misalignment open under a load in the middle
+    of the face, beside its crowning; or, where that is not to be ground, the crowning with which both gears
+    have √3/4 of what they open under their load. That is the one of the smallest maximum line load where the
+    whole face touches, with uniform stiffness c per length, misalignment f over the face, mean line load q:
+    K_Hβ − 1 falls from c f/(2 q) to c f/(2 √3 q). Nothing for meshes that are not cut into slices, and
+    nothing that makes no load more even: a face that is crowned already may have more than that.
     """
     case, found = spread.prepared.case, [dict[str, Any]() for _ in spread.meshes]
     for name, of_mesh, tilt in (("helix_slope", _helix, _middle), ("crowning", _crowning, _under_load)):
@@ -108,8 +109,8 @@ def flattened(spread: Spread, phases: int = PHASES) -> tuple[dict[str, Any], ...
         tables = tables_about(changed, [tilt(spread, m) for m in range(len(meshes))], coarse=True)
         changed = replace(assemble(changed.case, tables, changed.twist), near=changed.near)
         again = spread_of(changed, phases)
-        for proposal, amount, loads in zip(found, amounts, again.meshes, strict=True):
-            if loads is not None:
+        for proposal, amount, before, loads in zip(found, amounts, spread.meshes, again.meshes, strict=True):
+            if before is not None and loads is not None and loads.factor < before.factor:
                 proposal[f"proposed_{name}"] = amount
                 proposal[f"face_load_factor_{name}"] = loads.factor
     return tuple(found)
@@ -147,9 +148,10 @@ def _helix(spread: Spread, m: int, loads: FaceLoads) -> float:
 def _crowning(spread: Spread, m: int, loads: FaceLoads) -> float:
     pair, cycle = spread.prepared.case.meshes[m].pair, spread.prepared.tables[m].cycle
     lift = _lift(spread, m, loads.misalignment / float(cycle.face_width))
-    (flank, body), _ = _gears(pair)
-    share = float(body.face_width) / float(cycle.face_width)
-    return flank.lead.crowning + math.sqrt(3.0) / 4.0 * abs(lift) * share**2
+    (_, body), (mate, other) = _gears(pair)
+    width, whole = float(cycle.face_width), math.sqrt(3.0) / 4.0 * abs(lift)
+    left = whole - mate.lead.crowning * (width / float(other.face_width)) ** 2
+    return max(left, 0.0) * (float(body.face_width) / width) ** 2
 
 
 def _middle(spread: Spread, m: int) -> Misalignment:
