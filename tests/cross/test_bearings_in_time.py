@@ -208,10 +208,6 @@ def test_it_is_refused_where_it_means_nothing(tmp_path):
     with pytest.raises(InputError, match="that of rolling elements, and type is missing") as refused:
         scenario("involute-23-47", {"shaft": shaft})
     assert refused.value.key == "shaft.pinion.bearing.1.force"
-    aligning = {"type": "self-aligning-ball", "contact_angle": "10 deg", "position": "15 mm"}
-    sizes = {name: BALL[name] for name in ("elements", "element_diameter", "pitch_diameter")}
-    with pytest.raises(InputError, match="elements align themselves"):
-        scenario("involute-23-47", {"shaft": {"pinion": on_bearings(BALL, aligning | sizes)}})
     vary = {"operating.pinion_speed": ["10 rad/s", "20 rad/s"]}
     with pytest.raises(InputError, match="nothing repeats"):
         td.sweep("involute-23-47", vary, {"shaft": shafts_of()}, output=tmp_path / "s.h5")
