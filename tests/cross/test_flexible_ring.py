@@ -17,11 +17,12 @@ from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.solve.transient import TransientSettings
+from tribodyn.studies.motion.batch.gearboxes import states_of
 from tribodyn.studies.motion.pictures.ring_figure import bent_rim, ring_figure
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.run import run
 from tribodyn.train.coupling import coupling_forces
-from tribodyn.train.elastic.pin import Pin, pin_stiffness
+from tribodyn.train.elastic.pin import Mounting, Pin, pin_stiffness
 from tribodyn.train.elastic.ring import Rim, pin_coupling, rim_matrices, rows_at
 
 STIFF = {"orders": 4, "stiffness": "1e15 N/m"}
@@ -77,10 +78,18 @@ def test_a_pin_is_in_series_with_its_bearing():
         assert link.stiffness[0] == pytest.approx(1.0 / (1.0 / 3e8 + 1.0 / given), rel=1e-12)
 
 
+def test_a_sweep_has_a_place_for_every_state_and_mode():
+    prepared = prepared_set(ring_rim=STIFF)
+    names, count = states_of(prepared.case)
+    assert len(names) == len(set(names)) == prepared.model.layout.states
+    assert count == len(modes(prepared.model, [made.cycle for made in prepared.tables]).frequency)
+
+
 def test_slender_pins_are_beams_without_shear():
     modulus, diameter = 206e9, 0.01
     moment = np.pi / 64.0 * diameter**4
-    for mounting, factor in (("cantilever", 3.0), ("straddle", 192.0)):
+    factors: dict[Mounting, float] = {"cantilever": 3.0, "straddle": 192.0}
+    for mounting, factor in factors.items():
         found = pin_stiffness(Pin(mounting, diameter, 5.0, 0.0, modulus, 0.3))
         assert found == pytest.approx(factor * modulus * moment / 125.0, rel=1e-3)
 

@@ -276,11 +276,15 @@ def _layout(case: Gearbox, new: dict[int, int]) -> TrainLayout:
         frames=int(bool(case.sets)),
         clutches=[(new[one.ends[0]], new.get(one.ends[1], GROUND)) for one in case.clutches],
         carriers=[new.get(mesh.carrier, GROUND) for mesh in case.meshes],
-        modes=(case.system.reduced.modes if case.system is not None else 0)
-        + rim_coordinates(case)
-        + sum(carrier_coordinates(gearset) for gearset in case.sets),
+        modes=coordinates_of_no_body(case),
     )
     return with_rims(case, layout)
+
+
+def coordinates_of_no_body(case: Gearbox) -> int:
+    """Number of those of shafts and housing, of rims and of carriers, behind the bodies'."""
+    of_shafts = case.system.reduced.modes if case.system is not None else 0
+    return of_shafts + rim_coordinates(case) + sum(carrier_coordinates(gearset) for gearset in case.sets)
 
 
 def geometry_of(prepared: PreparedGearbox) -> dict[str, np.ndarray]:

@@ -19,7 +19,7 @@ from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
 from tribodyn.studies.motion.case import Gearbox, refuse_long_period
 from tribodyn.studies.motion.planetary.frames import rolling_of
 from tribodyn.studies.motion.planetary.results import meshes_of_set, stage_quantities, worst_stage
-from tribodyn.studies.motion.prepare import structure_of
+from tribodyn.studies.motion.prepare import coordinates_of_no_body, structure_of
 from tribodyn.studies.motion.summary import concluded, meshes_of_run, steady_quantities
 from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
 
@@ -68,7 +68,9 @@ def states_of(case: Gearbox) -> tuple[tuple[str, ...], int]:
     meshes = [mesh.name for mesh in case.meshes]
     if not case.named:
         names, meshes = [name[0] for name in names], [""]
-    return state_names(names, planar, meshes, spatial), 2 * planar + len(names) + 3 * spatial - 1
+    further = coordinates_of_no_body(case)
+    every = state_names(names, planar, meshes, spatial, further)
+    return every, 2 * planar + len(names) + 3 * spatial + further - 1
 
 
 def keys_of_tables(case: Gearbox) -> Hashable:

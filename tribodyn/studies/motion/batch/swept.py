@@ -149,9 +149,12 @@ def row_bytes(layout: SweepLayout, settings: SweepSettings) -> float:
 
 
 def state_names(
-    bodies: Sequence[str], planar: int, meshes: Sequence[str], spatial: int = 0
+    bodies: Sequence[str], planar: int, meshes: Sequence[str], spatial: int = 0, further: int = 0
 ) -> tuple[str, ...]:
-    """Names of the states, see `train.structure`; works of a mesh without a name have none behind them."""
+    """Names of the states, see `train.structure`; works of a mesh without a name have none behind them.
+
+    `further` is the number of coordinates of no body.
+    """
     displacement, rate = [], []
     for b, body in enumerate(bodies):
         if b < planar:
@@ -161,6 +164,8 @@ def state_names(
         rate.append(f"spin_{body}" if b else "slip")
     displacement += [f"{name}_{body}" for body in bodies[:spatial] for name in ("z", "tilt_x", "tilt_y")]
     rate += [f"{name}_{body}" for body in bodies[:spatial] for name in ("vz", "spin_x", "spin_y")]
+    displacement += [f"wave_{number}" for number in range(1, further + 1)]
+    rate += [f"vwave_{number}" for number in range(1, further + 1)]
     works = ["work_in", "work_out", "work_damping", "work_parametric"]
     works += [f"work_{what}_{mesh}".rstrip("_") for mesh in meshes for what in ("friction", "sliding")]
     return *displacement, *rate, *works
