@@ -158,6 +158,8 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
         "carried",
         "frame_speed",
         "place",
+        "bearings",
+        "clutches",
     }
     for part, numbers in expected.items():
         assert set(numbers) == set(getattr(found, part)._fields) - empty
