@@ -72,6 +72,7 @@ class Operation(NamedTuple):
     load_frequencies: Float[Array, " harmonic"]
     load_phases: Float[Array, " harmonic"]
     clutches: Clutches = Clutches()
+    start_slip: Any = 0.0  # of the reference at the start, above its nominal speed, rad/s
 
 
 class Model(NamedTuple):

@@ -44,16 +44,19 @@ class Choice(NamedTuple):
 
 
 def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
-    """Steps per mesh cycle that an explicit method needs for stability.
+    """Steps per mesh cycle that an explicit method needs for stability at nominal speed.
 
     The spectral radius of the mechanics' Jacobian over the stability limit, integrated over the phase; it is
     sampled finely about the pitch points, where friction reverses, if it is far above the usual there.
+    Clutches count as they will close.
     """
+    state = state.copy()
+    state[model.layout.half + model.layout.lag] = 0.0
     cycles, radius = _spectral_radii(model, state, PITCH_POINT)
     if np.max(radius) > STEEP * np.median(radius):
         cycles, radius = _spectral_radii(model, state, REVERSAL)
     whole = float(np.sum(0.5 * np.diff(cycles) * (radius[1:] + radius[:-1])))
-    return whole / float(cycles[-1] - cycles[0]) / REAL_STABILITY
+    return max(whole / float(cycles[-1] - cycles[0]) / REAL_STABILITY, _closing_steps(model))
 
 
 def _closing_steps(model: Model) -> float:
@@ -140,7 +143,7 @@ def choose(method: str, model: Model, state: Float[Array, " state"]) -> Choice:
     """Return the method to use: the user's, or explicit unless stability makes that too expensive."""
     if method != AUTO:
         return Choice(method, "chosen in the scenario")
-    steps, sliding = max(stability_steps(model, state), _closing_steps(model)), model.options.sliding
+    steps, sliding = stability_steps(model, state), model.options.sliding
     needed = f"explicit stability needs {steps:.0f} steps per mesh cycle"
     stiff, switching = STIFF_ABOVE[sliding], SWITCHING_ABOVE[sliding]
     if steps > stiff:

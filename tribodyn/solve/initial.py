@@ -208,9 +208,8 @@ def _begin(model: Model, phase: float, interval: int, apart: list[dict[float, li
         start, nearer = _settled_shafts(model)
         pressed = closed_state(model, np.array(side) * clear - nearer, torques) + start
     closed = closed_state(model, touch, torques)
-    if torques.clutches is not None:
-        for body in range(1, model.layout.bodies):
-            closed[model.layout.half + turn_of(body, model.layout)] = torques.clutches.rate[body]
+    half = model.layout.half
+    closed[half:] = _starting(model, torques.clutches)[half:]
     return _Begin(closed, pressed, sizes_of(model, deflection), side, torques.clutches)
 
 
@@ -285,9 +284,15 @@ def initial_state(model: Model, kind: str) -> Float[Array, " state"]:
     """State at the start of a run: "static" equilibrium, or "unloaded" with the flanks just touching."""
     if kind == "static":
         return static_equilibrium(model)
+    unbalanced = np.array(model.bodies.load, dtype=float)
+    return _starting(model, standing(model, unbalanced) if model.layout.clutches else None)
+
+
+def _starting(model: Model, stand: Standing | None) -> Float[Array, " state"]:
+    """State of undisplaced bodies with the rates that they start with."""
     layout, y = model.layout, np.zeros(model.layout.states)
-    if layout.clutches:
-        rate = standing(model, np.array(model.bodies.load, dtype=float)).rate
+    if stand is not None:
         for body in range(1, layout.bodies):
-            y[layout.half + turn_of(body, layout)] = rate[body]
+            y[layout.half + turn_of(body, layout)] = stand.rate[body]
+    y[layout.half + layout.lag] = model.operation.start_slip
     return y

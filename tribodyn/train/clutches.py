@@ -119,10 +119,11 @@ def standing(model: Any, wanted: Float[Array, " body"]) -> Standing:
     capacity = np.array([float(capacity_at(c, 0.0, clutches)) for c in numbers])
     others = [c for c in numbers if c not in closed]
     rate = _rates(slip, bridging, ends, group, ratio)
+    reference = float(model.operation.nominal_speed + model.operation.start_slip)
     load = np.zeros(layout.bodies)
     for c in others:
         first, second = ends[c]
-        speed = slip[c] if second >= 0 else ratio[first] * float(model.operation.nominal_speed) + rate[first]
+        speed = slip[c] if second >= 0 else ratio[first] * reference + rate[first]
         _add(load, ends[c], float(friction_torque(speed, capacity[c], c, clutches)[0]))
     on_all = wanted + load
     cluster = np.array(joined(layout.bodies, [*enumerate(group), *(ends[c] for c in closed)]))

@@ -95,8 +95,10 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0, starting: b
     wanted = np.array(bodies.load, dtype=float)
     largest = float(np.sum(np.abs(wanted * ratio)) + abs(largest_extra * ratio[layout.output]))
     wanted[layout.output] += extra
+    slip = ratio * float(operation.start_slip) if starting else 0.0 * ratio
+    wanted = wanted + np.asarray(bodies.load_damping) * slip
     if model.options.drive:
-        drive = float(operation.drive_torque)
+        drive = float(operation.drive_torque - operation.speed_regulation * slip[layout.input])
         largest += float(abs(drive * ratio[layout.input]))
         wanted[layout.input] -= drive
     stand = standing(model, wanted) if starting and layout.clutches else None

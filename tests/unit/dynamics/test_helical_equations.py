@@ -68,7 +68,7 @@ def test_approach_and_forces_are_those_of_rigid_bodies_in_space(pair, rng, angle
     names = zip(("along_x", "along_y", "across_x", "across_y"), [*along[:2], *across[:2]], strict=True)
     frame = (tuple(along[:2]), tuple(across[:2]))
     mesh = {**dict(names), "hand": hand if clockwise else -hand, "moves": moves_of(frame, radii, places)}
-    springs = {"own", "coupled"} ^ set(base.links._fields)
+    springs = {"own", "coupled", "bearings"} ^ set(base.links._fields)
     free = {name: 0.0 * getattr(base.links, name) for name in springs}
     model = altered(base, mesh=mesh, links=free, bodies={"load": np.zeros(2)})
     layout, part, bodies = model.layout, model.meshes[0], model.bodies

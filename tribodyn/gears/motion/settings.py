@@ -70,6 +70,7 @@ class Operating(OiledOperatingTable):
     shaft_stiffness: fields.TorsionalStiffness | None = None
     shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
     speed_regulation: fields.TorsionalDamping = written("0 N*m*s/rad")
+    start_speed: Annotated[float, InUnit(units.not_negative(units.ANGULAR_SPEED))] | None = None
 
     @property
     def motor_torque(self) -> float | None:
@@ -218,6 +219,9 @@ def broken_source_rules(operating: Operating) -> Iterator[InputError]:
                     'contradicts source = "speed": a prescribed rotation needs no motor',
                     f'leave {name} out, or write source = "torque"',
                 )
+        if operating.start_speed is not None:
+            shown, rule = f"{operating.start_speed:g} rad/s", "is the motor's, and the rotation is prescribed"
+            yield InputError("operating.start_speed", shown, rule, 'write source = "torque", or leave it out')
     elif operating.shaft_stiffness is None and operating.shaft_damping:
         yield InputError(
             "operating.shaft_damping",

@@ -124,7 +124,7 @@ def _search_finely(before: GearMap, orbits: list[Orbit], tolerance: float, setti
 
 
 def refuse_time_dependent(model: Model) -> None:
-    """Raise InputError where clutches slip, or the load varies in time otherwise than with the meshes.
+    """Raise InputError where a run has clutches or a start, or a load that does not vary with the meshes.
 
     With a prescribed speed, harmonics at whole multiples of the frequency of the common period repeat with
     the meshes; that of a single mesh is the mesh frequency.
@@ -133,6 +133,9 @@ def refuse_time_dependent(model: Model) -> None:
     if model.layout.clutches:
         rule, remedy = "slips, which is no steady state over the mesh cycle", "run the scenario in time"
         raise InputError("clutch", None, rule, remedy)
+    if float(operation.start_slip) != 0.0:
+        rule = "is of a run in time: a steady state has the speed that drive and load give it"
+        raise InputError("operating.start_speed", None, rule, "leave it out, or run the scenario in time")
     torques = np.asarray(operation.load_torques)
     if len(torques) > 1 and np.ptp(torques) > 0.0:
         raise InputError(

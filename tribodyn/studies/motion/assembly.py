@@ -20,10 +20,21 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.motion.case import HOUSING, BodyData, ClutchData, Gearbox, LinkData, LoadData
+from tribodyn.studies.motion.case import (
+    HOUSING,
+    BodyData,
+    ClutchData,
+    Gearbox,
+    LinkData,
+    LoadData,
+    SourceData,
+)
 from tribodyn.studies.motion.drivetrain.teeth import engagement
 from tribodyn.train.clutches import Clutches, common_knots
 from tribodyn.train.phases import Engagement, Phases, nominal_phases
+
+#: Share of the nominal speed at which a run from rest starts: time over rotation has no slope at rest.
+CREEP = 1e-4
 
 
 class BodyInertia(NamedTuple):
@@ -198,3 +209,9 @@ def clutches_of(clutches: Sequence[ClutchData]) -> Clutches:
         for one in clutches
     ]
     return Clutches(*common_knots(curves), *np.ascontiguousarray(np.array(numbers).T))
+
+
+def start_slip_of(source: SourceData) -> float:
+    """Speed of the input at the start less the nominal one, rad/s; from rest it is `CREEP` of that."""
+    start = source.speed if source.start_speed is None else max(source.start_speed, CREEP * source.speed)
+    return start - source.speed

@@ -186,6 +186,7 @@ class SourceData:
     shaft_stiffness: float | None = None  # between motor and body, N m/rad; None: rigid
     shaft_damping: float = 0.0  # N m s/rad
     speed_regulation: float = 0.0  # fall of the torque per speed above nominal, N m s/rad
+    start_speed: float | None = None  # of `body` at the start, rad/s; None: nominal
 
     @classmethod
     def of(cls, operating: Any, body: int, speed: float, torque: float) -> "SourceData":
@@ -199,6 +200,7 @@ class SourceData:
             operating.shaft_stiffness,
             operating.shaft_damping,
             operating.speed_regulation,
+            operating.start_speed,
         )
 
 

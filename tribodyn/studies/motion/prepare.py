@@ -23,6 +23,7 @@ from tribodyn.studies.motion.assembly import (
     in_space_of,
     link_damping,
     loads_in_own_sense,
+    start_slip_of,
     table_numbers,
     varying_of,
 )
@@ -217,6 +218,7 @@ def _model(
             reversal_width=first.friction.reversal_width,
             **varying_load(varying.table, varying.harmonics),
             clutches=clutches_of(case.clutches),
+            start_slip=start_slip_of(source) / float(case.bodies[source.body].ratio),
         ),
         options_of(first, cycles, closures[0], layout, drive)._replace(links=chain, bearings=forces),
     )
