@@ -150,8 +150,6 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
         },
     }
     empty = {
-        "bearings",
-        "clutches",
         "own",
         "coupled",
         "lever",
