@@ -178,7 +178,7 @@ def test_leading_directions_of_a_long_period_have_its_multipliers():
     exact = np.linalg.eigvals(over_the_period(train)[0][:-1, :-1])
     assert len(exact) == len(period_map.moving) > 20
     for multiplier in exact[np.abs(exact) > 1e-3]:
-        assert np.min(np.abs(np.linalg.eigvals(leading.jacobian[0]) - multiplier)) < 1e-4
+        assert np.min(np.abs(np.linalg.eigvals(leading.jacobian[0]) - multiplier)) < 2e-3
 
 
 @pytest.fixture(scope="module")

@@ -131,8 +131,8 @@ class GearMap:
     ) -> Tangent | None:
         """The tangent but for what is gone after the period; None where more than `count` directions stay.
 
-        J ≈ J Q Qᵀ with Q an orthonormal basis of J Ω, Ω being directions at random: multipliers that are
-        small beside the share `GONE` are not resolved (N. Halko et al., SIAM Review 53 (2011) 217).
+        J ≈ J Q Qᵀ with Q an orthonormal basis of J Ω, Ω being directions at random: multipliers are within
+        about `GONE`, smaller ones not resolved (N. Halko et al., SIAM Review 53 (2011) 217).
         """
         scale, size = self.scale[cases], len(self.moving)
         start = np.linalg.qr(np.random.default_rng(0).standard_normal((size, count)))[0]
