@@ -142,7 +142,7 @@ def test_forces_along_the_axes_are_those_of_screws(prepared: Any, rng: Any, hand
         "mesh.stiffness": "4e8 N/m",
     }
     pair = prepared("ring-36-93", **table, **{"friction.coefficient": 0.0})
-    springs = {"own", "coupled"} ^ set(pair.model.links._fields)
+    springs = {"own", "coupled", "bearings"} ^ set(pair.model.links._fields)
     free = {name: 0.0 * getattr(pair.model.links, name) for name in springs}
     model = altered(pair.model, links=free, bodies={"load": np.zeros(2)})
     layout, bodies = model.layout, model.bodies

@@ -59,7 +59,22 @@ def read_matrices(path: Path, key: str) -> dict[str, Any]:
 
 
 def write_matrices(element: SuperElement, path: str | Path) -> Path:
-    """Write a super-element as .h5 or .npz, in SI units; returns the path. What was there is replaced."""
+    """Write a super-element as a file that `[housing] matrices` and `flexible_carrier` read, in SI units.
+
+    Parameters
+    ----------
+    element : as `td.plate_housing` makes it
+    path : ends in .h5 or .npz; what is there is replaced
+
+    Returns
+    -------
+    the path
+
+    Raises
+    ------
+    InputError
+        For another ending.
+    """
     path = Path(path)
     arrays: dict[str, Any] = {
         "mass": element.mass,

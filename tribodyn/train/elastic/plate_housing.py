@@ -102,13 +102,17 @@ def plate_housing(
     bores : seats by name: x, y (m), wall ("front" at z = 0, or "back") and radius (m); a seat's place is the
         middle of its wall
     points : names and places (m) of further points, each put on the nearest node: for sensors
+    metal : elastic modulus, Poisson's ratio and density; by default grey cast iron's
     held : whether the bottom is bolted down at its four corners, over a tenth of the sides; else it is free
     rigid_bores : whether a bore stays round, as about a stiff bearing; else a seat moves as its mean
     highest : modes with fixed seats are kept up to this frequency, Hz
     damping_ratio : of all modes with free seats
     element_size : largest side of an element, m; by default a sixth of the longest side of the box
 
-    Raises InputError for walls too thick for plates, bores outside their wall or too near to each other.
+    Raises
+    ------
+    InputError
+        For walls too thick for plates, bores outside their wall or too near to each other.
     """
     places, stiffness, mass, surface, centres, rings, bolted = whole_box(
         size, thickness, bores, metal, element_size

@@ -356,7 +356,7 @@ KINDS_OF_MOTION = [STUDIES["gear-pair"], STUDIES["gear-train"]]
 #: Quantities of planets, which the others have not; churning and windage, see `everything`.
 OF_PLANETS = {"mesh_load_factor", "planet_load_factor_max"}
 #: Figures of what these records have not: slices, shafts, helical teeth, changing speed, whole revolutions.
-OF_OTHERS = {"line-load", "shafts", "in-space", "orders", "revolutions", "synchronous-average"}
+OF_OTHERS = {"ring-shape", "line-load", "shafts", "in-space", "orders", "revolutions", "synchronous-average"}
 
 
 @pytest.mark.parametrize("gearbox", GEARBOXES)
