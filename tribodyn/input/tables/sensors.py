@@ -107,6 +107,9 @@ class Housing(Table):
     transfer: tuple[Transfer, ...] = Field((), max_length=MOST_MODES)
 
 
+#: Its keys that have no meaning without `matrices`.
+_OF_MATRICES = ("units", "seats", "places", "held", "damping_ratio", "modes_up_to", "radiation_efficiency")
+
 Sensors = Annotated[tuple[Sensor, ...], Field(max_length=MOST_SENSORS)]
 
 
@@ -141,6 +144,10 @@ def broken_sensor_rules(sensors: Sequence[Sensor], housing: Housing | None) -> I
         if sensor.kind == "housing" and (housing is None or not _has_points(housing)):
             rule = "missing: a sensor is on the housing"
             yield InputError("housing", None, rule, "add matrices, [[housing.mode]] or [[housing.transfer]]")
+    if housing is not None and housing.matrices is None:
+        for key in (key for key in _OF_MATRICES if key in housing.model_fields_set):
+            rule = "is of a housing by matrices, and there is none"
+            yield InputError(f"housing.{key}", None, rule, 'add matrices = "housing.h5", or leave it out')
     for number, mode in enumerate(housing.mode if housing else ()):
         for name, shape in mode.shape.items():
             if not 1 <= len(shape) <= 3:
