@@ -6,7 +6,7 @@ import pytest
 from tests.support.beam_element import bar
 from tribodyn.errors import InputError
 from tribodyn.input.tables.housing_matrices import element_of, scales
-from tribodyn.input.tables.sensors import Housing
+from tribodyn.input.tables.sensors import Housing, broken_sensor_rules
 from tribodyn.train.elastic.superelement import frequencies
 
 
@@ -127,3 +127,9 @@ def test_a_scenario_names_the_seats_and_their_places():
     table = _written(units="m, kg, s", places=(), seats=())
     element = element_of(_housing(table, seats=("left", "foot"), places=places, held=("foot",)))
     assert element.seats == ("left",)
+
+
+def test_keys_of_matrices_without_matrices_are_refused():
+    keys = {"modes_up_to": "1 kHz", "radiation_efficiency": 0.5}
+    found = broken_sensor_rules((), Housing.model_validate(keys))
+    assert [error.key for error in found] == [f"housing.{key}" for key in keys]
