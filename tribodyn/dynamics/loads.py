@@ -1,7 +1,7 @@
 """What acts on the bodies beside the meshes: links, and the load that varies in time. For all compilers."""
 
-from tribodyn.numerics.elementary import last_at_or_below, law, maximum, minimum, plain, sin
-from tribodyn.numerics.smooth import cubic_rise
+from tribodyn.numerics.elementary import law, plain, sin
+from tribodyn.numerics.smooth import cubic_rise, place_between
 from tribodyn.train.clutches import clutch_friction, work_of_clutch
 from tribodyn.train.structure import (
     BRAKES,
@@ -24,10 +24,7 @@ def load_torque(time, operation):
         angle = operation.load_frequencies[i] * time + operation.load_phases[i]
         torque = torque + operation.load_amplitudes[i] * sin(angle)
     if operation.load_times.shape[0] > 1:
-        times = operation.load_times
-        i = last_at_or_below(times, time)
-        width = times[i + 1] - times[i]
-        u = minimum(maximum((time - times[i]) / width, 0.0), 1.0)
+        i, width, u = place_between(operation.load_times, time)
         start, end = operation.load_torques[i], operation.load_torques[i + 1]
         out, back = operation.load_slopes[i] * width, operation.load_slopes[i + 1] * width
         torque = torque + start + cubic_rise(u, end - start, out, back)

@@ -1,6 +1,16 @@
 """Smoothed versions of the model's non-smooth functions, each C1 with its width stated."""
 
-from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum, skippable, where
+from tribodyn.numerics.elementary import (
+    absolute,
+    exp,
+    last_at_or_below,
+    law,
+    log,
+    maximum,
+    minimum,
+    skippable,
+    where,
+)
 
 #: Share of a width below which none falls, so that nothing is divided by zero.
 SMALLEST_SHARE = 1e-30
@@ -67,6 +77,14 @@ def sign_slope(x):
 def cubic_rise(u, rise, out, back):
     """Cubic over u from 0 to 1 that rises from 0 by `rise`, with the slopes `out` and `back` at its ends."""
     return u * (out + u * (3.0 * rise - 2.0 * out - back + u * (out + back - 2.0 * rise)))
+
+
+@law
+def place_between(points, x):
+    """Which of the intervals between increasing points x is in, its width, and the share of it, 0 to 1."""
+    i = last_at_or_below(points, x)
+    width = points[i + 1] - points[i]
+    return i, width, minimum(maximum((x - points[i]) / width, 0.0), 1.0)
 
 
 @law

@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.elementary import exp, last_at_or_below, law, maximum, minimum
+from tribodyn.numerics.elementary import exp, law, minimum
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.smooth import cubic_rise, sign, sign_slope
+from tribodyn.numerics.smooth import cubic_rise, place_between, sign, sign_slope
 from tribodyn.train.joints import joined
 from tribodyn.train.structure import OF_MESHES, TURN, WORKS_OF_MESH, speed_of, turning
 
@@ -47,10 +47,7 @@ def friction_torque(slip, capacity, c, clutches):
 @law
 def capacity_at(c, time, clutches):
     """Torque that a clutch transmits while it slips, N m."""
-    times = clutches.times
-    i = last_at_or_below(times, time)
-    width = times[i + 1] - times[i]
-    u = minimum(maximum((time - times[i]) / width, 0.0), 1.0)
+    i, width, u = place_between(clutches.times, time)
     start, end = clutches.capacity[c, i], clutches.capacity[c, i + 1]
     out, back = clutches.slope[c, i] * width, clutches.slope[c, i + 1] * width
     return start + cubic_rise(u, end - start, out, back)
@@ -130,7 +127,7 @@ def standing(model: Any, wanted: Float[Array, " body"]) -> Standing:
     for one in dict.fromkeys(cluster.tolist()):
         inside = cluster == one
         if drives or not inside[0]:
-            on_all = on_all - inside * _accelerating(on_all * inside, inertia * inside, ratio)
+            on_all = on_all - inside * taken_by_inertia(on_all * inside, inertia * inside, ratio)
     names = [g for g in dict.fromkeys(group.tolist()) if drives or g != group[0]]
     balance = np.zeros((len(names), len(closed)))
     for place, c in enumerate(closed):
@@ -159,13 +156,14 @@ def accelerating(load: Float[Array, " body"], standing: Standing, model: Any) ->
     for one in dict.fromkeys(standing.group):
         inside = group == one
         if model.options.drive or not inside[0]:
-            taken = taken + _accelerating(load * inside, inertia * inside, ratio)
+            taken = taken + taken_by_inertia(load * inside, inertia * inside, ratio)
     return taken
 
 
-def _accelerating(
+def taken_by_inertia(
     load: Float[Array, " body"], inertia: Float[Array, " body"], ratio: Float[Array, " body"]
 ) -> Float[Array, " body"]:
+    """What bodies that turn together, by their ratios, take of the loads as they accelerate, N m."""
     moved = float(inertia @ ratio**2)
     return inertia * ratio * float(load @ ratio) / moved if moved > 0.0 else 0.0 * load
 

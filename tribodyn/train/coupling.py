@@ -150,6 +150,13 @@ def _spread(
 
 
 @law
+def _passed(t, cycles, model):
+    """Cosine and sine of a stiffness that passes; half their change by a radian of the reference."""
+    turned = TURN * model.links.coupled.passing_rate[t]
+    return cos(turned * cycles), sin(turned * cycles), 0.5 * turned / model.operation.pitch_angle
+
+
+@law
 def coupling_forces(cycles, y, model, dy):
     """Add the forces of entries to those in `dy` after so many reference cycles.
 
@@ -169,9 +176,7 @@ def coupling_forces(cycles, y, model, dy):
         dy[half + i] = dy[half + i] + parts.force[e]
     torque = 0.0 * y[0]
     for t in range(parts.passing_rate.shape[0]):
-        turned = TURN * parts.passing_rate[t]
-        cosine, sine = cos(turned * cycles), sin(turned * cycles)
-        slope = 0.5 * turned / model.operation.pitch_angle
+        cosine, sine, slope = _passed(t, cycles, model)
         for e in range(layout.passing_first[t], layout.passing_first[t + 1]):
             i, j = layout.passing_rows[e], layout.passing_columns[e]
             force = (parts.passing_cosine[e] * cosine + parts.passing_sine[e] * sine) * y[j]
@@ -219,9 +224,9 @@ def coupling_energy(cycles, y, model):
         if i != layout.lag:
             energy = energy + 0.5 * parts.stiffness[e] * y[i] * y[layout.coupled_columns[e]]
     for t in range(parts.passing_rate.shape[0]):
-        turned = TURN * parts.passing_rate[t] * cycles
+        cosine, sine, _ = _passed(t, cycles, model)
         for e in range(layout.passing_first[t], layout.passing_first[t + 1]):
-            stiffness = parts.passing_cosine[e] * cos(turned) + parts.passing_sine[e] * sin(turned)
+            stiffness = parts.passing_cosine[e] * cosine + parts.passing_sine[e] * sine
             energy = energy + 0.5 * stiffness * y[layout.passing_rows[e]] * y[layout.passing_columns[e]]
     for e in range(parts.force.shape[0]):
         energy = energy - parts.force[e] * y[layout.forced[e]]
@@ -249,9 +254,7 @@ def differentiate_couplings(cycles, y, model, works, jacobian):
             jacobian[lost, half + j] += parts.damping[e] * y[half + i]
             jacobian[lost, half + i] += parts.damping[e] * y[half + j]
     for t in range(parts.passing_rate.shape[0]):
-        turned = TURN * parts.passing_rate[t]
-        cosine, sine = cos(turned * cycles), sin(turned * cycles)
-        slope = 0.5 * turned / model.operation.pitch_angle
+        cosine, sine, slope = _passed(t, cycles, model)
         for e in range(layout.passing_first[t], layout.passing_first[t + 1]):
             i, j = layout.passing_rows[e], layout.passing_columns[e]
             jacobian[half + i, j] -= parts.passing_cosine[e] * cosine + parts.passing_sine[e] * sine

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.clutches import Standing, accelerating, standing
+from tribodyn.train.clutches import Standing, accelerating, standing, taken_by_inertia
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.layout import TrainLayout
 from tribodyn.train.structure import (
@@ -112,7 +112,7 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0, starting: b
         on_driven, on_link = _shared(model, wanted, inertia * ratio, stand is None)
         return Flow(branches, on_driven, on_link, largest, stand)
     if model.options.drive and stand is None:
-        wanted = wanted - inertia * ratio * float(wanted @ ratio) / float(inertia @ ratio**2)
+        wanted = wanted - taken_by_inertia(wanted, inertia, ratio)
     through = wanted * ratio  # as on the reference
     for branch in reversed(branches):
         through[branch.nearer] += through[branch.body]
