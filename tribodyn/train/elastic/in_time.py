@@ -9,7 +9,6 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.bearing_forces import BALLS, ROLLERS
 from tribodyn.train.elastic.beam import DIRECTIONS
 from tribodyn.train.elastic.rolling_bearing import (
-    PROFILE,
     SLICES,
     BallRow,
     BearingRows,
@@ -17,7 +16,9 @@ from tribodyn.train.elastic.rolling_bearing import (
     RollerRow,
     ball_constant,
     centres_apart,
+    groove_radius,
     roller_constant,
+    slices_of,
 )
 
 
@@ -86,22 +87,18 @@ def row_in_time(row: BallRow | RollerRow) -> RowInTime:
     normal = cosine, row.thrust * sine
     if isinstance(row, BallRow):
         apart = centres_apart(row)
-        radius = row.pitch_diameter / 2.0 + (row.conformity - 0.5) * row.diameter * cosine
-        radius = 0.0 if row.aligning else radius
+        radius = 0.0 if row.aligning else groove_radius(row)
         rest = apart * cosine - row.clearance / 2.0, row.thrust * (apart * sine + row.preload)
         return RowInTime(
             BALLS, ball_constant(row), apart, normal, around, np.array([[radius, row.offset, *rest]])
         )
-    place = ((np.arange(SLICES) + 0.5) / SLICES - 0.5) * row.length
+    place, drop = slices_of(row)
     point = np.zeros((SLICES, 4))
     point[:, 0], point[:, 1] = row.pitch_diameter / 2.0 - place * normal[1], row.offset + place * cosine
-    point[:, 2] = abs(normal[1]) * row.preload - cosine * row.clearance / 2.0
+    point[:, 2] = abs(normal[1]) * row.preload - cosine * row.clearance / 2.0 - drop
     if row.aligning:
         assert np.isinf(row.centres)
         point[:, :2] = 0.0
-        point[:, 2] -= row.crown * place**2 / 2.0
-    if row.profiled:
-        point[:, 2] += 2.0 * PROFILE * row.diameter * np.log(1.0 - (2.0 * place / row.length) ** 2)
     return RowInTime(ROLLERS, roller_constant(row) / SLICES, 0.0, normal, around, point)
 
 

@@ -232,7 +232,6 @@ def _of_balls(row: BallRow, moved: Float[Array, "5"]) -> BearingState:
 
     On a spherical outer raceway, by how far the inner groove's centre comes away from the sphere's.
     """
-    radius = row.pitch_diameter / 2.0 + (row.conformity - 0.5) * row.diameter * np.cos(row.contact_angle)
     constant = ball_constant(row)
 
     def law(extended: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
@@ -240,7 +239,12 @@ def _of_balls(row: BallRow, moved: Float[Array, "5"]) -> BearingState:
         energy = float(np.sum(load * pressed)) / (1.0 + BALL_EXPONENT)
         return load, BALL_EXPONENT * constant * np.sqrt(pressed), energy
 
-    return _along_lines(row, moved, radius, centres_apart(row), law)
+    return _along_lines(row, moved, groove_radius(row), centres_apart(row), law)
+
+
+def groove_radius(row: BallRow) -> float:
+    """Radius of the circle of the inner groove's centres, m."""
+    return float(row.pitch_diameter / 2.0 + (row.conformity - 0.5) * row.diameter * np.cos(row.contact_angle))
 
 
 def centres_apart(row: BallRow) -> float:
@@ -287,15 +291,21 @@ def _along_lines(
     return BearingState(load @ along, stiffness, energy, load)
 
 
+def slices_of(row: RollerRow) -> tuple[Float[Array, " slice"], Float[Array, " slice"]]:
+    """Middles of the slices along a roller, and how far their profiles stand back on both raceways, m."""
+    place = ((np.arange(SLICES) + 0.5) / SLICES - 0.5) * row.length
+    drop = row.crown * place**2 / 2.0
+    if row.profiled:
+        drop = drop - 2.0 * PROFILE * row.diameter * np.log(1.0 - (2.0 * place / row.length) ** 2)
+    return place, drop
+
+
 def _of_rollers(row: RollerRow, moved: Float[Array, "5"]) -> BearingState:
     """Rollers in slices, each pressed along the normal of the outer raceway; flanges carry nothing.
 
     Barrels align themselves: all of their slices are pressed alike, less what their profile drops.
     """
-    place = ((np.arange(SLICES) + 0.5) / SLICES - 0.5) * row.length
-    drop = row.crown * place**2 / 2.0
-    if row.profiled:  # both raceways
-        drop = drop - 2.0 * PROFILE * row.diameter * np.log(1.0 - (2.0 * place / row.length) ** 2)
+    place, drop = slices_of(row)
     constant = roller_constant(row) / SLICES
     if row.aligning:
         return _of_barrels(row, moved, drop, constant)
