@@ -5,6 +5,7 @@ the train, z along its shafts; behind them modal coordinates that do not move th
 J. 6 (1968) 1313). A rigid motion of the structure is one of its seats alone.
 """
 
+from hashlib import sha256
 from typing import NamedTuple
 
 import numpy as np
@@ -63,6 +64,12 @@ class SuperElement(NamedTuple):
     def coordinates(self) -> int:
         """Number of all coordinates."""
         return SIX * len(self.seats) + self.modes
+
+    @property
+    def digest(self) -> bytes:
+        """Of all its numbers: what tells two structures apart."""
+        parts = self.mass, self.stiffness, self.damping, self.places, self.recovery, *(self.radiation or ())
+        return sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in parts)).digest()
 
     def seat(self, name: str) -> int:
         """Place of the first coordinate of a seat."""

@@ -12,7 +12,6 @@ structure. Left out: Coriolis and centrifugal forces on e, of the order of (Ω o
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from hashlib import sha256
 from typing import Any
 
 import numpy as np
@@ -61,9 +60,7 @@ def carrier_of(key: str, table: Any, planets: int) -> CarrierData:
     if len(set(seats)) < len(seats) or len(table.pins) != planets:
         rule = f"must name a seat of its own for each of the {planets} planets, and none the hub's"
         raise InputError(f"{key}.pins", quoted(list(table.pins)), rule, 'pins = ["P1", "P2", "P3"]')
-    numbers = element.mass, element.stiffness, element.damping, element.places
-    digest = sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in numbers)).digest()
-    return CarrierData(element, table.hub, tuple(table.pins), table.damping_ratio, digest)
+    return CarrierData(element, table.hub, tuple(table.pins), table.damping_ratio, element.digest)
 
 
 def carrier_coordinates(gearset: SetData) -> int:

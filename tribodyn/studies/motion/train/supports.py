@@ -5,7 +5,6 @@ one's, the driver turning clockwise. Where it turns counter-clockwise, seen from
 """
 
 from collections.abc import Mapping, Sequence
-from hashlib import sha256
 from typing import Any
 
 import numpy as np
@@ -141,10 +140,8 @@ def drawn_system(
                 key = f"{shaft.key}.bearing.{number}.seat"
                 raise unknown_name(key, bearing.seat, housing.seats, "seat of the housing")
     _check_places(shafts, housing)
-    numbers = housing.mass, housing.stiffness, housing.damping, housing.recovery, *(housing.radiation or ())
-    digest = sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in numbers)).digest()
     settings = scenario.housing.modes_up_to, scenario.housing.radiation_efficiency
-    return DrawnSystem(tuple(shafts), on_points, housing, digest, *settings)
+    return DrawnSystem(tuple(shafts), on_points, housing, housing.digest, *settings)
 
 
 def _check_places(shafts: Sequence[ShaftData], housing: SuperElement) -> None:
