@@ -60,11 +60,6 @@ class PowerFlow(NamedTuple):
         """Power out over power in."""
         return self.taken_out / self.put_in if self.put_in else 0.0
 
-    @property
-    def recirculating(self) -> float:
-        """Largest rolling power over the power in: above 1 where power goes round in a circle."""
-        return max((abs(power) for power in self.rolling), default=0.0) / self.put_in if self.put_in else 0.0
-
 
 def power_flow(
     meshes: Sequence[LossyMesh],
