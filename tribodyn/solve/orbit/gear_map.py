@@ -136,12 +136,11 @@ class GearMap:
         """
         scale, size = self.scale[cases], len(self.moving)
         start = np.linalg.qr(np.random.default_rng(0).standard_normal((size, count)))[0]
-        probed = self.derived(
-            states, cases, periods, False, np.broadcast_to(start, (len(cases), *start.shape))
-        )
-        if any(probed.reasons):
+        probes = np.broadcast_to(start, (len(cases), *start.shape))
+        _, slopes, reasons = self.derived(states, cases, periods, False, probes)
+        if any(reasons):
             return None
-        kept, left = np.linalg.qr(probed.jacobian / scale[:, :, None])
+        kept, left = np.linalg.qr(slopes / scale[:, :, None])
         if np.max(np.linalg.svd(left, compute_uv=False)[:, -1]) > GONE:
             return None
         # a coarse march serves: over a long period a fine one of the derivatives takes five times as long
@@ -158,8 +157,8 @@ class GearMap:
         periods: int,
         fine: bool,
         along: Float[Array, "row moving direction"],
-    ) -> Tangent:
-        """The image and its derivatives in some directions, these over the scale."""
+    ) -> tuple[Array, Array, list[str]]:
+        """The image, its derivatives in some directions, these over the scale, and what stopped a row."""
         from tribodyn.solve.march.variational import march_with_derivative
 
         directions = np.zeros((len(cases), self.layout.states, along.shape[-1]))
@@ -178,7 +177,7 @@ class GearMap:
         )
         image = derived.state[:, self.moving]
         image[derived.status != Status.DONE] = np.nan
-        return Tangent(image, derived.slopes[:, self.moving], reasons_of(derived.status, derived.reached))
+        return image, derived.slopes[:, self.moving], reasons_of(derived.status, derived.reached)
 
     def integrate(
         self,

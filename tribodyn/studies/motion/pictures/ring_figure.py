@@ -15,6 +15,7 @@ from tribodyn.record.reader import Record
 from tribodyn.studies.motion.drivetrain.carried_sets import CarriedSet, sets_of
 from tribodyn.studies.motion.drivetrain.gear_positions import GearOutline, gear_outlines
 from tribodyn.studies.motion.drivetrain.shaft_lines import rounded_down
+from tribodyn.train.elastic.ring import PER_ORDER
 
 #: Largest displacement as drawn, as a share of the radius; angles about the ring; moments beside each other.
 _BENT, _ANGLES, _MOMENTS = 0.12, 721, 6
@@ -30,10 +31,10 @@ def has_waves(record: Record) -> bool:
 def bent_rim(record: Record, ring: int, angle: Float[Array, " angle"]) -> Float[Array, "time 2 angle"]:
     """How the outside of a ring's rim moves outwards and along the circle, m, at angles of the carrier."""
     own = np.asarray(record.geometry["wave_ring"], int) == ring
-    order = np.asarray(record.geometry["wave_order"])[own][::4, None]
+    order = np.asarray(record.geometry["wave_order"])[own][::PER_ORDER, None]
     cosine, sine = np.cos(order * angle), np.sin(order * angle)
     out, along, other_out, other_along = np.moveaxis(
-        record["rim_wave"][:, own].reshape(-1, len(order), 4), 2, 0
+        record["rim_wave"][:, own].reshape(-1, len(order), PER_ORDER), 2, 0
     )
     return np.stack([out @ cosine + other_out @ sine, along @ sine - other_along @ cosine], axis=1)
 
