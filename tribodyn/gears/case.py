@@ -23,7 +23,7 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.contact import Asperities
 from tribodyn.tribology.law import FilmData, FrictionData
-from tribodyn.tribology.losses import LossData
+from tribodyn.tribology.losses.pair import LossData
 from tribodyn.tribology.oil import LubricantData
 
 LawfulCase = TypeVar("LawfulCase", bound="LubricatedCase")

@@ -26,7 +26,8 @@ from tribodyn.tribology.bulk_temperature import (
     network_temperatures,
 )
 from tribodyn.tribology.law import AUTO
-from tribodyn.tribology.losses import Loss, LossData, Wheel, losses_of_pair
+from tribodyn.tribology.losses.loss import Loss, Wheel
+from tribodyn.tribology.losses.pair import LossData, losses_of_pair
 from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, LubricantData, lubricant_at, specific_heat
 
 #: Difference of temperatures that is not worth another motion, K; motions of a case at most.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from tribodyn.errors import SimulationError
-from tribodyn.tribology.losses import Loss
+from tribodyn.tribology.losses.loss import Loss
 
 #: Change from which a fixed point counts as found, K: a tenth of what is promised.
 TOLERANCE = 0.01

@@ -24,7 +24,7 @@ from tribodyn.standards.rolling_bearings import life_factor, reference_viscosity
 from tribodyn.studies.assessment.pages.first_page import bearings_table
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
-from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
+from tribodyn.tribology.losses.bearings import DRAG_FACTORS, BearingDragData, palmgren
 
 HELICAL = {"mesh.slices": 7, "friction.law": "none", "bearings": "rigid-1e9"}
 

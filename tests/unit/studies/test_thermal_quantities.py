@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.gears.prepare import contact_quantities, thermal_quantities
 from tribodyn.tribology.bulk_temperature import heat_partition
-from tribodyn.tribology.losses import Loss
+from tribodyn.tribology.losses.loss import Loss
 
 LOSSES = {"churning": Loss(30.0, ("too fast",)), "windage": Loss(5.0, ()), "bearings": Loss(15.0, ())}
 

@@ -6,18 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tribodyn.tribology.losses import (
-    DRAG_FACTORS,
-    BearingDragData,
-    LossData,
-    Wheel,
-    anderson_loewenthal,
-    changenet_velex,
-    dawson,
-    iso_14179_1,
-    losses_of_pair,
-    palmgren,
-)
+from tribodyn.tribology.losses.bearings import DRAG_FACTORS, BearingDragData, palmgren
+from tribodyn.tribology.losses.churning import changenet_velex, iso_14179_1
+from tribodyn.tribology.losses.loss import Wheel
+from tribodyn.tribology.losses.pair import LossData, losses_of_pair
+from tribodyn.tribology.losses.windage import anderson_loewenthal, dawson
 
 RPM = math.pi / 30.0
 #: Module 3 mm, 53 teeth.

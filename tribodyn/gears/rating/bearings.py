@@ -27,7 +27,7 @@ from tribodyn.standards.rolling_bearings import (
     static_load,
 )
 from tribodyn.train.elastic.rolling_bearing import BallRow, BearingRows, outer_conformity
-from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
+from tribodyn.tribology.losses.bearings import DRAG_FACTORS, BearingDragData, palmgren
 from tribodyn.tribology.oil import LubricantData
 
 

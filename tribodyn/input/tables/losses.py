@@ -13,7 +13,8 @@ from tribodyn.input.fields import PartName
 from tribodyn.input.quantity import Count, InUnit, Positive, Table, written
 from tribodyn.input.tables.lubricant import Lubricant
 from tribodyn.tribology.bulk_temperature import Lubrication, TemperatureData
-from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, LossData
+from tribodyn.tribology.losses.bearings import DRAG_FACTORS, BearingDragData
+from tribodyn.tribology.losses.pair import LossData
 
 Depth = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
 

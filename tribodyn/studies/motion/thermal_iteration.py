@@ -11,7 +11,7 @@ from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.families import family
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.tribology.bulk_temperature import heat_of_other_meshes
-from tribodyn.tribology.losses import Loss
+from tribodyn.tribology.losses.loss import Loss
 
 #: Change of a mesh's loss, as a share of it, that is not worth another pass; passes at most.
 CLOSE, PASSES = 1e-3, 8

@@ -19,7 +19,7 @@ from tribodyn.studies.motion.drivetrain.duty import TrainOperating
 from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics
 from tribodyn.studies.motion.drivetrain.structure import MeshPart
 from tribodyn.studies.motion.drivetrain.tables import BareMesh, PlanetaryStage, Stage
-from tribodyn.tribology.losses import LossData
+from tribodyn.tribology.losses.pair import LossData
 
 
 class PairView(NamedTuple):

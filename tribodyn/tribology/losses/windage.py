@@ -1,0 +1,37 @@
+"""Windage: gears that turn in air."""
+
+import math
+
+from tribodyn.tribology.losses.loss import Loss, Wheel
+
+#: Air at 60 °C: density, kg/m³, and viscosity, mPa·s.
+AIR_DENSITY, AIR_VISCOSITY = 1.06, 0.020
+
+
+def dawson(wheel: Wheel) -> Loss:
+    """Windage loss in free air by Dawson.
+
+    P = n^2.9 (0.16 D^3.9 + D^2.9 b^0.75 m^1.15) 10^−20 kW with n in rpm, root diameter D, b and m in mm.
+
+    P. H. Dawson, Proc. IMechE A 198 (1984) 51; from memory of the paper. Gears of 300 to 1160 mm.
+    """
+    diameter = 2e3 * wheel.root_radius
+    speed = wheel.speed * 30.0 / math.pi
+    sides = 0.16 * diameter**3.9
+    teeth = diameter**2.9 * (1e3 * wheel.face_width) ** 0.75 * (1e3 * wheel.module) ** 1.15
+    outside = () if 300.0 <= diameter <= 1160.0 else ("root diameter 300 to 1160 mm",)
+    return Loss(1e3 * 1e-20 * speed**2.9 * (sides + teeth), outside)
+
+
+def anderson_loewenthal(wheel: Wheel) -> Loss:
+    """Windage loss in air by Anderson & Loewenthal.
+
+    P = 2.82e-7 (1 + 2.3 b/R) ρ^0.8 n^2.8 R^4.6 μ^0.2 kW with n in rpm, pitch radius R in m, ρ in kg/m³ and μ
+    in mPa·s; of air alone, without the oil that they mix into it.
+
+    N. E. Anderson, S. H. Loewenthal, NASA TP 1622 (1980); from memory of the report. Spur gears with solid
+    bodies.
+    """
+    speed = wheel.speed * 30.0 / math.pi
+    shape = (1.0 + 2.3 * wheel.face_width / wheel.pitch_radius) * wheel.pitch_radius**4.6
+    return Loss(1e3 * 2.82e-7 * shape * AIR_DENSITY**0.8 * speed**2.8 * AIR_VISCOSITY**0.2)
