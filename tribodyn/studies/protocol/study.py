@@ -28,6 +28,7 @@ from tribodyn.numerics.registry import cannot_be_loaded
 
 if TYPE_CHECKING:
     from tribodyn.cases.assessment_part import Contribution, WholeDrive
+    from tribodyn.cases.loss_part import GearboxLosses
     from tribodyn.input.quantity import Table
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.quantities.quantity import Quantity, Reported
@@ -76,6 +77,7 @@ class Study:
     assess        ``ROLE``, its part in an assessment of a drive (optional): `cases.assessment_part`
     assessable    ``WHOLE``, its meshes as pairs of gears (optional): it can be assessed mesh by mesh, see
                   `cases.assessment_part`
+    losses        ``LOSSES``, its losses at any point of operation (optional): see `cases.loss_part`
     derivatives   ``DIFFERENTIABLE``, what makes quantities of a case a function of its numbers (optional:
                   that of a pair of gears), called as `derivatives.differentiable.Differentiable`
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional; figures)
@@ -274,6 +276,10 @@ class Study:
     def whole(self) -> "WholeDrive | None":
         """Its meshes as pairs of gears at their duty; None: it is not assessed mesh by mesh."""
         return self._part("assessable", "WHOLE", optional=True)
+
+    def losses(self) -> "GearboxLosses | None":
+        """What its gearboxes lose at any point of operation; None: its cases are no gearboxes."""
+        return self._part("losses", "LOSSES", optional=True)
 
     def differentiable(self, case: Any, of: Sequence[str], wrt: Sequence[str]) -> Any:
         """Quantities of a case as a function of its numbers: a `Differentiable`, or what serves as one."""
