@@ -11,16 +11,17 @@ import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
 
-#: The terms of a gearbox's losses, by the names that gearbox calculations print, and what they are.
+#: The terms of a gearbox's losses by the names that gearbox calculations print (FVA-Workbench, manual, "Power
+#: loss"), and what they are.
 TERMS = {
     "P_VZP": "meshes under load",
     "P_VZ0": "meshes without load: churning, squeezing, windage",
     "P_VLP": "bearings under load",
     "P_VL0": "bearings without load",
     "P_VD": "seals",
-    "P_VPB": "planet carriers",
-    "P_VST": "oil pump",
-    "P_VX": "other",
+    "P_VPB": "plain bearings",
+    "P_VST": "planet carriers in the oil",
+    "P_VX": "other: oil pump",
 }
 Term = Literal["P_VZP", "P_VZ0", "P_VLP", "P_VL0", "P_VD", "P_VPB", "P_VST", "P_VX"]
 Sort = Literal["mesh", "gear", "bearing", "seal", "carrier", "pump", "other"]
