@@ -29,10 +29,12 @@ if TYPE_CHECKING:
     from tribodyn import signals as signals
     from tribodyn.derivatives.differentiable import Differentiable
     from tribodyn.errors import InputError, OutputError, SimulationError
+    from tribodyn.exchange.format import ExchangeFormat
     from tribodyn.exchange.matrix_files import write_matrices
     from tribodyn.geometry.families import Family
     from tribodyn.interface import standards as standards
     from tribodyn.interface.drive import GearPair, NamedGear, constraints, drive, gear
+    from tribodyn.interface.exchange import export, import_scenario
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
     from tribodyn.interface.identify import Identified, identify
     from tribodyn.interface.line_contact import line_contact
@@ -57,6 +59,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Design",
     "Differentiable",
+    "ExchangeFormat",
     "Family",
     "FilmLaw",
     "FrictionLaw",
@@ -80,9 +83,11 @@ __all__ = [
     "design",
     "differentiable",
     "drive",
+    "export",
     "gear",
     "gradient",
     "identify",
+    "import_scenario",
     "line_contact",
     "open",
     "plate_housing",
@@ -99,6 +104,7 @@ __all__ = [
 # imported when asked for, so that `tribodyn --help` needs none of it
 _PLACES = {
     "Differentiable": "tribodyn.derivatives.differentiable",
+    "ExchangeFormat": "tribodyn.exchange.format",
     "Family": "tribodyn.geometry.families",
     "FilmLaw": "tribodyn.tribology.law",
     "FrictionLaw": "tribodyn.tribology.law",
@@ -119,9 +125,11 @@ _PLACES = {
     "constraints": "tribodyn.interface.drive",
     "differentiable": "tribodyn.interface.gradient",
     "drive": "tribodyn.interface.drive",
+    "export": "tribodyn.interface.exchange",
     "gear": "tribodyn.interface.drive",
     "gradient": "tribodyn.interface.gradient",
     "identify": "tribodyn.interface.identify",
+    "import_scenario": "tribodyn.interface.exchange",
     "line_contact": "tribodyn.interface.line_contact",
     "open": "tribodyn.interface.sweep:open_result",
     "plate_housing": "tribodyn.train.elastic.plate_housing",

@@ -20,6 +20,7 @@ import pytest
 from matplotlib import pyplot
 from typer.main import get_command
 
+from tests.support.loss_maps import write_map
 from tests.support.passed_before import unless_passed
 from tests.support.short_studies import shorter
 from tests.support.soak_parameters import all_in_soak
@@ -91,8 +92,9 @@ def record(tmp_path_factory) -> bytes:
 
 @pytest.fixture
 def folder(tmp_path: Path, record: bytes, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Where an example runs: a folder with a short record in it."""
+    """Where an example runs: a folder with a short record in it, and the record of a map."""
     (tmp_path / f"{RECORD}.h5").write_bytes(record)
+    write_map(tmp_path / "map.h5")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -11,7 +11,9 @@ from tests.support.verbs import ended, invoke
 from tribodyn.cli.app import app
 from tribodyn.cli.printing import command_name
 
-VERBS = "run sweep check gear show plot report listen signals compare list init schema validate".split()
+VERBS = (
+    "run sweep check gear show plot report listen signals compare export import list init schema validate"
+).split()
 
 
 def test_a_short_option_gives_the_same_help():

@@ -7,7 +7,7 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from tribodyn.cli import assess, compare, gear, records, run, scenario, signals, sweep, validate
+from tribodyn.cli import assess, compare, gear, handover, records, run, scenario, signals, sweep, validate
 from tribodyn.cli import list as list_
 from tribodyn.cli.outcome import verb
 
@@ -67,12 +67,14 @@ for function, examples in (
     (signals.listen, signals.LISTEN_EXAMPLES),
     (signals.signals, signals.SIGNALS_EXAMPLES),
     (compare.compare, compare.EXAMPLES),
+    (handover.export, handover.EXPORT_EXAMPLES),
+    (handover.import_, handover.IMPORT_EXAMPLES),
     (list_.list, list_.EXAMPLES),
     (scenario.init, scenario.INIT_EXAMPLES),
     (scenario.schema, scenario.SCHEMA_EXAMPLE),
     (validate.validate, validate.EXAMPLES),
 ):
-    app.command(epilog=examples)(verb(function))
+    app.command(function.__name__.rstrip("_"), epilog=examples)(verb(function))
 
 
 def _print_version(wanted: bool) -> None:

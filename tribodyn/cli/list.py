@@ -33,6 +33,7 @@ class What(StrEnum):
     solvers = "solvers"
     plots = "plots"
     sweep_plots = "sweep-plots"
+    formats = "formats"
     papers = "papers"
 
 
@@ -45,7 +46,7 @@ def list(
     full: Annotated[bool, typer.Option("--full", help="Everything of all sorts.")] = False,
     json: JsonOption = False,
 ) -> None:
-    """List scenarios, models, kinds of study, laws, solvers, plots, papers."""
+    """List scenarios, models, kinds of study, laws, solvers, plots, formats, papers."""
     from tribodyn.cli.printing import print_json, print_prose, print_table
     from tribodyn.errors import InputError
 
@@ -81,6 +82,7 @@ def _first(names: dict[str, str]) -> str:
 
 def _about(what: What) -> dict[str, str]:
     """Return name and description of everything of one sort."""
+    from tribodyn.exchange import FORMATS
     from tribodyn.geometry.families import FAMILIES
     from tribodyn.input.sources import shipped
     from tribodyn.solve.methods import SOLVERS
@@ -98,6 +100,7 @@ def _about(what: What) -> dict[str, str]:
         What.link_laws: LINK_LAWS,
         What.wear_laws: WEAR_LAWS,
         What.families: FAMILIES,
+        What.formats: FORMATS,
         What.papers: PAPERS,
     }
     match what:

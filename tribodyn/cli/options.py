@@ -76,6 +76,20 @@ def records_and_plots(incomplete: str) -> list[str]:
     return _beginning([*_files(incomplete, *RECORDS), "all", *plots, *of_sweeps], incomplete)
 
 
+def written_formats(incomplete: str) -> list[str]:
+    """Formats of other programs that can be written."""
+    from tribodyn.studies.handed_over import writers
+
+    return _beginning(writers(), incomplete)
+
+
+def read_formats(incomplete: str) -> list[str]:
+    """Formats of other programs that can be read."""
+    from tribodyn.studies.handed_over import readers
+
+    return _beginning(readers(), incomplete)
+
+
 def _files(incomplete: str, *patterns: str) -> list[str]:
     """Files in the folder that is written so far, or here."""
     folder = Path(incomplete[: incomplete.rfind("/") + 1])

@@ -1,0 +1,143 @@
+"""Files of other programs: a scenario or a record as one of their files, and one of theirs as a scenario."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tribodyn.errors import InputError, near_name, quoted
+from tribodyn.exchange import FORMATS
+from tribodyn.exchange.format import SCENARIO, Deviation, ExchangeFormat, Exported, FormatChoice, Imported
+from tribodyn.input import units
+from tribodyn.input.sources import is_file
+from tribodyn.input.units import to_si_at
+from tribodyn.numerics.files.output_files import check_output, write_output
+from tribodyn.record.loss_map import is_map, loss_map
+from tribodyn.record.sweep_reader import SweepRecord, open_any
+from tribodyn.studies.protocol.load import load
+
+_KINDS = {
+    kind.name: kind for kind in (units.TEMPERATURE_KIND, units.ANGULAR_SPEED, units.TORQUE, units.INERTIA)
+}
+
+
+class HandedOver(NamedTuple):
+    """What an export wrote."""
+
+    files: tuple[Path, ...]
+    deviations: tuple[Deviation, ...]  # of what was written from what it was made of
+    remarks: tuple[str, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """For programs."""
+        return {
+            "files": [str(file) for file in self.files],
+            "deviations": [each._asdict() for each in self.deviations],
+            "remarks": list(self.remarks),
+        }
+
+
+def writers() -> dict[str, ExchangeFormat]:
+    """Formats that can be written, by name."""
+    return {name: each for name, each in FORMATS.items() if each.write is not None}
+
+
+def readers() -> dict[str, ExchangeFormat]:
+    """Formats that can be read, by name."""
+    return {name: each for name, each in FORMATS.items() if each.read is not None}
+
+
+def export(
+    source: str | Path, to: str, output: Path, settings: Mapping[str, Any], *, force: bool = False
+) -> HandedOver:
+    """Write a record or a scenario in a format.
+
+    `settings` are choices of the format, and overrides of a scenario. The name of `output` gets the ending of
+    the format where it has none; formats of several files put theirs beside it.
+    """
+    form = _named(to, "export", writers())
+    write = form.write
+    assert write is not None
+    if output.suffix and output.suffix not in form.endings:
+        rule = f"{to} writes {' or '.join(form.endings)}"
+        raise InputError("--output", str(output), rule, f'write "{output.with_suffix(form.endings[0])}"')
+    if not output.absolute().parent.is_dir():
+        raise InputError("--output", str(output), "its folder is not there", "make it, or choose another")
+    check_output(output if output.suffix else output.with_suffix(form.endings[0]), force)
+    choices = {
+        key: _chosen(key, value, form.choices[key]) for key, value in settings.items() if key in form.choices
+    }
+    others = {key: value for key, value in settings.items() if key not in form.choices}
+    exported = _source(source, others, form)
+    takes = [sort for sort in (exported.sort, SCENARIO) if sort in form.takes]
+    if not takes:
+        due = " or ".join(form.takes)
+        raise exported.refused(f"is {exported.sort}, and {to} takes {due}", "name one")
+    written = write(exported, output.stem, choices)
+    files = {output.with_name(output.stem + ending): content for ending, content in written.files.items()}
+    for file in files:
+        check_output(file, force)
+    for file, content in files.items():
+        write_output(file, content, force=force)
+    return HandedOver(tuple(files), written.deviations, written.remarks)
+
+
+def read_scenario(path: Path, name: str | None = None) -> Imported:
+    """Make a scenario of a file of another program, of a format that its ending tells, or that is named."""
+    known = readers()
+    if name is not None:
+        form = _named(name, "import", known)
+    else:
+        endings = {ending: each for each in known.values() for ending in each.endings}
+        found = endings.get(path.suffix.lower())
+        if found is None:
+            rule = "no format that is known has this ending"
+            remedy = (
+                f"one of {', '.join(endings)}, or --from FORMAT" if endings else "install a package with one"
+            )
+            raise InputError("import", str(path), rule, remedy)
+        form = found
+    if not is_file(path):
+        raise InputError("import", str(path), "no such file", "name a file")
+    assert form.read is not None
+    return form.read(path)
+
+
+def _named(name: str, verb: str, known: Mapping[str, ExchangeFormat]) -> ExchangeFormat:
+    if name in known:
+        return known[name]
+    what = f"cannot {verb}" if name in FORMATS else "no such format"
+    near = near_name(name, known)
+    listed = f"one of {', '.join(known)}" if known else "install a package with one"
+    raise InputError("format", quoted(name), what, f'did you mean "{near}"? {listed}' if near else listed)
+
+
+def _chosen(key: str, value: Any, choice: FormatChoice) -> float:
+    if choice.kind in _KINDS:
+        return to_si_at(key, value, _KINDS[choice.kind])
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise InputError(key, quoted(value), "is no number", "write one, such as 0.05") from None
+
+
+def _source(source: str | Path, overrides: Mapping[str, Any], form: ExchangeFormat) -> Exported:
+    path = Path(source)
+    if str(source).endswith(".toml") or not (is_file(path) or path.suffix in (".h5", ".hdf5")):
+        loaded = load(source, overrides)
+        return Exported(loaded.path, tomllib.loads(loaded.case.toml))
+    for key in overrides:
+        remedy = f"one of {', '.join(form.choices)}" if form.choices else "omit it"
+        raise InputError(
+            "--set", quoted(key), f"a record is as it is, and {form.name} has no such choice", remedy
+        )
+    with open_any(path) as record:
+        if isinstance(record, SweepRecord):
+            raise record.refused("is the record of a sweep", "name one of a map or a run")
+        if record.status != "complete":
+            raise record.refused(f"is {record.status}", "finish it")
+        try:
+            losses = loss_map(record) if is_map(record) else None
+        except (KeyError, ValueError) as error:
+            raise record.refused(f"holds a map that cannot be used: {error}", "make it anew") from None
+        return Exported(path, record.scenario, record.summary, losses)
