@@ -40,16 +40,10 @@ from tribodyn.input.tables.gears.quality import (
 from tribodyn.input.tables.gears.single_teeth import broken_own_teeth, teeth_alike
 from tribodyn.input.tables.gears.tooth_data import broken_internal_runs, internal_refused
 from tribodyn.input.tables.laws import FilmTable, film_of, law_values
-from tribodyn.input.tables.losses import (
-    LossesTable,
-    TemperatureTable,
-    broken_losses,
-    broken_temperature_rules,
-    losses_of,
-    temperature_of,
-)
+from tribodyn.input.tables.losses import LossesTable, broken_losses, losses_of
 from tribodyn.input.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
 from tribodyn.input.tables.shafts import Shafts, broken_shafts, drawn_shafts, listed
+from tribodyn.input.tables.temperature import TemperatureTable, broken_temperature_rules, temperature_of
 from tribodyn.mesh.table import MeshData
 from tribodyn.tribology.law import AUTO, FilmData, FrictionData
 

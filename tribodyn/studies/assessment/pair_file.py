@@ -26,8 +26,9 @@ from tribodyn.input.tables.gears.drive_data import materials_of
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.quality import tolerances_of
 from tribodyn.input.tables.gears.tooth_data import driving_internal
-from tribodyn.input.tables.losses import LossesTable, TemperatureTable
+from tribodyn.input.tables.losses import LossesTable
 from tribodyn.input.tables.lubricant import lubricant_of
+from tribodyn.input.tables.temperature import TemperatureTable
 from tribodyn.studies.assessment.case import RatedPair
 from tribodyn.studies.assessment.settings import AssessmentTable, broken_settings, without_data_sheet
 
