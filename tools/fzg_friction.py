@@ -2,8 +2,7 @@
 
 python -m tools.fzg_friction --into docs/ehl.md
 
-Schlenk: 0.048 (F_bt/b/(v_ΣC ρ_C))^0.2 η^−0.05 Ra^0.25 X_L (N, mm, m/s, mPa s, µm). Fernandes: 0.014 S_p^−¼
-S_g^¼ X_L, S_p = v_ΣC η √α/(1000 √F_bt), S_g = Ra/√(b ρ_C); as the open program GEARpie of their author has
+Schlenk's and Fernandes' regressions (`tribodyn.standards.mesh_loss.friction`) as the open program GEARpie has
 them, with its X_L: 0.846 mineral, 0.65 PAO and ester. The gears: 16/24 teeth, module 4.5 mm, centre distance
 91.5 mm, tips of 82.64 and 118.54 mm, Ra 0.4 and 0.31 µm. Two pairs share the load by half.
 """
@@ -16,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tools.marked_block import generate, table
+from tribodyn.standards.mesh_loss.friction import fernandes, schlenk
 from tribodyn.tribology.closure import without_nominal_conditions
 from tribodyn.tribology.contact import Asperities, Surfaces
 from tribodyn.tribology.ehl.coupled import solve_coupled
@@ -69,12 +69,14 @@ def regressions(test: Test) -> tuple[float, float]:
     speed = 2 * pitch * math.sin(ANGLE)
     ratio = TEETH[1] / TEETH[0]
     radius = DISTANCE * math.sin(ANGLE) * ratio / (1 + ratio) ** 2
-    rough = 1e6 * MEAN_ROUGHNESS
-    load = 1e-3 * force / test.width / (speed * 1e3 * radius)
-    schlenk = 0.048 * load**0.2 * (1e3 * oil.inlet_viscosity) ** -0.05 * rough**0.25 * test.schlenk_factor
-    smooth = speed * oil.inlet_viscosity * math.sqrt(oil.pressure_viscosity / force)
-    finish = MEAN_ROUGHNESS / math.sqrt(test.width * radius)
-    return schlenk, 0.014 * smooth**-0.25 * finish**0.25 * test.schlenk_factor
+    oil_factor, viscosity = test.schlenk_factor, oil.inlet_viscosity
+    return (
+        schlenk(force / test.width, speed, radius, viscosity, MEAN_ROUGHNESS, oil_factor),
+        fernandes(
+            *(force, test.width, speed, radius, viscosity, oil.pressure_viscosity),
+            *(MEAN_ROUGHNESS, oil_factor),
+        ),
+    )
 
 
 def contact_for(test: Test, oil: LubricantData, asperities: Asperities = Asperities()) -> Contact:

@@ -33,6 +33,7 @@ class _Formulas(NamedTuple):
     standard: str
     inputs: str = ""  # structures that its functions take
     internal: str = ""  # functions that take the package's own objects
+    module: str = ""  # below `tribodyn.standards`, where it has another name there
 
 
 _PARTS = {
@@ -44,6 +45,9 @@ _PARTS = {
     "flank_tolerances": _Formulas("ISO 1328-1:2013 and :1995"),
     "fzg": _Formulas("ISO 14635-1, ISO/TR 15144-1:2014 annex A, ISO/TS 6336-20 and -21:2017"),
     "load_factors": _Formulas("ISO 6336-1:2019", "FlankRunIn DynamicMesh"),
+    "loss_factors": _Formulas("ISO/TR 14179-2:2001 (Ohlendorf, Niemann, Höhn), Wimmer"),
+    "mesh_friction": _Formulas("ISO/TR 14179-1 and -2:2001; Schlenk; Fernandes", module="mesh_loss.friction"),
+    "mesh_loss": _Formulas("ISO/TR 14179-1 and -2:2001", "LoadedMesh", module="mesh_loss.methods"),
     "metals": _Formulas("ISO 6336-5:2016", "Line Metal"),
     "micropitting": _Formulas("ISO/TS 6336-22:2018 (ISO/TR 15144-1:2014)", "Oil Flanks Load"),
     "pitting": _Formulas("ISO 6336-2:2006 and :2019, method B", "PittingMesh"),
@@ -59,9 +63,9 @@ _PARTS = {
 #: Kind of quantity -> the arguments that are of it; all others are plain numbers.
 _ARGUMENTS = {
     units.LENGTH: (
-        "arm ball_diameter before base_diameter base_radii base_radius centre_distance deviation diameter "
-        "distance face_width half_width mean_diameter mean_roughness middle_diameter misalignment "
-        "missing_relief module most normal_module notch_radius pinion_diameter pitch_deviation "
+        "arm ball_diameter before base_diameter base_radii base_radius centre_distance contact_length "
+        "deviation diameter distance face_width half_width mean_diameter mean_roughness middle_diameter "
+        "misalignment missing_relief module most normal_module notch_radius pinion_diameter pitch_deviation "
         "pitch_diameter pitch_radius profile_deviation radius reference_diameter reduced_radius "
         "reference_radius roller_diameter roughness thickness tip_radius tip_radii tip_relief tolerance "
         "tooth_height transverse_module bending.BendingGear.rim scuffing.flash_approach.length"
@@ -71,11 +75,14 @@ _ARGUMENTS = {
         "roll working working_angle load_factors.shared_load.limits"
     ),
     units.PRESSURE: (
-        "allowable allowable_stress bending_limit contact_limit course effective_modulus hardness high low "
-        "mesh_stiffness pressure reduced_modulus single_stiffness stiffness stress yield_strength "
-        "youngs_modulus"
+        "allowable allowable_stress bending_limit contact_limit course effective_modulus hardness high "
+        "load_intensity low mesh_stiffness pressure reduced_modulus single_stiffness stiffness stress "
+        "yield_strength youngs_modulus"
     ),
-    units.FORCE: "accurate_load axial dynamic_rating loads radial static_rating tangential_load load",
+    units.FORCE: (
+        "accurate_load axial base_force dynamic_rating loads normal_force radial static_rating "
+        "tangential_load load"
+    ),
     Kind("line load", "N/m", "300 N/mm"): "line_load",
     units.TORQUE: "pinion_torque",
     units.POWER: "power",
@@ -88,8 +95,9 @@ _ARGUMENTS = {
     ),
     units.TEMPERATURE_DIFFERENCE: "mean_flash",
     units.VISCOSITY: "viscosity",
-    units.KINEMATIC_VISCOSITY: "viscosity_40",
+    units.KINEMATIC_VISCOSITY: "kinematic_viscosity viscosity_40",
     units.DENSITY: "density",
+    units.PRESSURE_VISCOSITY: "pressure_viscosity",
     Kind("mass per length", "kg/m", "300 kg/m"): "mass reduced_mass",
     units.INERTIA: "inertias",
     Kind("thermal contact coefficient", "W*s**0.5/(m**2*K)", "13800 W*s**0.5/(m**2*K)"): "thermal_contact",
@@ -232,7 +240,7 @@ def _with_units(
 def _part(name: str) -> ModuleType:
     """All formulas, input structures and tables of a module."""
     about = _PARTS[name]
-    source = iso6336 if name == "stiffness" else import_module(f"tribodyn.standards.{name}")
+    source = iso6336 if name == "stiffness" else import_module(f"tribodyn.standards.{about.module or name}")
     module = ModuleType(f"td.standards.{name}", source.__doc__)
     module.__all__ = []  # pyright: ignore[reportAttributeAccessIssue]
     for key, value in vars(source).items():
