@@ -18,6 +18,7 @@ from scipy.io import loadmat
 import tribodyn as td
 from tests.support import loss_maps
 from tests.support.loss_maps import RATIO, SHARE
+from tests.support.modelica_rig import CONNECTORS, RIG
 from tests.support.verbs import complaint, invoke
 from tribodyn.exchange import FORMATS
 from tribodyn.exchange.format import MAP
@@ -147,6 +148,14 @@ def test_the_table_of_a_lossy_gear_balances_torques(path: Path, losses: LossMap)
         assert np.allclose(tau_a - lost, abs(RATIO) * losses.torque, atol=2e-7)
 
 
+def test_a_lossy_gear_of_a_map_of_one_direction_says_what_it_takes_for_the_other(tmp_path: Path):
+    path = loss_maps.write_map(tmp_path / "map.h5", changes={"torque": np.array([0.0, 100.0, 400.0])})
+    done = td.export(path, "modelica", tmp_path / "reducer")
+    table = table_of(done.files[0].read_text(encoding="utf-8"))
+    assert np.allclose(table[:, 2], 2.0 - 1.0 / table[:, 1], rtol=1e-8)
+    assert any("loads of one sign only" in remark for remark in done.remarks)
+
+
 def test_what_no_line_over_the_load_holds_is_stated_as_error(tmp_path: Path):
     """The residual of a parabola, by a fit of another kind."""
 
@@ -199,6 +208,46 @@ def test_modelica_is_parsed(path: Path):
     )
 
 
+def test_modelica_runs_and_its_energy_balances(path: Path, losses: LossMap):
+    """Work of the torques against heat, kinetic and elastic energy; the loss at the end from the map."""
+    compiler = pytest.importorskip("rumoca")
+    package = written(path, "modelica").read_text(encoding="utf-8")
+    # the gear of the standard library and the example need more of it than is here
+    package = re.sub(r"  model (Lossy|Example) .*?end \1;\n", "", package, flags=re.DOTALL)
+    rig = path.with_name("rig") / "rig.mo"
+    rig.parent.mkdir()  # it reads what else lies beside
+    rig.write_text(CONNECTORS + package.replace("within ;", "") + RIG, encoding="utf-8")
+    result = compiler.Session().load(str(rig), model="Rig").simulate(t=(0, 4.0), dt=0.01)
+    of = dict(zip(result.names, np.asarray(result.to_numpy()), strict=True))
+    speed, load = of["gearbox.w_a"], of["load.w"]
+    work = 36.0 * of["gearbox.flange_a.phi"] + 300.0 * of["load.phi"]
+    kinetic = 0.5 * loss_maps.INPUT_INERTIA * speed**2 + 0.5 * 20.0 * load**2
+    twists, torques = (numbers_of(package, name) for name in ("twists", "twistTorques"))
+    elastic = [np.trapezoid(*along(twists, torques, twist)) * np.sign(twist) for twist in of["gearbox.twist"]]
+    stored = kinetic + np.array(elastic)
+    assert np.allclose(work - of["oil.heat"] - (stored - stored[0]), 0.0, atol=1e-3 * work[-1])
+    assert work[-1] > 500.0
+    drag = losses.at(330.0, abs(of["gearbox.tau_b"][-1]), speed[-1])
+    assert of["gearbox.tau_loss"][-1] == pytest.approx(drag, rel=1e-6)
+    assert load[-1] == pytest.approx(RATIO * speed[-1], rel=0.01)
+
+
+def along(twists: np.ndarray, torques: np.ndarray, twist: float) -> tuple[np.ndarray, np.ndarray]:
+    """Torques and twists from 0 to a twist, whose last slope goes on."""
+    slope = np.diff(torques)[[0, -1]] / np.diff(twists)[[0, -1]]
+    far = np.array([-1.0, *twists, 1.0])
+    over = [torques[0] + slope[0] * (-1.0 - twists[0]), *torques, torques[-1] + slope[1] * (1.0 - twists[-1])]
+    inner = far[(far > min(0.0, twist)) & (far < max(0.0, twist))]
+    points = np.array([min(0.0, twist), *inner, max(0.0, twist)])
+    return np.interp(points, far, over), points
+
+
+def numbers_of(text: str, name: str) -> np.ndarray:
+    match = re.search(rf"{name}\[:\]=\{{(.*?)\}}", text)
+    assert match
+    return np.array([float(x) for x in match[1].split(",")])
+
+
 def test_the_twist_of_modelica_has_backlash_and_stiffness(tmp_path: Path):
     """Against the integral of the compliance of the closed form, k = K (0.2 + 0.8 |T|/T0)."""
     torque = np.linspace(-400.0, 400.0, 401)
@@ -206,10 +255,7 @@ def test_the_twist_of_modelica_has_backlash_and_stiffness(tmp_path: Path):
         tmp_path / "map.h5", changes={"torque": torque, "speed": np.array([0.0, 10.0])}
     )
     text = written(path, "modelica", torque="300 N*m").read_text(encoding="utf-8")
-    twist, load = (
-        np.array([float(x) for x in re.search(rf"{name}\[:\]=\{{(.*?)\}}", text)[1].split(",")])  # type: ignore[index]
-        for name in ("twists", "twistTorques")
-    )
+    twist, load = (numbers_of(text, name) for name in ("twists", "twistTorques"))
     exact = 400.0 / (0.8 * loss_maps.STIFFNESS) * np.log(5.0) + loss_maps.BACKLASH / 2
     assert twist[-1] == pytest.approx(exact, rel=1e-4)
     assert np.ptp(twist[load == 0.0]) == pytest.approx(loss_maps.BACKLASH)

@@ -18,8 +18,9 @@ from tribodyn.record.loss_map import LossMap
 def fitted_table(losses: LossMap, drag: np.ndarray) -> np.ndarray | None:
     """Rows of the table for a drag (torque, speed) at one oil temperature; it ends with two equal rows.
 
-    The model extrapolates from its last two rows without bound. Speeds of either sign count alike. None where
-    the gearbox locks itself when the load drives, which the model cannot hold.
+    The model extrapolates from its last two rows without bound. Speeds of either sign count alike, and where
+    the map has loads of one sign only, those of the other lose as much. None where the gearbox locks itself
+    when the load drives, which the model cannot hold.
     """
     load = abs(losses.ratio) * losses.torque
     sides = np.stack([np.ones_like(load), np.maximum(load, 0.0), np.maximum(-load, 0.0)], axis=1)
@@ -28,12 +29,19 @@ def fitted_table(losses: LossMap, drag: np.ndarray) -> np.ndarray | None:
         columns = drag[:, np.abs(losses.speed) == speed]
         matrix = np.tile(sides, (columns.shape[1], 1))
         (still, forward, backward), _ = nnls(matrix, columns.T.ravel())
+        if one_sided(losses):
+            forward = backward = max(forward, backward)
         eta_1, eta_2 = 1.0 / (1.0 + forward), 1.0 - backward
         if eta_2 <= 0.0:
             return None
         rows.append([speed, eta_1, eta_2, eta_1 * still, still / eta_2])
     rows.append([rows[-1][0] * 1.1 + (rows[-1][0] == 0.0), *rows[-1][1:]])
     return np.array(rows)
+
+
+def one_sided(losses: LossMap) -> bool:
+    """Whether the map has loads of one sign only."""
+    return losses.torque[0] >= 0.0 or losses.torque[-1] <= 0.0
 
 
 def drag_of_table(losses: LossMap, table: np.ndarray) -> np.ndarray:

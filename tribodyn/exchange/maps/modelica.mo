@@ -87,6 +87,7 @@ package @name "Gearbox of @file"
     parameter SI.AngularVelocity w_small=@small "Below it friction is smoothed through standstill";
     parameter Boolean withError=true "Transmission error";
     SI.AngularVelocity w_a "Speed of the input";
+    SI.AngularVelocity w_b "Speed of the output";
     SI.Angle error "Transmission error at flange_b";
     SI.Angle twist;
     SI.AngularVelocity twistRate;
@@ -97,11 +98,14 @@ package @name "Gearbox of @file"
     SI.Power lossPower;
   equation
     w_a = der(flange_a.phi);
+    w_b = der(flange_b.phi);
     direction = tanh(w_a/w_small);
     error = if withError then sign(ratio)*sum({errorAmplitudes[i]*cos(errorOrders[i]*flange_a.phi +
       errorPhases[i]) for i in 1:size(errorOrders, 1)}) else 0;
     twist = ratio*flange_a.phi - flange_b.phi - error;
-    twistRate = der(twist);
+    twistRate = ratio*w_a - w_b + (if withError then sign(ratio)*w_a*sum({errorAmplitudes[i]*
+      errorOrders[i]*sin(errorOrders[i]*flange_a.phi + errorPhases[i]) for i in 1:size(errorOrders, 1)})
+       else 0);
     touching = if backlash > 0 then 0.5*(1 + tanh(20*(abs(twist)/(0.5*backlash) - 1.1))) else 1;
     tau_b = elasticTorque(twist) + touching*d*twistRate;
     tau_loss = drag(heatPort.T, sign(ratio)*tau_b*direction, w_a)*direction;
@@ -116,22 +120,19 @@ package @name "Gearbox of @file"
       @name.lossTable);
   end Lossy;
 
-  model Example "Nominal speed and torque"
+  model Example "A motor of constant torque turns a fan from rest"
     Gearbox gearbox;
-    Modelica.Mechanics.Rotational.Sources.Speed motor;
-    Modelica.Blocks.Sources.Ramp speed(height=@nominal_speed, duration=0.2);
-    Modelica.Mechanics.Rotational.Components.Inertia load(J=gearbox.J/ratio^2, w(fixed=true, start=0),
-      phi(fixed=true, start=0));
-    Modelica.Mechanics.Rotational.Sources.Torque brake;
-    Modelica.Blocks.Sources.Constant torque(k=@brake);
+    Modelica.Mechanics.Rotational.Sources.ConstantTorque motor(tau_constant=@motor);
+    Modelica.Mechanics.Rotational.Components.Inertia load(J=10*gearbox.J/ratio^2, phi(fixed=true,
+      start=0), w(fixed=true, start=0));
+    Modelica.Mechanics.Rotational.Sources.QuadraticSpeedDependentTorque fan(tau_nominal=-@fan,
+      TorqueDirection=false, w_nominal=@fan_speed);
     Modelica.Thermal.HeatTransfer.Sources.FixedTemperature oil(T=@oil);
   equation
-    connect(speed.y, motor.w_ref);
     connect(motor.flange, gearbox.flange_a);
     connect(gearbox.flange_b, load.flange_a);
-    connect(load.flange_b, brake.flange);
-    connect(torque.y, brake.tau);
+    connect(load.flange_b, fan.flange);
     connect(oil.port, gearbox.heatPort);
-    annotation(experiment(StopTime=1));
+    annotation(experiment(StopTime=@duration));
   end Example;
 end @name;

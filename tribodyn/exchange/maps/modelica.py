@@ -27,13 +27,15 @@ from tribodyn.exchange.maps.chosen import (
     read_numbers,
     stiffness,
 )
-from tribodyn.exchange.maps.lossy_gear import drag_of_table, fitted_table
+from tribodyn.exchange.maps.lossy_gear import drag_of_table, fitted_table, one_sided
 from tribodyn.record.loss_map import GridValues, LossMap
 
 #: Share of the largest speed below which friction is smoothed through standstill.
 _SMALL = 1e-3
 #: What concerns LossyGear in the template.
 _LOSSY_GEAR = re.compile(r"  constant Real lossTable.*?;\n|  model Lossy .*?end Lossy;\n\n", re.DOTALL)
+#: Duration of the example over the time in which the torque would bring its inertia to the fan's speed.
+_RISES = 5.0
 _AXES = {"oilTemperatures": "oil_temperature", "torques": "torque", "speeds": "speed"}
 
 
@@ -49,6 +51,7 @@ def write(exported: Exported, name: str, choices: Mapping[str, float]) -> Writte
     spring = stiffness(exported, torque)
     at_output = inertia(exported) / losses.ratio**2
     ratio = damping_ratio(exported, choices)
+    fan_speed = abs(losses.ratio) * (np.abs(losses.speed).max() or 1.0)
     twist, twist_torque = _characteristic(losses, spring)
     order, amplitude, phase = _errors(losses, torque)
     table = fitted_table(losses, drag)
@@ -69,9 +72,10 @@ def write(exported: Exported, name: str, choices: Mapping[str, float]) -> Writte
         "damping": f"{2 * ratio * np.sqrt(spring * at_output):.9g}",
         "backlash": f"{_backlash(losses):.9g}",
         "small": f"{_SMALL * np.abs(losses.speed).max() or 1e-3:.9g}",
-        "nominal_speed": f"{losses.nominal_speed:.9g}",
-        # it acts on the flange: against the motion
-        "brake": f"{-np.sign(losses.ratio) * torque:.9g}",
+        "motor": f"{1.2 * abs(losses.ratio * torque):.9g}",
+        "fan": f"{abs(torque):.9g}",
+        "fan_speed": f"{fan_speed:.9g}",
+        "duration": f"{_RISES * 11 * at_output * fan_speed / (abs(torque) or 1.0):.3g}",
         "oil": f"{temperature:.9g}",
     }
     text = _At(_template(with_lossy_gear=table is not None)).substitute(values)
@@ -85,6 +89,8 @@ def write(exported: Exported, name: str, choices: Mapping[str, float]) -> Writte
         read = drag_of_table(losses, read_numbers(text, "lossTable"))
         over = f"all loads and speeds of the map at {celsius(temperature)} oil"
         found.append(deviation("drag at the input (Lossy)", "N m", read, drag, over))
+        if one_sided(losses):
+            remarks.append("the map has loads of one sign only: Lossy loses as much under the others")
     if amplitude.any():
         remarks.append(f"transmission error as at {torque:.6g} N m")
     else:
