@@ -52,6 +52,19 @@ def written(path: Path, to: str, name: str = "reducer", **choices: Any) -> Path:
 
 
 @pytest.mark.parametrize("name", OF_MAPS)
+def test_a_map_without_statics_goes_as_far_as_the_target_needs(name: str, tmp_path: Path):
+    lacking = dict.fromkeys(("backlash", "transmission_error_phase", "mesh_order"))
+    path = loss_maps.write_map(tmp_path / "map.h5", changes=lacking)
+    assert td.export(path, name, tmp_path / "reducer").files
+    lacking |= dict.fromkeys(("stiffness_total", "transmission_error_output"))
+    path = loss_maps.write_map(tmp_path / "map.h5", changes=lacking)
+    if name in ("modelica", "openfast"):
+        assert "no stiffness" in complaint("export", path, "--to", name, folder=tmp_path)
+    else:
+        assert td.export(path, name, tmp_path / "less").files
+
+
+@pytest.mark.parametrize("name", OF_MAPS)
 def test_every_file_states_its_error_and_is_replaced(name: str, path: Path):
     words = ("export", path, "--to", name, "-o", path.with_name("reducer"))
     printed = invoke(*words)

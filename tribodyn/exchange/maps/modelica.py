@@ -92,10 +92,11 @@ def write(exported: Exported, name: str, choices: Mapping[str, float]) -> Writte
         if one_sided(losses):
             remarks.append("the map has loads of one sign only: Lossy loses as much under the others")
     if amplitude.any():
-        remarks.append(f"transmission error as at {torque:.6g} N m")
+        unknown = "" if losses.error_phase.size else "; the map has no phases of it, here they are 0"
+        remarks.append(f"transmission error as at {torque:.6g} N m{unknown}")
     else:
         remarks.append("the map has no transmission error with orders of its meshes: there is none in it")
-    if not np.isfinite(losses.backlash):
+    if not losses.backlash > 0.0:
         remarks.append("the map has no backlash: there is none in it")
     return Written({".mo": heading(exported, "// ", found, remarks) + text}, tuple(found), tuple(remarks))
 
