@@ -64,7 +64,7 @@ def export(
     if to is None:
         rule = f"one of {', '.join(handed_over.writers())}"
         raise InputError("--to", None, "the format is missing", rule)
-    done = handed_over.export(file, to, output, overrides(settings), force=force)
+    done = handed_over.export(file, to, output or Path(Path(file).stem), overrides(settings), force=force)
     if json:
         print_json(done.as_dict())
         return
@@ -104,7 +104,7 @@ def import_(
     imported = handed_over.read_scenario(file, from_)
     write_output(target, imported.toml, force=force)
     if json:
-        print_json({"files": [str(target)], "remarks": list(imported.remarks)})
+        print_json({"files": [str(target)], "remarks": list(imported.remarks), **imported.details})
         return
     for line in imported.remarks:
         print_prose(line)

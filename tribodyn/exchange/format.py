@@ -84,6 +84,7 @@ class Imported(NamedTuple):
 
     toml: str
     remarks: tuple[str, ...] = ()  # what was not used, and what is missing, by component
+    details: Mapping[str, Any] = MappingProxyType({})  # the same for programs
 
     @property
     def scenario(self) -> dict[str, Any]:

@@ -261,12 +261,22 @@ def starts(shafts: Sequence[Mapping[int, float]], meshing: Sequence[tuple[int, i
     return [found[n] for n in range(len(shafts))]
 
 
+def _clear(shaft: ShaftData, begin: float, end: float) -> float:
+    """Radius that a hollow shaft leaves free over a stretch of the axis, m; 0 where it is solid."""
+    free, start = np.inf, shaft.start
+    for section in shaft.drawing.section:
+        if start < end and start + section.length > begin:
+            free = min(free, section.bore / 2.0)
+        start += section.length
+    return float(free) if shaft.start <= begin and start >= end else 0.0
+
+
 def check_room_of_shafts(
     shafts: Sequence[ShaftData],
     gears: Sequence[tuple[str, int, float, float]],
     centres: Sequence[Sequence[float]],
 ) -> None:
-    """Raise InputError where a shaft penetrates a gear of another.
+    """Raise InputError where a shaft penetrates a gear of another, if not in its shaft's bore.
 
     `gears` are names, bodies, tip radii and face widths; `centres` of the bodies, m.
     """
@@ -283,7 +293,8 @@ def check_room_of_shafts(
                 end = start + section.length
                 inside = start < middle + width / 2.0 and end > middle - width / 2.0
                 overlap = section.diameter / 2.0 + tip - apart
-                if inside and overlap > 0.0:
+                shared = max(start, middle - width / 2.0), min(end, middle + width / 2.0)
+                if inside and overlap > 0.0 and apart + section.diameter / 2.0 > _clear(carrier, *shared):
                     rule = (
                         f"penetrates {name} on the shaft {carrier.name} by {1e3 * overlap:.3g} mm: "
                         f"the axes are {1e3 * apart:.6g} mm apart, its tips at a radius of {1e3 * tip:.6g} mm"

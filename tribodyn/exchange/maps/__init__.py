@@ -1,1 +1,0 @@
-"""Maps of losses for other simulators, one file a format."""

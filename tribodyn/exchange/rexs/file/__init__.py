@@ -1,0 +1,1 @@
+"""What a REXS file holds: parts, attributes, units; how it is read from XML, JSON and ZIP."""

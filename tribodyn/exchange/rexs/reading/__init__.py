@@ -1,0 +1,1 @@
+"""From a REXS file to a scenario."""

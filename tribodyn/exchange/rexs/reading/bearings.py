@@ -1,0 +1,217 @@
+"""Bearings: from REXS to [[shaft.drawn.bearing]], and to the springs of [bearings.NAME]."""
+
+import math
+from typing import NamedTuple
+
+from tribodyn.exchange.rexs.file.attributes import (
+    AXIAL_ABSORPTION,
+    AXIAL_STIFFNESS,
+    BEARING_TYPE,
+    BEARING_TYPES,
+    CLEARANCE,
+    CONTACT_ANGLE,
+    DESIGNATION,
+    E_OF_CATALOGUE,
+    ELEMENT,
+    INNER,
+    OUTER,
+    PRELOAD,
+    PRELOAD_FORCE,
+    RADIAL_ABSORPTION,
+    RADIAL_STIFFNESS,
+    RATINGS,
+    ROW,
+    TILT_STIFFNESS,
+    U_INNER,
+    U_OUTER,
+)
+from tribodyn.exchange.rexs.file.model import Component
+from tribodyn.exchange.rexs.file.sheet import Sheet
+from tribodyn.exchange.rexs.reading.draft import Draft, text
+
+BEARINGS = (
+    "rolling_bearing_with_catalog_geometry",
+    "rolling_bearing_with_detailed_geometry",
+    "concept_bearing",
+)
+#: Stiffness that REXS calls rigid begins here; what stands for it; what stands for one that is not said. N/m
+RIGID, STIFF, TYPICAL = 1e12, 1e10, 5e8
+#: The same of springs against tilts and twists, N m/rad.
+RIGID_TILT, STIFF_TILT = 1e11, 1e9
+#: Types with rollers, with a contact angle that is needed, with a direction of thrust.
+_ROLLERS = "cylindrical-roller", "needle-roller", "tapered-roller", "spherical-roller"
+_ANGLED = (
+    "angular-contact-ball",
+    "four-point-contact-ball",
+    "self-aligning-ball",
+    "tapered-roller",
+    "spherical-roller",
+)
+_ONE_WAY = "angular-contact-ball", "tapered-roller"
+#: Those that hold both ways and may slide.
+_BOTH_WAYS = "deep-groove-ball", "four-point-contact-ball", "self-aligning-ball", "spherical-roller"
+
+
+class Support(NamedTuple):
+    """A bearing of a shaft."""
+
+    bearing: Component
+    place: float | None  # m, from the start of the shaft
+    other: Component | None  # what it stands in
+
+
+def supports_of(sheet: Sheet, shaft: Component) -> list[Support]:
+    """The bearings of a shaft, along it."""
+    found = []
+    for bearing in sheet.model.of_type(*BEARINGS):
+        inner, outer = (
+            sheet.model.related("side", "assembly", bearing.number, role)
+            for role in ("inner_part", "outer_part")
+        )
+        for parts, others, key in ((inner, outer, U_INNER), (outer, inner, U_OUTER)):
+            if shaft in parts:
+                found.append(Support(bearing, sheet.si(bearing, key), others[0] if others else None))
+    return sorted(found, key=lambda each: each.place or 0.0)
+
+
+def put_bearing(draft: Draft, support: Support, place: float, sense: int) -> None:
+    """Write a bearing of a drawn shaft, `place` m from its start; `sense`: whether the shaft runs along u."""
+    sheet, bearing = draft.sheet, support.bearing
+    draft.table("[[shaft.drawn.bearing]]", bearing.name)
+    draft.put("position", f'"{1e3 * place:.12g} mm"')
+    named = {name: kind for kind, names in BEARING_TYPES.items() for name in names}
+    said = sheet.text(bearing, BEARING_TYPE)
+    kind = named.get(said or "")
+    if said is not None and kind is None:
+        sheet.leave(bearing, BEARING_TYPE, "no such type in a scenario: springs stand for it")
+    sizes = {} if kind is None else _sizes(sheet, bearing, kind)
+    if kind is None or not sizes:
+        _put_springs(draft, bearing, kind)
+        return
+    draft.put("type", text(kind), sheet.text(bearing, DESIGNATION) or "")
+    for key, value in sizes.items():
+        draft.put(key, value)
+    for rating in RATINGS:
+        if rating.key not in sizes and sheet.si(bearing, rating):
+            draft.put(rating.key, sheet.toml(bearing, rating))
+    if not sheet.si(bearing, RATINGS[3]):
+        draft.suggest("contamination_factor", "0.5")
+    held = sheet.text(bearing, AXIAL_ABSORPTION)
+    if kind in _ONE_WAY:
+        _put_thrust(draft, bearing, held, sense)
+        if sheet.si(bearing, PRELOAD):
+            draft.put("preload", sheet.toml(bearing, PRELOAD))
+        elif sheet.si(bearing, PRELOAD_FORCE):
+            draft.put("preload_force", sheet.toml(bearing, PRELOAD_FORCE))
+    else:
+        if sheet.si(bearing, CLEARANCE) is not None:
+            draft.put("clearance", sheet.toml(bearing, CLEARANCE))
+        if kind in _BOTH_WAYS and held == "no_direction":
+            draft.put("locating", "false")
+        elif kind in _BOTH_WAYS and held in ("positive", "negative"):
+            draft.change(bearing, f"takes axial force in the direction {held} alone; here both ways")
+        elif kind not in _BOTH_WAYS and held not in (None, "no_direction"):
+            draft.change(bearing, f"a {kind} bearing takes no axial force here; in the file {held}")
+
+
+def _put_thrust(draft: Draft, bearing: Component, held: str | None, sense: int) -> None:
+    ways = {"positive": sense, "negative": -sense}
+    if held in ways:
+        draft.put("thrust", text("+z" if ways[held] > 0 else "-z"))
+    else:
+        rule = f"has to be positive or negative for a {draft.sheet.text(bearing, BEARING_TYPE)}"
+        raise draft.sheet.refused(
+            bearing, rule, "say in which direction it takes axial force", AXIAL_ABSORPTION.name
+        )
+
+
+def _sizes(sheet: Sheet, bearing: Component, kind: str) -> dict[str, str]:
+    """The inside of a bearing, or what its catalogue says; nothing where neither is complete."""
+    rows = sheet.model.related("assembly", "assembly", bearing.number, "part", "rolling_bearing_row")
+    found: dict[str, str] = {}
+    if kind in _ANGLED:
+        angle = _contact_angle(sheet, bearing, rows)
+        if angle is None:
+            return {}
+        found["contact_angle"] = angle
+    if len(rows) == 2 and kind in ("cylindrical-roller", "needle-roller"):
+        found["rows"] = "2"
+    elements = (
+        sheet.model.related("assembly", "assembly", rows[0].number, "part", "rolling_element") if rows else []
+    )
+    if elements:
+        keys = ELEMENT if kind in _ROLLERS else ELEMENT[:1]
+        inside = {key.key: sheet.toml(rows[0], key) for key in ROW}
+        inside |= {key.key: sheet.toml(elements[0], key) for key in keys}
+        if all(inside.values()):
+            return found | {key: value for key, value in inside.items() if value is not None}
+    catalogue = {"bore": sheet.toml(bearing, INNER), "outside_diameter": sheet.toml(bearing, OUTER)}
+    catalogue[RATINGS[1].key] = sheet.toml(bearing, RATINGS[1]) if sheet.si(bearing, RATINGS[1]) else None
+    if None in catalogue.values() or kind == "needle-roller":
+        return {}
+    return found | {key: value for key, value in catalogue.items() if value is not None}
+
+
+def _contact_angle(sheet: Sheet, bearing: Component, rows: list[Component]) -> str | None:
+    """Of its rows, else from e = 1.5 tan α of the catalogue."""
+    if rows and sheet.si(rows[0], CONTACT_ANGLE):
+        return sheet.toml(rows[0], CONTACT_ANGLE)
+    limit = sheet.si(bearing, E_OF_CATALOGUE)
+    return f'"{math.degrees(math.atan(limit / 1.5)):.6g} deg"' if limit else None
+
+
+def _put_springs(draft: Draft, bearing: Component, kind: str | None) -> None:
+    """Springs: the file's, or for what it leaves open a typical stiffness."""
+    sheet = draft.sheet
+    if kind is not None:
+        name = sheet.text(bearing, DESIGNATION) or bearing.name
+        lacking = (
+            "bore, outside diameter and ratings"
+            if kind not in _ANGLED
+            else "bore, outside diameter, ratings, contact angle"
+        )
+        draft.suggest(
+            "type", text(kind), f"{name}: {lacking} are not in the file; with them in place of the springs"
+        )
+    if sheet.truth(bearing, RADIAL_ABSORPTION) is not False:
+        value = sheet.si(bearing, RADIAL_STIFFNESS)
+        for axis in ("stiffness_x", "stiffness_y"):
+            _put_spring(draft, bearing, axis, value)
+    if sheet.text(bearing, AXIAL_ABSORPTION) in ("positive", "negative", "both_directions"):
+        _put_spring(draft, bearing, "stiffness_axial", sheet.si(bearing, AXIAL_STIFFNESS))
+        if sheet.text(bearing, AXIAL_ABSORPTION) != "both_directions":
+            draft.change(bearing, "takes axial force one way alone; here its spring holds both ways")
+    tilt = sheet.si(bearing, TILT_STIFFNESS)
+    if tilt:
+        limited = min(tilt, STIFF_TILT) if tilt >= RIGID_TILT else tilt
+        draft.put(
+            "stiffness_tilt", f'"{limited:.9g} N*m/rad"', "rigid in the file" if limited != tilt else ""
+        )
+
+
+def _put_spring(draft: Draft, bearing: Component, key: str, value: float | None) -> None:
+    if not value:
+        draft.assume(key, f'"{TYPICAL:g} N/m"')
+    elif value >= RIGID:
+        draft.put(key, f'"{STIFF:g} N/m"', "rigid in the file")
+        draft.change(bearing, f"is rigid; here {key} = {STIFF:g} N/m")
+    else:
+        draft.put(key, f'"{value:.9g} N/m"')
+
+
+def put_springs_of(draft: Draft, name: str, supports: list[Support]) -> None:
+    """Write [bearings.NAME], what holds a shaft that is not drawn: the sum of its bearings."""
+    sheet = draft.sheet
+    draft.table(f"[bearings.{name}]", ", ".join(each.bearing.name for each in supports))
+    stiffness = [sheet.si(each.bearing, RADIAL_STIFFNESS) for each in supports]
+    total = sum(value or TYPICAL for value in stiffness)
+    for key in ("stiffness_x", "stiffness_y"):
+        if not all(stiffness):
+            draft.assume(key, f'"{total:g} N/m"')
+        elif total >= RIGID:
+            draft.put(key, f'"{STIFF:g} N/m"', "rigid in the file")
+        else:
+            draft.put(key, f'"{total:.9g} N/m"')
+    if all(stiffness) and total >= RIGID:
+        draft.change(supports[0].bearing, f"is rigid, as others of {name}; here {STIFF:g} N/m")
+    draft.assume("damping_ratio", "0.05")
