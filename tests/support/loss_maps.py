@@ -42,7 +42,7 @@ def write_map(
     sources: Mapping[tuple[str, str, str], Drag] | None = None,
     changes: Mapping[str, Any] | None = None,
 ) -> Path:
-    """Write the record of a map; `changes` takes the place of axes and attributes."""
+    """Write the record of a map; `changes` takes the place of axes and attributes, None of a dataset."""
     sources = SOURCES if sources is None else sources
     given = dict(changes or {})
     axes = {
@@ -73,6 +73,8 @@ def write_map(
         ),
         "transmission_error_phase": ("rad", ("mesh", "torque", "harmonic"), np.zeros((2, len(load), 2))),
     }
+    for name in [name for name in given if name in data and given[name] is None]:
+        del data[name], given[name]
     with h5py.File(path, "w") as file:
         file.attrs.update(
             {

@@ -64,7 +64,7 @@ def export(
     if to is None:
         rule = f"one of {', '.join(handed_over.writers())}"
         raise InputError("--to", None, "the format is missing", rule)
-    done = handed_over.export(file, to, output or Path(Path(file).stem), overrides(settings), force=force)
+    done = handed_over.export(file, to, output, overrides(settings), force=force)
     if json:
         print_json(done.as_dict())
         return

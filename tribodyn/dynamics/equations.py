@@ -25,9 +25,10 @@ from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_veloc
 from tribodyn.dynamics.energy import parametric_torque
 from tribodyn.dynamics.loads import add_frame_forces, carried_along, clutch_forces, link_forces, load_torque
 from tribodyn.dynamics.mesh_motion import motion_of, on_body, place_in_mesh
-from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
+from tribodyn.dynamics.parameters import BY_TIME, DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.numerics.elementary import by_chain_rule, independent, law, plain
 from tribodyn.train.coupling import coupling_forces, spread_forces
+from tribodyn.train.motor import motor_torque
 from tribodyn.train.structure import (
     ACROSS,
     AXIAL,
@@ -110,7 +111,9 @@ def resultants(place, mesh, model, work):
 
 @law
 def derivatives(phase, cycle, interval, y, model, work, dy):
-    """Fill `dy` with the derivative of the state by phase, per reference cycle, and `work` with the contacts.
+    """Fill `dy` with the derivative of the state per reference cycle, and `work` with the contacts.
+
+    By time it is per cycle of nominal speed.
 
     The phase, 0 … 1, lies inside `interval`, which says what pairs are in contact; `cycle` counts the
     reference cycles before. `work` has one for every mesh. Compiled code carries no derivatives of works.
@@ -121,9 +124,14 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
     layout = options.layout
     half = layout.half
     reference_speed = operation.nominal_speed + slip_of(y, layout)
-    rate = operation.pitch_angle / reference_speed  # seconds per reference cycle
     nominal_time = operation.pitch_angle / operation.nominal_speed
     zero = 0.0 * y[0]
+    if options.variable == BY_TIME:
+        rate = nominal_time + zero  # seconds per step of 1 of what the derivatives are by
+        passing = reference_speed / operation.nominal_speed  # reference cycles per that
+    else:
+        rate = operation.pitch_angle / reference_speed
+        passing = 1.0 + zero
     for i in range(half, layout.mechanical):  # forces and torques first, in the direction of the motion
         dy[i] = zero
     friction_power = zero
@@ -214,8 +222,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
     driven_body = layout.input
     drive_torque = zero
     if options.drive != DRIVE_SPEED:
-        slip = slip_of_body(driven_body, y, model)
-        drive_torque = operation.drive_torque - operation.speed_regulation * slip
+        drive_torque, _ = motor_torque(driven_body, y, model)
         place_of_torque = half + turn_of(driven_body, layout)
         dy[place_of_torque] = dy[place_of_torque] + drive_torque
     if layout.inertial > 0:
@@ -235,7 +242,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
             dy[i] = rate * y[half + i]
         else:
             dy[half + i] = rate * acceleration
-            dy[i] = rate - nominal_time
+            dy[i] = rate - nominal_time * passing
         if b < layout.planar:
             x = shift_of(b)
             share = rate / bodies.mass[b]

@@ -2,6 +2,8 @@
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.bearing_forces import LINEAR, BearingForces
 from tribodyn.train.clutches import Clutches
@@ -27,6 +29,10 @@ from tribodyn.tribology.law import (
 #: The reference's speed is prescribed, or a torque acts on the input body.
 DRIVE_SPEED = 0
 DRIVE_TORQUE = 1
+
+#: What the derivatives are by: the reference's rotation, or time, in which it may stand and turn back.
+BY_ROTATION = 0
+BY_TIME = 1
 
 CLASSICAL = 0
 ENERGY_CONSISTENT = 1
@@ -54,6 +60,7 @@ class Options(NamedTuple):
     bearings: BearingForces = LINEAR  # whose forces are evaluated in time
     reads_film: int = 1  # 0: the friction law does not depend on the film, which is recorded only
     averaged: int = 0  # 1: radius and entrainment vanish at the pitch point and are averaged over the contact
+    variable: int = BY_ROTATION
 
 
 class Operation(NamedTuple):
@@ -73,6 +80,10 @@ class Operation(NamedTuple):
     load_phases: Float[Array, " harmonic"]
     clutches: Clutches = Clutches()
     start_slip: Any = 0.0  # of the reference at the start, above its nominal speed, rad/s
+    #: this and the next two: knots of a C1 torque of the drive over the speed of its body, added
+    motor_speeds: Float[Array, " knot"] = np.zeros(0)
+    motor_torques: Float[Array, " knot"] = np.zeros(0)
+    motor_slopes: Float[Array, " knot"] = np.zeros(0)
 
 
 class Model(NamedTuple):

@@ -6,7 +6,17 @@ from tribodyn.numerics.registry import Registry
 FORMATS: Registry[ExchangeFormat] = Registry(
     "format",
     "format",
-    {"csv": "tribodyn.exchange.csv_map:FORMAT", "rexs": "tribodyn.exchange.rexs.rexs_format:FORMAT"},
+    {
+        "csv": "tribodyn.exchange.maps.csv_table:FORMAT",
+        "mat": "tribodyn.exchange.maps.mat:FORMAT",
+        "modelica": "tribodyn.exchange.maps.modelica:FORMAT",
+        "mujoco": "tribodyn.exchange.maps.mujoco:FORMAT",
+        "drake": "tribodyn.exchange.maps.drake:FORMAT",
+        "openfast": "tribodyn.exchange.maps.openfast:FORMAT",
+        "python": "tribodyn.exchange.maps.python:FORMAT",
+        "c": "tribodyn.exchange.maps.c:FORMAT",
+        "rexs": "tribodyn.exchange.rexs.rexs_format:FORMAT",
+    },
     "tribodyn.formats",
     ExchangeFormat,
 )

@@ -159,6 +159,15 @@ def varying_load(
     }
 
 
+def motor_curve(curve: Table | None) -> dict[str, np.ndarray]:
+    """Fields of `parameters.Operation`: a torque of the drive over speed; without one nothing."""
+    if curve is None:
+        return {}
+    speeds, torques = (np.asarray(values, dtype=float) for values in curve)
+    slopes = monotone_slopes(speeds, torques)
+    return {"motor_speeds": speeds, "motor_torques": torques, "motor_slopes": slopes}
+
+
 def resting_slopes(times: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Slopes of the C1 curve through the points that never overshoots; flat at both ends."""
     if len(times) < 2:

@@ -26,7 +26,7 @@ from tribodyn.tribology.bulk_temperature import (
     network_temperatures,
 )
 from tribodyn.tribology.law import AUTO
-from tribodyn.tribology.losses.loss import Loss, Wheel
+from tribodyn.tribology.losses.loss import Loss, OilState, Wheel
 from tribodyn.tribology.losses.pair import LossData, losses_of_pair
 from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, LubricantData, lubricant_at, specific_heat
 
@@ -112,7 +112,6 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
     def wheel(side: Side) -> Wheel:
         body, place = body_of(drive, side), SIDES.index(side)
         return Wheel(
-            float(speed * abs(drive.pinion.teeth / body.teeth)),
             abs(float(radii[place])),
             abs(float(tip_radius(drive, side))),
             abs(float(assembly.tooth(side).root_radius)),
@@ -123,8 +122,9 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
             abs(float(drive.helix_angle)),
         )
 
-    wheels = wheel("pinion"), wheel("gear")
-    return losses_of_pair(wanted, wheels, float(oil.inlet_viscosity), float(oil.density))
+    speeds = float(speed), float(speed * abs(drive.pinion.teeth / drive.gear.teeth))
+    state = OilState(float(oil.inlet_viscosity), float(oil.density))
+    return losses_of_pair(wanted, (wheel("pinion"), wheel("gear")), speeds, state)
 
 
 def thermal_quantities(thermal: Thermal | None, power_in: float, efficiency: float) -> dict[str, Any]:

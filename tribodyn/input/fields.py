@@ -44,6 +44,13 @@ class TorqueCurve(CurveTable):
     torque: Annotated[Column, units.TORQUE]
 
 
+class MotorCurve(CurveTable):
+    """Torque of a motor over speed; a smooth curve through the points, straight beyond them."""
+
+    speed: Annotated[Column, units.ANGULAR_SPEED]
+    torque: Annotated[Column, units.TORQUE]
+
+
 class StiffnessCurve(CurveTable):
     """Stiffness of a single pair over the pinion's roll angle from the pitch point."""
 

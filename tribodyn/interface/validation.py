@@ -37,7 +37,8 @@ def validate(
     ----------
     paper : str
         "liu-ni-2022", "diez-ibarbia", "veciana-2024", "efremenkov-2024" or "jia-2022"; of listings
-        "helical-report-2017", "stplus-fzg-c", "iso-tr-6336-30" or "iso-6336-6-annex-c".
+        "helical-report-2017", "stplus-fzg-c", "fzg-gears-gearpie", "planetary-losses-2017",
+        "iso-tr-6336-30" or "iso-6336-6-annex-c".
     progress : callable or bool, optional
         As of `run`.
     folder : path, optional

@@ -80,6 +80,12 @@ def cubic_rise(u, rise, out, back):
 
 
 @law
+def cubic_rise_slope(u, rise, out, back):
+    """Its slope."""
+    return out + u * (2.0 * (3.0 * rise - 2.0 * out - back) + 3.0 * u * (out + back - 2.0 * rise))
+
+
+@law
 def place_between(points, x):
     """Which of the intervals between increasing points x is in, its width, and the share of it, 0 to 1."""
     i = last_at_or_below(points, x)

@@ -5,7 +5,7 @@ periods per mesh cycle whatever the speed does. At constant speed, frequency is 
 Whole cycles are taken, so harmonics of the mesh fall exactly on lines and no window is needed.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -42,10 +42,32 @@ class KeyPoint(NamedTuple):
     names: dict[int, str]  # number of the pair -> the point where it then is
 
 
+def by_time(record: Record) -> bool:
+    """Whether samples are even in time, for gears may stand; cycles are then those of nominal speed."""
+    return record.scenario.get("solver", {}).get("duration") is not None
+
+
+def refuse_by_time(record: Record) -> None:
+    """Raise InputError for what is made of whole mesh cycles, which a run by time has none of."""
+    if by_time(record):
+        rule = "is of a run by time, whose samples are not even in the phase of the mesh"
+        raise record.refused(rule, "run it over solver.cycles in place of solver.duration")
+
+
+def abscissa_of(records: Sequence[Record], chosen: str | None, changing: bool) -> str:
+    """What curves go over, phase or time: as chosen; time where a run changes, and of those by time alone."""
+    over = chosen or ("time" if changing or any(map(by_time, records)) else "phase")
+    for record in records if over == "phase" else ():
+        refuse_by_time(record)
+    return over
+
+
 def samples_per_cycle(record: Record) -> int:
     """Find the samples in one mesh cycle, of a train its first mesh's; InputError below two samples."""
     if record.samples < 2:
         raise record.refused("holds no samples to draw", "run the scenario again")
+    if by_time(record):
+        return int(record.scenario["output"]["samples_per_cycle"])
     if "mesh_phase" in record:
         phase = record["mesh_phase"][:, 0]
         return max(1, round((phase.size - 1) / (phase[-1] - phase[0])))
@@ -60,7 +82,9 @@ def mesh_rates(record: Record) -> np.ndarray:
         return np.ones(1)
     phase = record["mesh_phase"]
     turned = phase[-1] - phase[0]
-    return turned / turned[0]
+    if by_time(record):  # which may end where it began
+        turned = phase[np.argmax(np.abs(phase[:, 0] - phase[0, 0]))] - phase[0]
+    return turned / turned[0] if turned[0] else np.ones(len(turned))
 
 
 def shown_cycles(record: Record) -> int:
@@ -74,6 +98,8 @@ def mesh_phases(record: Record) -> np.ndarray:
     """Cycles (sample, mesh) of every mesh since it began one."""
     if "mesh_phase" in record:
         return record["mesh_phase"]
+    if by_time(record):
+        return (record["pinion_angle"] * record.mesh_cycle["pinion_teeth"] / (2 * np.pi))[:, None]
     return (np.arange(record.samples) / samples_per_cycle(record))[:, None]
 
 
@@ -128,9 +154,9 @@ def pair_curve(
     older = values[:, numbers.index(pair - 1)] if pair - 1 in numbers and pair <= 1 else None
     pieces_x, pieces_y = [], []
     phase = mesh_phases(record)[window.part, mesh]
-    passed = np.diff(np.floor(phase + _SAME_PHASE), prepend=np.floor(phase[0] + _SAME_PHASE)) > 0.0
+    passed = np.diff(np.floor(phase + _SAME_PHASE), prepend=np.floor(phase[0] + _SAME_PHASE))
     for start, end in pairwise(dict.fromkeys([0, *np.flatnonzero(passed), column.size - 1])):
-        after = older if passed[end] else column
+        after = older if passed[end] > 0.0 else column
         last = after[end] if after is not None else np.nan
         pieces_x += [abscissa[start : end + 1], [np.nan]]
         pieces_y += [column[start:end], [last, np.nan]]
@@ -163,7 +189,12 @@ def key_points(record: Record) -> list[KeyPoint]:
 
 
 def transient(record: Record) -> bool:
-    """Whether the mean speed or the load of a mesh cycle changes by more than `CHANGING` during a run."""
+    """Whether the mean speed or the load of a mesh cycle changes by more than `CHANGING` during a run.
+
+    One by time is for that.
+    """
+    if by_time(record):
+        return record.samples > 1
     moving = "dof" in record or "speed" in record
     if not moving or "power_out" not in record or record.samples < 2:
         return False

@@ -8,7 +8,7 @@ from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, SLIDING_K
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.initial import accelerations
-from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF, SWITCHING
+from tribodyn.solve.methods import AUTO, EXPLICIT, IN_TIME, IN_TIME_STIFF, STIFF, SWITCHING
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.train.clutches import friction_torque
 from tribodyn.train.schedule import intervals, place_of
@@ -151,3 +151,11 @@ def choose(method: str, model: Model, state: Float[Array, " state"]) -> Choice:
     if steps > switching:
         return Choice(SWITCHING, f"stiff where flanks stick: {needed}, above {switching}")
     return Choice(EXPLICIT, f"not stiff: {needed}, below {min(stiff, switching)}")
+
+
+def choose_in_time(method: str, model: Model, state: Float[Array, " state"]) -> Choice:
+    """Return the method of a run by time: the user's, or one of SciPy's by the same estimate."""
+    choice = choose(method, model, state)
+    if method != AUTO:
+        return choice
+    return Choice(IN_TIME if choice.method == EXPLICIT else IN_TIME_STIFF, choice.reason)

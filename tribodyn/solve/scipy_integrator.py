@@ -74,7 +74,7 @@ class ScipyIntegrator:
         return walk.result(Status.DONE, float(cycles))
 
 
-def _stepped(solver: Any) -> str:
+def stepped(solver: Any) -> str:
     """Let a solver take a step; returns its words where it fails, also over a Jacobian that is not finite."""
     try:
         return solver.step() or ""
@@ -134,7 +134,7 @@ class _Walk:
             while solver.status == "running":
                 if self.steps - self.steps_before >= max_steps:
                     raise _Ended(Status.TOO_MANY_STEPS, solver.t)
-                message = _stepped(solver)
+                message = stepped(solver)
                 end_where_nothing_goes_on(solver.t, solver.y, solver.status == "failed")
                 if solver.status == "failed":
                     raise _Ended(Status.GAVE_UP, solver.t, message)

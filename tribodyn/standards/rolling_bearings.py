@@ -1,4 +1,4 @@
-"""Rating life of rolling bearings by ISO 281 and ISO/TS 16281, and Palmgren's friction moment of the load.
+"""Rating life of rolling bearings by ISO 281 and ISO/TS 16281.
 
 Formulas of the modified and of the reference life are written from knowledge, without the standards at hand.
 
@@ -97,23 +97,27 @@ def equivalent_load(
     return Equivalent(factors[0] * radial + factors[1] * axial, *factors, limit)
 
 
+def static_factors(kind: str, *, contact_angle: float = 0.0, rows: int = 1) -> tuple[float, float]:
+    """X_0 and Y_0 of P_0 = max(X_0 F_r + Y_0 F_a, F_r), ISO 76:2006, tables 2 and 3; α in rad.
+
+    Deep groove balls 0.6 and 0.5; angular contact 0.5 and Y_0 by α, other types with a contact angle 0.5 and
+    0.22 cot α; both doubled of two rows that take thrust both ways; what carries F_r alone 1 and 0.
+    """
+    if kind in _RADIAL:
+        return 1.0, 0.0
+    rows = 2 if kind in _TWO_ROWS else rows
+    if kind == "deep-groove-ball":
+        return 0.6, 0.5
+    if kind in ("angular-contact-ball", "four-point-contact-ball"):
+        return 0.5 * rows, rows * float(np.interp(math.degrees(contact_angle), _ANGLES, _STATIC_Y))
+    return 0.5 * rows, rows * 0.22 / math.tan(contact_angle)
+
+
 def static_load(
     kind: str, radial: float, axial: float, *, contact_angle: float = 0.0, rows: int = 1
 ) -> float:
-    """P_0 = max(X_0 F_r + Y_0 F_a, F_r), N, ISO 76:2006, tables 2 and 3; loads ≥ 0, N; α in rad.
-
-    Deep groove balls 0.6 and 0.5; angular contact 0.5 and Y_0 by α, other types with a contact angle 0.5 and
-    0.22 cot α; both doubled of two rows that take thrust both ways.
-    """
-    if kind in _RADIAL:
-        return radial
-    rows = 2 if kind in _TWO_ROWS else rows
-    if kind == "deep-groove-ball":
-        x, y = 0.6, 0.5
-    elif kind in ("angular-contact-ball", "four-point-contact-ball"):
-        x, y = 0.5 * rows, rows * float(np.interp(math.degrees(contact_angle), _ANGLES, _STATIC_Y))
-    else:
-        x, y = 0.5 * rows, rows * 0.22 / math.tan(contact_angle)
+    """P_0 by `static_factors`, N; loads ≥ 0, N."""
+    x, y = static_factors(kind, contact_angle=contact_angle, rows=rows)
     return max(x * radial + y * axial, radial)
 
 
@@ -125,60 +129,6 @@ def basic_life(kind: str, dynamic_rating: float, load: float) -> float:
 def running_time(revolutions: float, speed: float) -> float:
     """Time that so many revolutions take at a speed (rad/s, > 0), s: L_10h of L_10."""
     return revolutions * 2.0 * math.pi / speed
-
-
-#: f_1 of Palmgren's moment as Harris gives it: of rollers; of balls with the exponent of P_0/C_0.
-_ROLLER_MOMENTS = {
-    "cylindrical-roller": 0.0003,
-    "needle-roller": 0.0003,
-    "tapered-roller": 0.0004,
-    "spherical-roller": 0.0004,
-}
-_BALL_MOMENTS = {
-    "deep-groove-ball": (0.0005, 0.55),
-    "angular-contact-ball": (0.001, 0.33),
-    "four-point-contact-ball": (0.001, 0.33),
-    "self-aligning-ball": (0.0003, 0.4),
-}
-
-
-def load_moment(
-    kind: str,
-    radial: float,
-    axial: float,
-    mean_diameter: float,
-    *,
-    static_rating: float | None = None,
-    contact_angle: float = 0.0,
-    rows: int = 1,
-) -> float | None:
-    """M_1 = f_1 P_1 d_m, N m, by Palmgren, f_1 and P_1 as Harris gives them (chapter 14; from memory).
-
-    Balls: f_1 = c (P_0/C_0)^y of ISO 76's P_0, deep groove 0.0005 and 0.55, angular contact 0.001 and 0.33,
-    self-aligning 0.0003 and 0.4; None without C_0. P_1 ≥ F_r: deep groove 3 F_a − 0.1 F_r, angular contact
-    F_a − 0.1 F_r, of two rows 1.4 F_a − 0.1 F_r, self-aligning 1.4 Y_2 F_a − 0.1 F_r. Cylindrical and needle
-    rollers with cage: f_1 = 0.0003, P_1 = F_r; tapered rollers 0.0004, max(2 Y F_a, F_r), Y = 0.4 cot α;
-    spherical rollers 0.0004, max(1.2 Y_2 F_a, F_r). Flange friction under axial load is not in it; toroidal
-    rollers have none there: None.
-    """
-    slope = math.tan(contact_angle)
-    if kind == "toroidal-roller":
-        return None
-    if kind in ROLLERS:
-        thrust = 0.0 if kind in _RADIAL else (1.2 * 0.67 if kind == "spherical-roller" else 0.8) / slope
-        return _ROLLER_MOMENTS[kind] * max(thrust * axial, radial) * mean_diameter
-    if static_rating is None:
-        return None
-    static = static_load(kind, radial, axial, contact_angle=contact_angle, rows=rows)
-    if kind == "deep-groove-ball":
-        thrust = 3.0
-    elif kind == "self-aligning-ball":
-        thrust = 1.4 * 0.65 / slope
-    else:
-        thrust = 1.4 if rows == 2 or kind in _TWO_ROWS else 1.0
-    factor, exponent = _BALL_MOMENTS[kind]
-    load = max(thrust * axial - 0.1 * radial, radial)
-    return factor * (static / static_rating) ** exponent * load * mean_diameter
 
 
 #: ISO 281:2007, annex A: filtered circulating oil by the code of ISO 4406 (beside it β of its filter): a, b

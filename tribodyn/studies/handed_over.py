@@ -48,16 +48,18 @@ def readers() -> dict[str, ExchangeFormat]:
 
 
 def export(
-    source: str | Path, to: str, output: Path, settings: Mapping[str, Any], *, force: bool = False
+    source: str | Path, to: str, output: Path | None, settings: Mapping[str, Any], *, force: bool = False
 ) -> HandedOver:
     """Write a record or a scenario in a format.
 
     `settings` are choices of the format, and overrides of a scenario. The name of `output` gets the ending of
-    the format where it has none; formats of several files put theirs beside it.
+    the format where it has none, and without one the file is named after the source; formats of several files
+    put theirs beside it.
     """
     form = _named(to, "export", writers())
     write = form.write
     assert write is not None
+    output = Path(f"{Path(source).stem}{form.endings[0]}") if output is None else output
     if output.suffix and output.suffix not in form.endings:
         rule = f"{to} writes {' or '.join(form.endings)}"
         raise InputError("--output", str(output), rule, f'write "{output.with_suffix(form.endings[0])}"')

@@ -101,7 +101,7 @@ def figure(
     "time" (ms), by default phase, and time where speed or load change. Raises InputError for an unknown name
     or abscissa, no record, or a record without samples.
     """
-    from tribodyn.post.cycles import shown_cycles, transient
+    from tribodyn.post.cycles import abscissa_of, shown_cycles, transient
     from tribodyn.post.figures.drawing import with_whole_markers
     from tribodyn.post.figures.panel import View
     from tribodyn.post.style import house_style
@@ -119,7 +119,7 @@ def figure(
     shown = None if whole else max(map(shown_cycles, records))
     number = shown if cycles == "auto" else cycles
     with house_style():
-        over = against or ("time" if whole else "phase")
+        over = abscissa_of(records, against, whole)
         return with_whole_markers(by_name[name].draw(records, View(number, over, against is not None)))
 
 

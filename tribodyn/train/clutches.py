@@ -12,7 +12,7 @@ import numpy as np
 
 from tribodyn.numerics.elementary import exp, law, minimum
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.smooth import cubic_rise, place_between, sign, sign_slope
+from tribodyn.numerics.smooth import cubic_rise, cubic_rise_slope, place_between, sign, sign_slope
 from tribodyn.train.joints import joined
 from tribodyn.train.structure import OF_MESHES, TURN, WORKS_OF_MESH, speed_of, turning
 
@@ -216,6 +216,6 @@ def common_knots(
         u = np.clip((times - own[i]) / width, 0.0, 1.0)
         up, out, back = at[i + 1] - at[i], rise[i] * width, rise[i + 1] * width
         values[c] = at[i] + cubic_rise(u, up, out, back)
-        slope = out + u * (2.0 * (3.0 * up - 2.0 * out - back) + 3.0 * u * (out + back - 2.0 * up))
+        slope = cubic_rise_slope(u, up, out, back)
         slopes[c] = np.where((times >= own[0]) & (times <= own[-1]), slope / width, 0.0)
     return times, values, slopes

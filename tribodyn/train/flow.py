@@ -9,6 +9,7 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.clutches import Standing, accelerating, standing, taken_by_inertia
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.layout import TrainLayout
+from tribodyn.train.motor import torque_at
 from tribodyn.train.structure import (
     TURN,
     driven_arm,
@@ -98,7 +99,8 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0, starting: b
     slip = ratio * float(operation.start_slip) if starting else 0.0 * ratio
     wanted = wanted + np.asarray(bodies.load_damping) * slip
     if model.options.drive:
-        drive = float(operation.drive_torque - operation.speed_regulation * slip[layout.input])
+        speed = float(ratio[layout.input] * operation.nominal_speed + slip[layout.input])
+        drive = float(torque_at(speed, slip[layout.input], operation)[0])
         largest += float(abs(drive * ratio[layout.input]))
         wanted[layout.input] -= drive
     stand = standing(model, wanted) if starting and layout.clutches else None

@@ -99,6 +99,31 @@ PAPERS = {
             "inputs; Lewis parabola: not computed here",
         ),
     ),
+    "fzg-gears-gearpie": Paper(
+        "tribodyn.validation.books.fzg_gears_gearpie",
+        "FZG gears in the reports of GEARpie: loss factors, mean friction and losses of five pairs",
+        "as the program does: radius of curvature of the transverse section, least lines of contact",
+        source=Listing(
+            "GEARpie (2025-01-10)",
+            "Ohlendorf, Wimmer, Schlenk, Fernandes, Martins & Seabra (2014)",
+            "MIT",
+            "github.com/cfernandesFEUP/GEARpie, commit cb30c91, REPORT/",
+            "calculated there, not measured; stresses and DIN 3990, films by another formula, Matsumoto's "
+            "friction: not compared here",
+        ),
+    ),
+    "planetary-losses-2017": Paper(
+        "tribodyn.validation.books.planetary_losses_2017",
+        "Planetary stages of NREL's 5 MW gearbox (KISSsoft 2017): losses mesh by mesh",
+        "with the printed load factors; H_v by its formula also beyond the formula's range",
+        source=Listing(
+            "KISSsoft, release 03/2017 A",
+            "ISO/TR 15144-1:2014, ISO 6336:2006",
+            "none named (academic licence of the program, NTNU)",
+            "github.com/gfsReboucas/Drivetrain, @NREL_5MW/stage_01.rtf and stage_02.rtf, commit 4a88df3",
+            "all but losses and what they follow from",
+        ),
+    ),
     "iso-tr-6336-30": Paper(
         "tribodyn.validation.books.iso_tr_6336_30",
         "ISO/TR 6336-30, example 1: a helical pair by ISO 6336-1 and -2, and its geometry",

@@ -64,6 +64,12 @@ def test_a_file_says_by_whom_and_how_exactly_it_was_made_and_is_replaced(losses:
     assert "did not make it" in complaint("export", losses, "--to", "csv", "-o", losses.with_name("t.csv"))
 
 
+def test_a_file_is_named_after_its_source(losses: Path):
+    losses.rename(losses.with_name("map.v2.h5"))
+    invoke("export", "map.v2.h5", "--to", "c", folder=losses.parent)
+    assert {"map.v2.c", "map.v2.h"} <= {file.name for file in losses.parent.iterdir()}
+
+
 def test_verbs_list_what_they_know():
     printed = invoke("export")
     assert all(name in printed for name, each in FORMATS.items() if each.write)

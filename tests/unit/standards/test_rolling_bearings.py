@@ -13,7 +13,6 @@ from tribodyn.standards.rolling_bearings import (
     fatigue_load_limit,
     life_factor,
     life_of_rows,
-    load_moment,
     reference_life_of_balls,
     reference_life_of_rollers,
     reference_viscosity,
@@ -66,16 +65,6 @@ def test_the_life_by_hand():
     assert running_time(balls, 1500.0 * math.pi / 30.0) == pytest.approx(11111.1 * 3600.0, rel=1e-5)
     assert basic_life(ROLLER, 30e3, 3e3) == pytest.approx(10 ** (10 / 3) * 1e6)
     assert basic_life(BALL, 30e3, 0.0) == math.inf
-
-
-def test_moments_of_the_load_by_hand():
-    """N and mm: 0.0003 · 5000 N · 60 mm = 90 N mm; 0.0005 (2/20)^0.55 · 2000 · 60 = 16.9 N mm."""
-    assert load_moment(ROLLER, 5000.0, 0.0, 60e-3) == pytest.approx(0.09)
-    assert load_moment(BALL, 2000.0, 0.0, 60e-3, static_rating=20e3) == pytest.approx(0.01691, rel=1e-3)
-    assert load_moment(BALL, 2000.0, 0.0, 60e-3) is None
-    angle = math.radians(14.0)
-    expected = 0.0004 * 2.0 * (0.4 / math.tan(angle)) * 2000.0 * 0.053
-    assert load_moment(TAPERED, 3000.0, 2000.0, 53e-3, contact_angle=angle) == pytest.approx(expected)
 
 
 def test_the_life_factor_against_readings_of_a_published_diagram():

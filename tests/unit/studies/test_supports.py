@@ -24,7 +24,9 @@ from tribodyn.standards.rolling_bearings import life_factor, reference_viscosity
 from tribodyn.studies.assessment.pages.first_page import bearings_table
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
-from tribodyn.tribology.losses.bearings import DRAG_FACTORS, BearingDragData, palmgren
+from tribodyn.tribology.losses.bearings import BearingInOil
+from tribodyn.tribology.losses.loss import OilState
+from tribodyn.tribology.losses.palmgren import palmgren
 
 HELICAL = {"mesh.slices": 7, "friction.law": "none", "bearings": "rigid-1e9"}
 
@@ -201,8 +203,9 @@ def test_loads_lives_and_losses_of_bearings():
     life = (67e3 / one["equivalent_load"]) ** (10 / 3) * 1e6 / (60.0 * 1500.0)
     assert one["rating_life"] == pytest.approx(3600.0 * life)
     oil, speed = case.lubricant, 1500.0 * math.pi / 30.0
-    drag = BearingDragData(66e-3, DRAG_FACTORS["tapered-roller"], 1)
-    assert one["power_bearing"] > palmgren(drag, speed, oil.inlet_viscosity, oil.density).power
+    drag = BearingInOil("tapered-roller", 66e-3, contact_angle=math.radians(14.0))
+    idle = palmgren(drag, speed, OilState(oil.inlet_viscosity, oil.density), 0.0, 0.0).idle
+    assert one["power_bearing"] > idle * speed
     remarks = " ".join(bearing_remarks(shafts_of(box), oil))
     assert "Bearing gear-1: no life without dynamic_rating" in remarks
     assert "rating_life" not in found["gear-1"]

@@ -16,7 +16,8 @@ from tribodyn.gears.motion.running import MeshOfRun, RunStatistics, judge_balanc
 from tribodyn.gears.prepare import MOST_MOTIONS
 from tribodyn.gears.sensing.listening import Listener
 from tribodyn.record.writer import RecordWriter
-from tribodyn.solve.choice import choose
+from tribodyn.solve.choice import choose, choose_in_time
+from tribodyn.solve.in_time import transient_in_time
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
 
@@ -42,18 +43,22 @@ def record_motion(
 ) -> RecordedMotion:
     """Integrate a case, its `solver` and `output`, from its start, and write it to a record as it comes.
 
-    `window` are the cycles at the end that means are of, `recorded` what the record takes of samples,
-    `listener` the sensors, which take all of them. Raises SimulationError where there is no start.
+    `window` are the cycles at the end that means are of, in a run by time those of nominal speed, `recorded`
+    what the record takes of samples, `listener` the sensors, which take all of them. Raises SimulationError
+    where there is no start.
     """
     begun, solver = perf_counter(), case.solver
     samples, cycles = case.output.samples_per_cycle, solver.cycles
     state = initial_state(model, solver.initial)
-    choice = choose(solver.method, model, state)
+    by_time = solver.duration is not None
+    choice = (choose_in_time if by_time else choose)(solver.method, model, state)
     settings = TransientSettings(
         choice.method, solver.rtol, cycles, solver.max_steps, samples, window, extremes=True
     )
-    course = RunCourse([mesh.rate for mesh in meshes], samples, float(model.operation.pitch_angle))
-    statistics = RunStatistics(window, cycles, meshes, model.layout, course)
+    course = None
+    if not by_time:
+        course = RunCourse([mesh.rate for mesh in meshes], samples, float(model.operation.pitch_angle))
+    statistics = RunStatistics(window * samples, cycles * samples, meshes, model.layout, course)
     kept, revolution = case.output.kept(cycles), case.output.revolution
     by_revolution = None
     if case.output.revolutions(cycles):
@@ -61,11 +66,11 @@ def record_motion(
             record, len(meshes), revolution, samples, of_train=meshes[0].number is not None
         )
     stop = Stop(state, 0.0, 0, 0, "", 0.0)
-    for part in transient(model, state, settings):
+    for part in (transient_in_time if by_time else transient)(model, state, settings):
         if isinstance(part, Stop):
             stop = part
         elif len(part.cycles):
-            shares = statistics.averages(part.cycles)
+            shares = statistics.averages(len(part.cycles))
             states, block, extreme = evaluated_with_extremes(
                 part.cycles, part.states, part.extremes, model, shares
             )

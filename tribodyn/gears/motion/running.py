@@ -40,10 +40,15 @@ class MeshOfRun(NamedTuple):
 
 
 class RunStatistics:
-    """What the summary needs of a run that arrives in blocks."""
+    """What the summary needs of a run that arrives in blocks; `window` and `total` are numbers of samples."""
 
     def __init__(
-        self, window: int, total: int, meshes: Sequence[MeshOfRun], layout: TrainLayout, course: RunCourse
+        self,
+        window: int,
+        total: int,
+        meshes: Sequence[MeshOfRun],
+        layout: TrainLayout,
+        course: RunCourse | None,
     ):
         self.start, self.stop = total - window, total
         self.written = 0
@@ -57,26 +62,27 @@ class RunStatistics:
 
     def add(self, states: np.ndarray, block: Sampled, extreme: Sampled) -> None:
         """Take in a part: its states, what is made of them, and of the motion where it is extreme."""
-        cycles, stored = block.cycles, block.whole["stored_energy"]
-        self.written += len(cycles)
+        stored, count = block.whole["stored_energy"], len(block.cycles)
+        averages, first = self.averages(count), max(self.start - self.written, 0)
         add_extremes(self.extremes, self.meshes, block, extreme)
-        self.course.add(block)
+        if self.course is not None:
+            self.course.add(block)
         judge_run(self.judge, self.meshes, self.layout, block, extreme)
         if not self.ends:
             self.ends.append((states[0], stored[0]))
         self.ends[1:] = [(states[-1], stored[-1])]
-        last = slice(int(np.searchsorted(cycles, self.start - 1e-9)), None)
-        if len(cycles[last]):
-            add_extremes(self.in_window, self.meshes, block.part(last), extreme)
-        if self.averages(cycles):
-            averaged = slice(last.start, int(np.searchsorted(cycles, self.stop - 1e-9)))
+        if first < count:
+            add_extremes(self.in_window, self.meshes, block.part(slice(first, None)), extreme)
+        if averages:
+            averaged = slice(first, self.stop - self.written)
             if not self.blocks:
                 self.window_start = states[averaged][0]
             self.blocks.append(block.part(averaged).meshes)
+        self.written += count
 
-    def averages(self, cycles: np.ndarray) -> bool:
-        """Whether means are of some of these samples; the last of a run is a cycle after the first."""
-        return bool(np.any((cycles >= self.start - 1e-9) & (cycles < self.stop - 1e-9)))
+    def averages(self, count: int) -> bool:
+        """Whether means are of some of the next samples; the last of a run is a cycle after the first."""
+        return self.written < self.stop and self.written + count > self.start
 
     def of_mesh(self, m: int, complete: bool) -> dict[str, Any]:
         """Extremes of the last cycles of a mesh, of an incomplete run of all."""
@@ -84,7 +90,11 @@ class RunStatistics:
             return {}
         shown = self.in_window[m] if complete else self.extremes[m]
         extremes = {"run": self.extremes[m].described(), "last_cycles": self.in_window[m].described()}
-        return shown.values() | {"extremes": extremes} | self.course.summary(m)
+        return (
+            shown.values()
+            | {"extremes": extremes}
+            | (self.course.summary(m) if self.course is not None else {})
+        )
 
     def balance(self) -> dict[str, float]:
         """Residual of the energy balance so far."""

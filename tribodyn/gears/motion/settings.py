@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.compliance.foundation import Foundation
-from tribodyn.errors import InputError, unknown_name
+from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.gears.case import OutputData
 from tribodyn.gears.scenario import (
     FaceSlices,
@@ -37,7 +37,7 @@ from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.single_teeth import ToothSampleNumber
 from tribodyn.input.tables.laws import FrictionTable
 from tribodyn.mesh.table import MeshData
-from tribodyn.solve.methods import AUTO, SOLVERS, SolverData
+from tribodyn.solve.methods import AUTO, METHODS, SOLVERS, Runs, SolverData, runs
 
 #: Cosines in a load or an error: a curve is given by points.
 MOST_HARMONICS = 1000
@@ -70,6 +70,7 @@ class Operating(OiledOperatingTable):
     shaft_stiffness: fields.TorsionalStiffness | None = None
     shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
     speed_regulation: fields.TorsionalDamping = written("0 N*m*s/rad")
+    torque_speed_curve: Annotated[fields.MotorCurve, csv_file("speed", "torque")] | None = None
     start_speed: Annotated[float, InUnit(units.not_negative(units.ANGULAR_SPEED))] | None = None
 
     @property
@@ -136,6 +137,7 @@ class Solver(Table):
     rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
     cycles: Count = 20
     revolutions: Positive | None = None
+    duration: Annotated[float, InUnit(units.positive(units.TIME))] | None = None
     max_steps: Annotated[int, Field(strict=True, gt=0, le=10**9)] = 1_000_000
     initial: Literal["static", "unloaded"] = "static"
 
@@ -166,7 +168,7 @@ def solver_data(solver: Solver, teeth: int) -> SolverData:
     cycles = solver.cycles
     if solver.revolutions is not None:
         cycles = max(1, ceil(solver.revolutions * teeth - 1e-9))
-    settings = solver.model_dump(include={"method", "rtol", "max_steps", "initial"})
+    settings = solver.model_dump(include={"method", "rtol", "max_steps", "initial", "duration"})
     return SolverData(cycles=cycles, **settings)
 
 
@@ -206,9 +208,37 @@ def broken_solver_rules(solver: Solver) -> Iterator[InputError]:
         yield unknown_name("solver.method", solver.method, SOLVERS, "solver")
 
 
+def broken_rules_in_time(scenario: Any) -> Iterator[InputError]:
+    """Go through what a run by time cannot have; nothing of other runs."""
+    solver, operating, mesh = scenario.solver, scenario.operating, scenario.mesh
+    if solver.duration is None:
+        return
+    key = "solver.duration"
+    if operating.source == "speed":
+        rule = 'is of gears that a motor drives, and with source = "speed" the rotation is prescribed'
+        yield InputError(key, None, rule, 'write source = "torque", or give solver.cycles')
+    if solver.method in METHODS and runs(solver.method) is not Runs.SCIPY:
+        rule = "integrates over the rotation, and with solver.duration the gears may stand"
+        others = ", ".join(name for name in METHODS if runs(name) is Runs.SCIPY)
+        yield InputError("solver.method", quoted(solver.method), rule, f'use "auto", {others}')
+    if solver.revolutions is not None:
+        yield InputError("solver.revolutions", None, "contradicts solver.duration", "give one of them")
+    if scenario.output.window is not None:
+        rule = "counts revolutions, and with solver.duration the gears may stand"
+        yield InputError("output.window", None, rule, "leave it out")
+    if getattr(mesh, "formulation", "classical") != "classical":
+        rule = "takes energy from the rotation as pairs enter, of which gears that stand have none"
+        yield InputError("mesh.formulation", quoted(mesh.formulation), rule, 'use "classical"')
+    if scenario.sensor:
+        rule = "hears a run over the rotation, and with solver.duration the gears may stand"
+        yield InputError("sensor", None, rule, "leave the sensors out, or give solver.cycles")
+
+
 def broken_source_rules(operating: Operating) -> Iterator[InputError]:
     """Go through what contradicts in how a gearbox is driven."""
-    if operating.source == "speed":
+    if operating.torque_speed_curve is not None:
+        yield from _broken_curve(operating)
+    elif operating.source == "speed":
         of_motor = ("drive_inertia", "shaft_stiffness", "shaft_damping", "speed_regulation")
         motor_values = {name: getattr(operating, name) for name in of_motor}
         for name, value in {"input_torque": operating.motor_torque, **motor_values}.items():
@@ -222,7 +252,9 @@ def broken_source_rules(operating: Operating) -> Iterator[InputError]:
         if operating.start_speed is not None:
             shown, rule = f"{operating.start_speed:g} rad/s", "is the motor's, and the rotation is prescribed"
             yield InputError("operating.start_speed", shown, rule, 'write source = "torque", or leave it out')
-    elif operating.shaft_stiffness is None and operating.shaft_damping:
+    if operating.source == "speed":
+        return
+    if operating.shaft_stiffness is None and operating.shaft_damping:
         yield InputError(
             "operating.shaft_damping",
             f"{operating.shaft_damping:g} N*m*s/rad",
@@ -236,6 +268,23 @@ def broken_source_rules(operating: Operating) -> Iterator[InputError]:
             "a compliant shaft needs a motor with inertia at its end",
             'add drive_inertia = "0.01 kg*m**2", or leave shaft_stiffness out',
         )
+
+
+def _broken_curve(operating: Operating) -> Iterator[InputError]:
+    """Go through what contradicts the curve of a motor's torque."""
+    key, curve = "operating.torque_speed_curve", operating.torque_speed_curve
+    if operating.source == "speed":
+        rule = 'is a motor\'s, and with source = "speed" the rotation is prescribed'
+        yield InputError(key, None, rule, 'write source = "torque", or leave it out')
+    for name, given in (
+        ("input_torque", operating.motor_torque),
+        ("speed_regulation", operating.speed_regulation),
+    ):
+        if given:
+            rule = "is said by torque_speed_curve too"
+            yield InputError(f"operating.{name}", None, rule, "leave one of them out")
+    if curve is not None and len(curve.speed.values) < 2:
+        yield InputError(key, None, "has one point", "give at least two")
 
 
 def broken_mesh_rules(mesh: Mesh) -> Iterator[InputError]:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from tribodyn.gears.case import GearCase
 from tribodyn.gears.supports import BearingUnderLoad, GearSupport
 from tribodyn.geometry.drive import SIDES
-from tribodyn.input.tables.drawn_bearings import BearingOfShaft, held_by, sized
+from tribodyn.input.tables.drawn_bearings import BearingOfShaft, friction_data, held_by, sized
 from tribodyn.quantities.load import BEARINGS
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards.rolling_bearings import (
@@ -18,7 +18,6 @@ from tribodyn.standards.rolling_bearings import (
     fatigue_load_limit,
     life_factor,
     life_of_rows,
-    load_moment,
     reference_life_of_balls,
     reference_life_of_rollers,
     reference_viscosity,
@@ -27,7 +26,8 @@ from tribodyn.standards.rolling_bearings import (
     static_load,
 )
 from tribodyn.train.elastic.rolling_bearing import BallRow, BearingRows, outer_conformity
-from tribodyn.tribology.losses.bearings import DRAG_FACTORS, BearingDragData, palmgren
+from tribodyn.tribology.losses.loss import OilState
+from tribodyn.tribology.losses.palmgren import DRAG_FACTORS, palmgren
 from tribodyn.tribology.oil import LubricantData
 
 
@@ -111,21 +111,12 @@ def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantDat
         remarks.append(
             f"Bearing {name}: without static_rating, C_0 of its catalogue, no static safety and loss{rest}."
         )
-    if oil is not None and speed > 0.0 and table.pitch_diameter:
-        moment = load_moment(
-            table.type,
-            radial,
-            axial,
-            table.pitch_diameter,
-            static_rating=table.static_rating,
-            contact_angle=angle,
-            rows=table.thrust_rows,
-        )
-        if moment is not None:
-            single = table.arrangement is None and table.rows != 2
-            drag = BearingDragData(table.pitch_diameter, DRAG_FACTORS[table.type], 1 if single else 2)
-            idle = palmgren(drag, speed, float(oil.inlet_viscosity), float(oil.density))
-            numbers["power_bearing"] = idle.power + moment * speed
+    in_oil = friction_data(bearing.table)
+    if oil is not None and speed > 0.0 and in_oil is not None and table.type in DRAG_FACTORS:
+        if table.static_rating is not None or table.type not in BALLS:
+            state = OilState(float(oil.inlet_viscosity), float(oil.density))
+            torque = palmgren(in_oil, speed, state, radial, axial)
+            numbers["power_bearing"] = float(torque.idle + torque.loaded) * speed
     return RatedBearing(name, numbers, tuple(remarks))
 
 

@@ -8,6 +8,7 @@ from pydantic import Field
 from tribodyn.input import units
 from tribodyn.input.quantity import InUnit, Positive, Switch, Table, Text, written
 from tribodyn.input.tables.bearings import MatrixUnits, Rows, Stiffness, matrix_of
+from tribodyn.standards.rolling_bearings import static_factors
 from tribodyn.train.elastic.bearing_sizes import estimated
 from tribodyn.train.elastic.bearing_types import (
     Arrangement,
@@ -20,6 +21,7 @@ from tribodyn.train.elastic.bearing_types import (
 )
 from tribodyn.train.elastic.rolling_bearing import BallRow, BearingRows, RollerRow
 from tribodyn.train.elastic.system import Matrix
+from tribodyn.tribology.losses.bearings import BearingInOil
 
 Size = Annotated[float, InUnit(units.positive(units.LENGTH), "30 mm")]
 Place = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
@@ -97,6 +99,26 @@ def sized(table: BearingOfShaft) -> BearingOfShaft:
     found = estimated(table.type, bore, outside, rating, min(table.contact_angle or 0.0, 1.0), rows)
     inside: dict[str, Any] = dict(zip(ROLLER_SIZES, found, strict=True))
     return table.model_copy(update={**inside, "bore": None, "outside_diameter": None})
+
+
+def friction_data(table: BearingOfShaft) -> BearingInOil | None:
+    """A rolling bearing as the formulas of its friction take it; None: springs, or a matrix."""
+    inside = sized(table)
+    if table.type is None or inside.pitch_diameter is None:
+        return None
+    pair = table.arrangement is not None or table.rows == 2
+    angle = table.contact_angle or 0.0
+    return BearingInOil(
+        table.type,
+        inside.pitch_diameter,
+        rows=2 if pair else 1,
+        both_ways=table.thrust_rows == 2,
+        contact_angle=angle,
+        static_rating=table.static_rating,
+        static_factors=static_factors(table.type, contact_angle=angle, rows=table.thrust_rows),
+        bore=table.bore,
+        outside_diameter=table.outside_diameter,
+    )
 
 
 def held_by(table: BearingOfShaft) -> BallRow | RollerRow | BearingRows | Matrix:

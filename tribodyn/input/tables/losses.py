@@ -11,7 +11,7 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.input import units
 from tribodyn.input.fields import PartName
 from tribodyn.input.quantity import Count, InUnit, Positive, Table
-from tribodyn.tribology.losses.bearings import DRAG_FACTORS, BearingDragData
+from tribodyn.tribology.losses.bearings import BearingInOil
 from tribodyn.tribology.losses.pair import LossData
 
 Depth = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
@@ -61,7 +61,7 @@ class LossesTable(Table):
         """Depth (m) of tip circles below the oil's level at rest, by gear."""
         return self.immersion | _given(self, "immersion")
 
-    def drags(self) -> dict[str, BearingDragData]:
+    def drags(self) -> dict[str, BearingInOil]:
         """Bearings of shafts, by the gear, the shaft or the body that they carry."""
         every: dict[str, BearingDrag] = self.shaft_bearings | _given(self, "bearings")
         return {name: _drag_of(bearing) for name, bearing in every.items()}
@@ -85,9 +85,8 @@ def _given(table: LossesTable, what: str) -> dict[str, Any]:
     return {side: value for side, value in values.items() if value is not None}
 
 
-def _drag_of(table: BearingDrag) -> BearingDragData:
-    factor = DRAG_FACTORS[table.type] if table.drag_factor is None else table.drag_factor
-    return BearingDragData(table.mean_diameter, factor, table.count)
+def _drag_of(table: BearingDrag) -> BearingInOil:
+    return BearingInOil(table.type, table.mean_diameter, table.count, drag_factor=table.drag_factor)
 
 
 def losses_of(table: LossesTable | None) -> LossData | None:

@@ -28,8 +28,9 @@ MARKS = {
     ".dxf": b"\ntribodyn\n",
     ".wav": b"ISFT\x0a\0\0\0tribodyn\0\0",
 }
-#: The same of files that may hold something else than what stands in `MARKS`.
+#: The same of files that may hold something else than what stands in `MARKS`, and of all other endings.
 WRITTEN = {".csv": b"# written by tribodyn"}
+OTHERS = b"written by tribodyn"
 #: Bytes at the beginning of a file, or at the end, among which its mark stands.
 _NEAR = 1000
 #: Flags of files that are not to be reached through a link.
@@ -136,7 +137,7 @@ def open_new(path: Path, mode: int = 0o666) -> BinaryIO:
 def _made_here(path: Path) -> bool:
     """Whether a regular file has the mark of its kind."""
     ending = path.suffix.lower()
-    marks = [marks[ending] for marks in (MARKS, WRITTEN) if ending in marks]
+    marks = [marks[ending] for marks in (MARKS, WRITTEN) if ending in marks] or [OTHERS]
     try:
         with path.open("rb") as stream:
             if ending == ".pdf":  # what stands before its end would move its parts

@@ -201,9 +201,10 @@ def draw_speed(axes: Axes, record: Record, view: View) -> None:
     speeds = record.over_bodies("speed")[window.part][:-1]
     power = record["power_out"][window.part][:-1]
     pinion, gear = speeds[:, 0], speeds[:, 1]
+    load = np.divide(power, gear, out=np.full_like(power, np.nan), where=gear != 0.0)  # not of what stands
     x, speed, torque = (
         np.mean(values.reshape(-1, size), axis=1)
-        for values in (abscissa(window, view)[:-1], pinion * 30 / np.pi, power / gear)
+        for values in (abscissa(window, view)[:-1], pinion * 30 / np.pi, load)
     )
     right = axes.twinx()
     for side, values, color, label in (

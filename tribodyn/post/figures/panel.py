@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tribodyn.post.cycles import Window, in_parts, key_points, last_cycles, pair_curve, stretches
+from tribodyn.post.cycles import Window, by_time, in_parts, key_points, last_cycles, pair_curve, stretches
 from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal, name_above, write_beside
 from tribodyn.quantities.quantity import SHOWN
 from tribodyn.record import trust
@@ -259,7 +259,7 @@ def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bo
         x = abscissa(window, view)
         left, right = min(left, float(x[0])), max(right, float(x[-1]))
         cycles = round(window.phase[-1])
-        if not 0 < cycles <= MOST_CYCLES_MARKED:
+        if by_time(record) or not 0 < cycles <= MOST_CYCLES_MARKED:
             continue
         marks = key_points(record)
         points = [

@@ -9,7 +9,15 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.cycles import CHANGING, Spectrum, Window, amplitude_spectrum, last_cycles
+from tribodyn.post.cycles import (
+    CHANGING,
+    Spectrum,
+    Window,
+    amplitude_spectrum,
+    by_time,
+    last_cycles,
+    refuse_by_time,
+)
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, name_above, new_figure
 from tribodyn.record.reader import Record
@@ -35,6 +43,7 @@ def steady_spectrum(record: Record) -> tuple[Spectrum, Window]:
 
     The rotational one, because it is one signal for all pairs, without jumps where numbers pass on.
     """
+    refuse_by_time(record)
     whole = int(last_cycles(record, None).phase[-1])
     if whole < 1:
         raise record.refused("holds no whole mesh cycle", "run at least one cycle")
@@ -50,6 +59,8 @@ def mode_frequencies(record: Record) -> np.ndarray:
 
 def has_spectra(record: Record) -> bool:
     """Whether the meshes of a record have spectra: those with names over whole cycles of theirs."""
+    if by_time(record):
+        return False
     return not record.names_meshes or any(
         "spectrum_amplitudes" in mesh for mesh in record.mesh_summaries.values()
     )
@@ -64,6 +75,7 @@ def mesh_spectra(record: Record) -> list[tuple[str, Spectrum, float]]:
     if not record.names_meshes:
         spectrum, window = steady_spectrum(record)
         return [("", spectrum, window.mesh_frequency)]
+    refuse_by_time(record)
     if not has_spectra(record):
         cycles = int(record.summary.get("averaging_cycles", 0))
         last = f"{cycles} cycle{'s' if cycles != 1 else ''}"
@@ -173,6 +185,8 @@ class Track(NamedTuple):
 
 def worth_tracking(record: Record) -> bool:
     """Whether a run is long enough, and its speed changes enough, for its orders to be tracked."""
+    if by_time(record):
+        return False
     whole = last_cycles(record, None) if record.samples > 1 else None
     if whole is None or whole.phase[-1] < 2 * WINDOW:
         return False
@@ -186,6 +200,7 @@ def track(record: Record) -> Track:
     Samples are uniform in the phase of the mesh, so that an order is a line whatever the speed does; a line's
     amplitude is that of the cosine, the window's mean taken out. Raises InputError below two windows.
     """
+    refuse_by_time(record)
     whole = last_cycles(record, None)
     per_cycle = whole.samples_per_cycle
     count = round(whole.phase[-1]) - WINDOW

@@ -21,6 +21,7 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.link_jacobian import SHARE, differentiate_clutches, differentiate_links
 from tribodyn.solve.right_hand_side import rhs
 from tribodyn.train.coupling import differentiate_couplings, spread_column
+from tribodyn.train.motor import motor_torque
 from tribodyn.train.structure import (
     ACROSS,
     ALONG_Z,
@@ -242,9 +243,9 @@ def differentiate(place, y, f, scale, model, work, into):
             resisting += load_torque(time, operation)
         jacobian[works + OUT, i] += resisting + bodies.load_damping[b] * speed_of(b, y, model)
         if b == layout.input and not prescribed:
-            torque = operation.drive_torque - operation.speed_regulation * slip_of_body(b, y, model)
-            jacobian[i, i] -= operation.speed_regulation
-            jacobian[works + IN, i] += torque - operation.speed_regulation * speed_of(b, y, model)
+            torque, slope = motor_torque(b, y, model)
+            jacobian[i, i] += slope
+            jacobian[works + IN, i] += torque + slope * speed_of(b, y, model)
     for j in range(works):
         if consistent:
             jacobian[half + layout.lag, j] -= jacobian[works + PARAMETRIC, j]

@@ -41,6 +41,8 @@ METHODS = {
 AUTO = "auto"
 #: Among these "auto" chooses, see `choice`; batches in lanes run the explicit one.
 EXPLICIT, STIFF, SWITCHING = "dopri5", "rodas4", "switching"
+#: And of these in runs by time.
+IN_TIME, IN_TIME_STIFF = "dop853", "lsoda"
 #: What a scenario may say, with a line on each.
 SOLVERS = {
     AUTO: "explicit or stiff by an estimate; the record says which and why",
@@ -56,13 +58,17 @@ _INTEGRATORS = {
 
 @dataclass(frozen=True)
 class SolverData:
-    """Method, relative tolerance, mesh cycles to run, steps allowed per cycle, and where the run starts."""
+    """Method, relative tolerance, mesh cycles to run, steps allowed per cycle, and where the run starts.
+
+    With a `duration` (s) the run is by time, and its cycles are those of nominal speed.
+    """
 
     method: str = "auto"
     rtol: float = 1e-6
     cycles: int = 20
     max_steps: int = 1_000_000
     initial: Literal["static", "unloaded"] = "static"
+    duration: float | None = None
 
 
 def solver(name: str) -> str:

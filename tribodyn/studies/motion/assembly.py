@@ -27,7 +27,7 @@ from tribodyn.studies.motion.case import (
     Gearbox,
     LinkData,
     LoadData,
-    SourceData,
+    refuse_long_period,
 )
 from tribodyn.studies.motion.drivetrain.teeth import engagement
 from tribodyn.train.clutches import Clutches, common_knots
@@ -211,7 +211,20 @@ def clutches_of(clutches: Sequence[ClutchData]) -> Clutches:
     return Clutches(*common_knots(curves), *np.ascontiguousarray(np.array(numbers).T))
 
 
-def start_slip_of(source: SourceData) -> float:
-    """Speed of the input at the start less the nominal one, rad/s; from rest it is `CREEP` of that."""
-    start = source.speed if source.start_speed is None else max(source.start_speed, CREEP * source.speed)
+def start_slip_of(case: Gearbox) -> float:
+    """Speed of the input at the start less the nominal one, rad/s.
+
+    From rest a run by rotation starts at `CREEP` of that, one by time at 0.
+    """
+    source, least = case.source, 0.0 if case.in_time else CREEP
+    start = source.speed if source.start_speed is None else max(source.start_speed, least * source.speed)
     return start - source.speed
+
+
+def refuse_in_time(case: Gearbox) -> None:
+    """Raise InputError where a gearbox cannot be run by time."""
+    refuse_long_period(case)
+    for one in case.sets:
+        if one.frame_forces:
+            rule = "counts the forces of the nominal speed, and with solver.duration the gears may stand"
+            raise InputError(f"{one.key}.frame_forces", True, rule, "set it to false")

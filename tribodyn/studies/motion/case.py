@@ -187,10 +187,12 @@ class SourceData:
     shaft_damping: float = 0.0  # N m s/rad
     speed_regulation: float = 0.0  # fall of the torque per speed above nominal, N m s/rad
     start_speed: float | None = None  # of `body` at the start, rad/s; None: nominal
+    curve: Table | None = None  # its torque over the speed of `body` (rad/s, N m), in place of both
 
     @classmethod
     def of(cls, operating: Any, body: int, speed: float, torque: float) -> "SourceData":
         """By what a table [operating] says of the drive."""
+        curve = operating.torque_speed_curve
         return cls(
             operating.source,
             body,
@@ -201,6 +203,7 @@ class SourceData:
             operating.shaft_damping,
             operating.speed_regulation,
             operating.start_speed,
+            curve.in_si() if curve else None,
         )
 
 
@@ -289,12 +292,14 @@ class Gearbox(CaseHead):
 
     @property
     def laid_out(self) -> int:
-        """Reference cycles of which is laid out when contacts change: the common period, or what is passed.
+        """Reference cycles of which is laid out when contacts change: the common period, or a run and one."""
+        whole = self.period <= self.max_period
+        return self.period if whole or self.in_time else min(self.period, self.solver.cycles + 1)
 
-        The latter is a run and the cycle that begins at its end, where no steady state may last as long as
-        the period: that of hunting teeth has millions of cycles.
-        """
-        return self.period if self.period <= self.max_period else min(self.period, self.solver.cycles + 1)
+    @property
+    def in_time(self) -> bool:
+        """Whether it is run by time: then its gears may stand and turn back."""
+        return self.solver.duration is not None
 
     def without_run(self) -> dict[str, float]:
         """As of a pair of gears, where there is one."""
@@ -324,11 +329,10 @@ class Gearbox(CaseHead):
 
 
 def refuse_long_period(case: Gearbox) -> None:
-    """Raise InputError where a steady state would last longer than is allowed."""
+    """Raise InputError where a steady state, or what a run by time may pass, is longer than is allowed."""
     if case.period > case.max_period:
         mesh = case.meshes[0]
         rule = f"the meshes are at their phases again after {case.period} cycles of the mesh {mesh.name}"
-        remedy = (
-            f"allow max_period = {case.period}, or give gears of one shaft numbers of teeth with a divisor"
-        )
+        remedy = f"allow max_period = {case.period}, "
+        remedy += "or give gears of one shaft numbers of teeth with a divisor"
         raise InputError("solver.max_period", case.max_period, rule, remedy)

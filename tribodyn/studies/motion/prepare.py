@@ -1,7 +1,6 @@
 """From a gearbox to a model ready to integrate: pairs tabulated, numbers of the train assembled."""
 
 from collections.abc import Sequence
-from math import pi
 
 import numpy as np
 
@@ -10,7 +9,7 @@ from tribodyn.errors import InputError
 from tribodyn.gears.bearings_in_time import bearings_in_time
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.drawn_system import coupled_by
-from tribodyn.gears.model import gear_mesh, helix_sign, options_of, varying_load, with_own_teeth
+from tribodyn.gears.model import gear_mesh, helix_sign, motor_curve, options_of, varying_load, with_own_teeth
 from tribodyn.gears.tabulated import Tabulated, tables
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.twist import static_twist
@@ -23,13 +22,14 @@ from tribodyn.studies.motion.assembly import (
     in_space_of,
     link_damping,
     loads_in_own_sense,
+    refuse_in_time,
     start_slip_of,
     table_numbers,
     varying_of,
 )
 from tribodyn.studies.motion.case import HOUSING, Gearbox
 from tribodyn.studies.motion.planetary.carriers import carrier_coordinates, carriers_of
-from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, rolling_of
+from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, reference_pitch
 from tribodyn.studies.motion.planetary.in_space import pins_in_space, tilts_in_frames
 from tribodyn.studies.motion.planetary.rims import pushing_rims, rim_coordinates, rims_of, with_rims
 from tribodyn.studies.motion.thermal_iteration import at_tooth_temperatures
@@ -49,6 +49,9 @@ from tribodyn.train.structure import (
 )
 from tribodyn.tribology.closure import closure_of
 
+#: Cycles over which the numbers of teeth that differ are laid out for a run by time: until they meet again.
+MOST_CYCLES = 10**6
+
 
 def tabulated(case: Gearbox) -> tuple[Tabulated, ...]:
     """The tables of every mesh; equal meshes share one. Raises what `gears.tabulated.tables` raises."""
@@ -65,6 +68,8 @@ def prepare(case: Gearbox, tables: tuple[Tabulated, ...] | None = None) -> Prepa
 
     `tables` are equal tables, if known. Raises as `assemble`.
     """
+    if case.in_time:
+        refuse_in_time(case)
     prepared = assemble(case, tables)
     return prepared if case.system is None else settled(prepared, assemble)
 
@@ -90,7 +95,7 @@ def assemble(
         _under_load(model, case, further),
         entering_teeth(case.toothed_shafts, engaged, phases, further.tolist()),
         [(case.gears[one].teeth, case.gears[two].teeth) for one, two in (mesh.gears for mesh in case.meshes)],
-        case.solver.cycles,
+        MOST_CYCLES if case.in_time else case.solver.cycles,
     )
     return PreparedGearbox(case, model, tables, tuple(warm), tuple(thermal), phases, order, inertias, further)
 
@@ -211,16 +216,21 @@ def _model(
         ),
         parameters.Operation(
             nominal_speed=source.speed / float(case.bodies[source.body].ratio),
-            pitch_angle=2.0 * pi / abs(float(first.drive.pinion.teeth)) / rolling_of(case),
-            drive_torque=source.torque,
+            pitch_angle=reference_pitch(case),
+            drive_torque=source.torque if source.curve is None else 0.0,
             speed_regulation=source.speed_regulation,
             contact_width=first.mesh.contact_width,
             reversal_width=first.friction.reversal_width,
             **varying_load(varying.table, varying.harmonics),
             clutches=clutches_of(case.clutches),
-            start_slip=start_slip_of(source) / float(case.bodies[source.body].ratio),
+            start_slip=start_slip_of(case) / float(case.bodies[source.body].ratio),
+            **motor_curve(source.curve),
         ),
-        options_of(first, cycles, closures[0], layout, drive)._replace(links=chain, bearings=forces),
+        options_of(first, cycles, closures[0], layout, drive)._replace(
+            links=chain,
+            bearings=forces,
+            variable=parameters.BY_TIME if case.in_time else parameters.BY_ROTATION,
+        ),
     )
 
 

@@ -24,6 +24,8 @@ from tribodyn.train.structure import (
 _LONGEST = 8000.0
 #: Mesh cycles at the end of a run that means are of, at most.
 WIDEST_WINDOW = 400
+#: Mesh cycles at the end of a run by time below which the gears stand, and have no efficiency.
+STANDS = 1e-2
 #: Quantities of which the train's is the largest of its meshes' (1), or the smallest (−1).
 WORST = {
     "transmission_error_rms": 1,
@@ -125,25 +127,34 @@ def steady_quantities(
     case, model = prepared.case, prepared.model
     layout, operation = model.layout, model.operation
     cycles = len(windows[0]["normal_load"]) / samples
-    # by the actual rotation: a driven reference need not turn at its nominal speed
-    duration = float(cycles * operation.pitch_angle / operation.nominal_speed + work[layout.lag])
+    nominal = float(operation.pitch_angle / operation.nominal_speed)
+    if case.in_time:
+        duration = cycles * nominal
+        cycles = (duration - float(work[layout.lag])) / nominal
+    else:  # by the actual rotation: a driven reference need not turn at its nominal speed
+        duration = float(cycles * nominal + work[layout.lag])
     whole = {"averaging_cycles": int(cycles), "mesh_frequency": cycles / duration}
     whole |= power_quantities(work, duration, layout)
+    stands = case.in_time and abs(cycles) < STANDS
+    if stands:
+        whole["efficiency"] = float("nan")
     each, idle = [], list[dict[str, Any]]()
     for m, (window, mesh, extreme) in enumerate(zip(windows, meshes, extremes, strict=True)):
-        if case.is_pair and not changes:
+        if case.is_pair and not changes and not case.in_time:
             force = _mean_force(prepared, work, cycles)
         else:
             arm = float(mesh.cycle.gear_sense * mesh.cycle.gear_pitch_radius)
             force = float(np.mean(window["driven_torque"])) / arm
         frequency = mesh.rate * cycles / duration
         quantities = mesh_quantities(window, mesh.cycle, extreme, force, frequency, samples, mesh.rate)
-        if abs(cycles * mesh.rate - round(cycles * mesh.rate)) > 1e-6:
+        if case.in_time or abs(cycles * mesh.rate - round(cycles * mesh.rate)) > 1e-6:
             quantities = {name: value for name, value in quantities.items() if name not in _BY_ORDER}
         if case.is_pair:
             quantities |= {name: whole[name] for name in _POWERS}
         else:
             quantities |= _powers_of_mesh(window, float(work[work_of_mesh(layout, m, FRICTION)]) / duration)
+            if stands:
+                quantities["efficiency"] = float("nan")
         put_in, efficiency = quantities["power_in_mean"], quantities["efficiency"]
         thermal = thermal_quantities(prepared.thermal[m], put_in, efficiency)
         if case.named:  # of shafts and gears of several meshes: told of all together

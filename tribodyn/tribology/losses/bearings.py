@@ -1,41 +1,53 @@
-"""Drag of rolling bearings in the oil, without load."""
+"""What the formulas of the friction of rolling bearings take and return, and the methods by name."""
 
-import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from tribodyn.tribology.losses.loss import Loss
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.tribology.losses.loss import OilState
 
-#: f_0 in an oil bath by type: Harris, Rolling Bearing Analysis, 4th edition, chapter 14 (from memory).
-DRAG_FACTORS = {
-    "deep-groove-ball": 2.0,
-    "angular-contact-ball": 3.3,
-    "cylindrical-roller": 3.0,
-    "tapered-roller": 6.0,
-    "needle-roller": 12.0,
-    "self-aligning-ball": 1.75,
-    "spherical-roller": 5.0,
-    "four-point-contact-ball": 6.5,  # as two rows of angular contact
-}
-#: ν n, mm²/s times rpm, below which the moment no longer depends on it.
-SLOW = 2000.0
+BALLS = ("deep-groove-ball", "angular-contact-ball", "four-point-contact-ball", "self-aligning-ball")
+#: Those that are built with two rows; their factors are of both.
+DOUBLE = ("four-point-contact-ball", "self-aligning-ball", "spherical-roller")
 
 
 @dataclass(frozen=True)
-class BearingDragData:
-    """Bearings of a shaft, alike: mean diameter d_m = (bore + outside)/2 (m), factor f_0, number."""
+class BearingInOil:
+    """Rolling bearings of a shaft, alike, as formulas of their friction need them; SI, None: not known."""
 
-    mean_diameter: float
-    drag_factor: float
-    count: int
+    type: str
+    mean_diameter: float  # d_m = (bore + outside)/2
+    count: int = 1
+    rows: int = 1  # single rows that a pair is made of
+    both_ways: bool = False  # whether a pair takes thrust both ways: O and X
+    contact_angle: float = 0.0  # nominal, rad
+    static_rating: float | None = None  # C_0 of the whole bearing or pair, N
+    #: X_0, Y_0 of P_0 = max(X_0 F_r + Y_0 F_a, F_r), ISO 76
+    static_factors: tuple[float, float] = (1.0, 0.0)
+    drag_factor: float | None = None  # f_0; None: that of the type
+    series: str = ""  # of dimensions, as catalogues name it; "": the method's usual one
+    #: sizes of the bearing, m
+    bore: float | None = None
+    outside_diameter: float | None = None
+    width: float | None = None
+    #: of an oil bath: height of the oil above the outer raceway's lowest point, m, and the factor V_M that
+    #: the maker's diagram has for it; 0: none
+    oil_level: float = 0.0
+    bath_factor: float = 0.0
+    seal: str = ""  # contact seals on both sides, by the maker's name
+    seal_diameter: float = 0.0  # of their counterface, m
 
 
-def palmgren(bearings: BearingDragData, speed: float, viscosity: float, density: float) -> Loss:
-    """Loss of the load-independent moment by Palmgren, as Harris gives it, at a shaft's speed (rad/s, > 0).
+class BearingTorque(NamedTuple):
+    """Torques of all bearings alike against the rotation, N m, finite at speed 0; limits exceeded."""
 
-    M_0 = 10^−7 f_0 (ν n)^⅔ d_m³ N mm for ν n ≥ 2000, else 160 · 10^−7 f_0 d_m³, with ν in mm²/s, n in rpm and
-    d_m in mm; viscosity (dynamic, Pa·s) and density (kg/m³) are the oil's.
-    """
-    flow = 1e6 * viscosity / density * speed * 30.0 / math.pi
-    size = bearings.drag_factor * (1e3 * bearings.mean_diameter) ** 3
-    moment = 1e-7 * size * flow ** (2.0 / 3.0) if flow >= SLOW else 160e-7 * size
-    return Loss(bearings.count * 1e-3 * moment * speed)
+    idle: Float[Array, "..."]  # without load
+    loaded: Float[Array, "..."]  # what the load adds
+    exceeded: tuple[str, ...] = ()
+
+
+#: Of bearings, speed (rad/s, at least 0), oil, radial and axial force of each (N, at least 0).
+BearingFormula = Callable[
+    [BearingInOil, Float[Array, "..."], OilState, Float[Array, "..."], Float[Array, "..."]], BearingTorque
+]

@@ -1,12 +1,33 @@
-"""What the formulas of losses take of a gear, and what they return."""
+"""What the formulas of losses take of oil and gears, and what they return.
 
+Speeds, viscosities, densities and forces may be arrays over points of operation; torques then are too.
+"""
+
+import math
 from typing import NamedTuple
+
+from tribodyn.numerics.shapes import Array, Float
+
+#: rad/s of one revolution per minute.
+RPM = math.pi / 30.0
+
+
+class OilState(NamedTuple):
+    """Oil at its temperature."""
+
+    viscosity: Float[Array, "..."]  # dynamic, Pa s
+    density: Float[Array, "..."]  # kg/m³
+    synthetic: bool = False
+
+    @property
+    def kinematic(self) -> Float[Array, "..."]:
+        """Kinematic viscosity, mm²/s."""
+        return 1e6 * self.viscosity / self.density
 
 
 class Wheel(NamedTuple):
     """A gear; SI."""
 
-    speed: float  # rad/s, > 0
     #: pitch_radius, tip_radius, root_radius: m
     pitch_radius: float
     tip_radius: float
@@ -17,6 +38,20 @@ class Wheel(NamedTuple):
     #: depth of the tip circle's lowest point below the oil's level at rest, m; 0: not immersed
     immersion: float = 0.0
     helix_angle: float = 0.0  # β on the reference circle, rad, ≥ 0
+
+
+class Sump(NamedTuple):
+    """The oil's space; 0: not known, and not read."""
+
+    volume: float = 0.0  # of oil, m³
+    hydraulic_length: float = 0.0  # four times the area of the housing's section over its circumference, m
+
+
+class Torque(NamedTuple):
+    """Torque against the rotation of a shaft, N m, finite at speed 0; limits that some point exceeds."""
+
+    torque: Float[Array, "..."]
+    exceeded: tuple[str, ...] = ()
 
 
 class Loss(NamedTuple):

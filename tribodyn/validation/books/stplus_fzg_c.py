@@ -21,6 +21,7 @@ from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.standards import contact_path, fzg, load_factors, micropitting, scuffing
 from tribodyn.standards.flank_tolerances import flank_tolerances_1995
+from tribodyn.standards.mesh_loss.friction import schlenk
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.tribology.oil import kinematic_viscosity
 from tribodyn.validation.books import rows_of, sides
@@ -104,8 +105,8 @@ def _loads(standard: Any) -> dict[str, Any]:
     power = _TORQUE * _SPEED * math.pi / 30.0
     radius = contact_path.equivalent_radius(standard.path, contact_path.point_distances(standard.path)[3])
     sliding = 2.0 * speed * math.sin(standard.path.pressure_angle)
-    # FVA 166, after Schlenk, in N/mm, m/s, mm, mPa s, µm
-    friction = 0.048 * (at_base / _WIDTH / (sliding * 1e3 * float(radius))) ** 0.2 * 30.93**-0.05 * 0.3**0.25
+    # FVA 166, after Schlenk
+    friction = schlenk(1e3 * at_base / _WIDTH, sliding, float(radius), 30.93e-3, 0.3e-6, 1.0)
     loss = power * friction * standard.losses
     return {
         "P": 1e-3 * power,

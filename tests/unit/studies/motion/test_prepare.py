@@ -147,6 +147,7 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
             "load_frequencies": [] if shaft else [300.0, 900.0],
             "load_phases": [] if shaft else [0.4 + 0.5 * math.pi, -0.2 + 0.5 * math.pi],
             "start_slip": 0.0,
+            **{name: [] for name in ("motor_speeds", "motor_torques", "motor_slopes")},
         },
     }
     empty = {

@@ -15,7 +15,7 @@ from tribodyn.exchange.rexs.file.attributes import (
     U_ON_SHAFT,
     RexsKey,
 )
-from tribodyn.exchange.rexs.file.model import LoadCase, Component
+from tribodyn.exchange.rexs.file.model import Component, LoadCase
 from tribodyn.exchange.rexs.file.sheet import Sheet
 from tribodyn.exchange.rexs.reading.draft import Draft, text
 from tribodyn.exchange.rexs.reading.shafts import masses_on

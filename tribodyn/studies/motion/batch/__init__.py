@@ -19,6 +19,7 @@ from tribodyn.studies.motion.batch.gearboxes import (
     MOST_STATES,
     OF_MESHES,
     keys_of_tables,
+    refuse_by_time,
     refuse_steady,
     run_speed_of,
     shape_of,
@@ -70,6 +71,7 @@ class MotionBatch:
     def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> SweepSettings:
         """How the cases are brought to their windows."""
         base, boxes = cases[0], cases
+        refuse_by_time(base)
         if transient is None:
             # a case whose common period is too long fails by itself
             if not (boxes := [box for box in boxes if box.period <= box.max_period]):
@@ -135,6 +137,7 @@ class MotionBatch:
 
     def check(self, case: Any, settings: SweepSettings) -> None:
         """Prepare a case; a steady state needs a load that does not change with time."""
+        refuse_by_time(case)
         model = prepare(at_length(case, settings)).model
         if settings.steady:
             refuse_steady(case)

@@ -78,6 +78,14 @@ def keys_of_tables(case: Gearbox) -> Hashable:
     return tuple(map(table_key, case.pairs))
 
 
+def refuse_by_time(case: Gearbox) -> None:
+    """Raise InputError for a case that is run by time: batches go by the rotation."""
+    if case.in_time:
+        rule = "is of a run by time, and cases beside each other go by the rotation"
+        remedy = "give solver.cycles in its place, or run the scenarios one by one"
+        raise InputError("solver.duration", f"{case.solver.duration:g} s", rule, remedy)
+
+
 def refuse_steady(case: Gearbox) -> None:
     """Raise InputError for a case that has no steady state that could be sought."""
     if teeth_differ(case):

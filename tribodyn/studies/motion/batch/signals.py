@@ -23,7 +23,13 @@ from tribodyn.record.sensors import Sensed
 from tribodyn.record.sweep_schema import CASE, DONE, FAILED, OF_EVERY_SWEEP, SweepLayout
 from tribodyn.record.withheld_efficiency import remarked, warned
 from tribodyn.sensing.data import KINDS
-from tribodyn.studies.motion.batch.gearboxes import MOST_STATES, keys_of_tables, run_speed_of, states_of
+from tribodyn.studies.motion.batch.gearboxes import (
+    MOST_STATES,
+    keys_of_tables,
+    refuse_by_time,
+    run_speed_of,
+    states_of,
+)
 from tribodyn.studies.motion.batch.stretch import (
     HeardStretch,
     ListenedStretch,
@@ -81,6 +87,7 @@ class SignalBatch:
         assert self.request is not None
         duration, run_in, seed = self.request
         base = cases[0]
+        refuse_by_time(base)
         if transient is not None:
             raise InputError("--transient", transient, "contradicts --signals", "give one of them")
         if engine == "jax":

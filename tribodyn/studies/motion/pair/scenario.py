@@ -23,6 +23,7 @@ from tribodyn.gears.motion.settings import (
     broken_flank_rules,
     broken_mesh_rules,
     broken_output_rules,
+    broken_rules_in_time,
     broken_solver_rules,
     broken_source_rules,
 )
@@ -132,6 +133,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_mesh_rules(scenario.mesh)
     yield from _load(scenario)
     yield from broken_solver_rules(scenario.solver)
+    yield from broken_rules_in_time(scenario)
     yield from broken_output_rules(scenario.output, scenario.solver, scenario.drive.pinion.teeth)
     yield from broken_sensor_rules(scenario.sensor, scenario.housing)
     if scenario.housing is not None and scenario.housing.matrices is not None:

@@ -1,6 +1,7 @@
 """What a train's model says of frames that turn with carriers: speeds, places, levers of pins."""
 
 from collections.abc import Sequence
+from math import pi
 
 import numpy as np
 
@@ -39,6 +40,11 @@ def rolling_of(case: Gearbox) -> float:
     """Speed of the reference mesh's driver against what carries it, over that of the reference body."""
     first = case.meshes[0]
     return float(case.bodies[first.driver].ratio) - carried_ratio(case, first.driver, first.carrier)
+
+
+def reference_pitch(case: Gearbox) -> float:
+    """Rotation of the reference body in a cycle of the reference mesh, rad."""
+    return 2.0 * pi / abs(float(case.meshes[0].pair.drive.pinion.teeth)) / rolling_of(case)
 
 
 def frames_of(

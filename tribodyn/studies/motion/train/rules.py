@@ -9,6 +9,7 @@ from tribodyn.gears.motion.settings import (
     broken_flank_rules,
     broken_mesh_rules,
     broken_output_rules,
+    broken_rules_in_time,
     broken_solver_rules,
     broken_source_rules,
 )
@@ -61,7 +62,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         ]
     else:
         broken += _bare_meshes(scenario.mesh)
-    broken += broken_solver_rules(scenario.solver)
+    broken += [*broken_solver_rules(scenario.solver), *broken_rules_in_time(scenario)]
     broken += broken_sensor_rules(scenario.sensor, scenario.housing)
     yield from broken
     if not broken:

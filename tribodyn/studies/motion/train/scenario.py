@@ -1,6 +1,8 @@
 """The scenario of a train, and the case that is made of it."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from math import ceil
 from typing import Annotated, Any, Literal, cast
 
 from pydantic import Discriminator, Field, Tag
@@ -69,6 +71,7 @@ from tribodyn.studies.motion.drivetrain.tables import (
     Link,
     TrainGear,
 )
+from tribodyn.studies.motion.planetary.frames import reference_pitch
 from tribodyn.studies.motion.planetary.links import links_of_set, links_of_speeds, set_data
 from tribodyn.studies.motion.train.pair_view import losses_of_meshes, own_teeth, pair_view, reference_teeth
 from tribodyn.studies.motion.train.supports import (
@@ -152,7 +155,7 @@ def case_of(
     head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
     sets = tuple(set_data(gearset, train, placed) for gearset in train.parts.sets)
     rims = [gearset.rim for gearset in sets if gearset.rim is not None]
-    return Gearbox(
+    box = Gearbox(
         **head,
         gears=gears,
         bodies=_bodies(scenario, train, placed, duty),
@@ -173,6 +176,14 @@ def case_of(
         sets=sets,
         clutches=tuple(clutch_data(part, train.numbers) for part in train.parts.clutches),
     )
+    return _in_nominal_cycles(box) if box.in_time else box
+
+
+def _in_nominal_cycles(box: Gearbox) -> Gearbox:
+    """The gearbox with the cycles of nominal speed, whole ones, that its run by time lasts."""
+    speed = box.source.speed / float(box.bodies[box.source.body].ratio)
+    cycles = max(1, ceil((box.solver.duration or 0.0) * speed / reference_pitch(box) - 1e-9))
+    return replace(box, solver=replace(box.solver, cycles=cycles), output=replace(box.output, revolution=0))
 
 
 def _gears(train: TrainKinematics, placed: PlacedTrain) -> tuple[GearData, ...]:

@@ -40,11 +40,13 @@ def _statics(losses: LossMap) -> str:
     if losses.stiffness.size:
         heads.append("stiffness_at_output [N*m/rad]")
         columns.append(losses.stiffness)
-    for mesh, amplitude, phase in zip(losses.meshes, losses.error_amplitude, losses.error_phase, strict=True):
-        for number in range(amplitude.shape[1]):
-            of = f"transmission_error {mesh.replace(',', ';')} harmonic {number + 1}"
-            heads += [f"{of} amplitude [rad]", f"{of} phase [rad]"]
-            columns += [amplitude[:, number], phase[:, number]]
+    parts = {"amplitude": losses.error_amplitude, "phase": losses.error_phase}
+    for number, mesh in enumerate(losses.meshes):
+        for part, values in parts.items():
+            for harmonic in range(values.shape[2] if len(values) else 0):
+                of = f"transmission_error {mesh.replace(',', ';')} harmonic {harmonic + 1}"
+                heads.append(f"{of} {part} [rad]")
+                columns.append(values[number, :, harmonic])
     return _text(heads, columns)
 
 

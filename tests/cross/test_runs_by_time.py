@@ -1,0 +1,261 @@
+"""Runs by time: gears that stand under load, start, stall against a brake, and are turned back."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline, PchipInterpolator
+
+import tribodyn as td
+from tests.support.spring_trains import Gears, scenario_of, spring_model
+from tests.support.train_matrices import Body, Mesh, Train
+from tribodyn.dynamics.recorded.outputs import Sampled, evaluated
+from tribodyn.dynamics.recorded.outputs import sampled as outputs_of
+from tribodyn.errors import InputErrors
+from tribodyn.gears.motion.running import energy_residual
+from tribodyn.record.reader import Record
+from tribodyn.solve.choice import choose_in_time
+from tribodyn.solve.in_time import transient_in_time
+from tribodyn.solve.initial import initial_state
+from tribodyn.solve.transient import SampledStates, Stop, TransientSettings
+from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.prepare import prepare
+
+#: Inertias of driver and driven gear, kg m²; loads, N m; mesh, N/m.
+DRIVER, DRIVEN, LOAD, STIFFNESS = 2e-2, 4e-3, 20.0, 3e8
+TEETH, RADIUS, SPEED, ANGLE = 30, 0.045, 100.0, np.radians(20.0)
+TOTAL = DRIVER + DRIVEN
+INDUCTION = ([0.0, 40.0, 60.0, 85.0, 95.0, 100.0], [60.0, 52.0, 65.0, 110.0, 60.0, 0.0])
+
+
+class Run(NamedTuple):
+    """A run by time."""
+
+    seen: Sampled
+    states: np.ndarray
+    residual: float  # of its energy, as a share of the largest work
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.seen.whole[name]
+
+
+def springs(duration: str, brake: dict[str, Any] | None = None, **operating: Any) -> PreparedGearbox:
+    """Two equal gears without friction, joined by one spring."""
+    bodies, mesh = (
+        (Body(1.0, DRIVER), Body(1.0, DRIVEN)),
+        Mesh((0, 1), (RADIUS, RADIUS), 0.0, ANGLE, -1, STIFFNESS),
+    )
+    duty = {"source": "torque", "input_speed": f"{SPEED} rad/s", "output_torque": f"{LOAD} N*m"}
+    duty |= {"start_speed": "0 rad/s"} | operating
+    made = scenario_of(Train(bodies, (), (), (mesh,)), [Gears((TEETH, TEETH), 3e-3)], 0.1, duty)
+    clutch = {"clutch": [brake]} if brake else {}
+    return spring_model(made | clutch | {"solver": {"duration": duration}})
+
+
+def run(prepared: PreparedGearbox, method: str = "auto", rtol: float = 1e-9, samples: int = 20) -> Run:
+    model, cycles = prepared.model, prepared.case.solver.cycles
+    state = initial_state(model, "static")
+    method = choose_in_time(method, model, state).method
+    *parts, stop = transient_in_time(model, state, TransientSettings(method, rtol, cycles, 10**6, samples))
+    assert isinstance(stop, Stop)
+    assert stop.reason == ""
+    chunks = [part for part in parts if isinstance(part, SampledStates)]
+    states = np.concatenate([chunk.states for chunk in chunks])
+    seen = outputs_of(evaluated(np.concatenate([chunk.cycles for chunk in chunks]), states, model))
+    stored = seen.whole["stored_energy"][-1] - seen.whole["stored_energy"][0]
+    return Run(seen, states, energy_residual(states[0], states[-1], stored, model.layout))
+
+
+def curve(speeds: list[float], torques: list[float]) -> dict[str, Any]:
+    columns = {"speed": {"unit": "rad/s", "values": speeds}, "torque": {"unit": "N*m", "values": torques}}
+    return {"torque_speed_curve": columns}
+
+
+def pair(changes: dict[str, Any], duration: str = "20 ms") -> PreparedGearbox:
+    """The shipped involute pair with friction, from rest."""
+    plain = {
+        "operating.start_speed": "0 rad/s",
+        "operating.pinion_torque": "57 N*m",
+        "solver.duration": duration,
+        "mesh.damping_ratio": 0.1,
+    }
+    return prepare(td.scenario("run-up", plain | changes))
+
+
+def test_what_is_in_balance_stands():
+    """The wind-up is that of the spring, T/(k r² cos² α), and nothing moves."""
+    found = run(springs("20 ms", input_torque=f"{LOAD} N*m"))
+    assert np.max(np.abs(found["speed"])) < 1e-8 * SPEED
+    windup = found["angle"][:, 0] - found["angle"][:, 1]
+    expected = LOAD / (STIFFNESS * RADIUS**2 * np.cos(ANGLE) ** 2)
+    np.testing.assert_allclose(windup, expected, rtol=1e-6)
+    assert np.max(np.abs(found["power_in"])) < 1e-9 * LOAD * SPEED
+    assert np.all(np.isnan(found["efficiency"]))
+
+
+def test_the_load_turned_round_passes_the_backlash():
+    """Gears that stand: between loads of either sign lie j_n/r_b and what the pairs in contact give."""
+    gap, torque, ends, give = 1e-4, 40.0, list[float](), list[float]()
+    for sign in (1.0, -1.0):
+        prepared = pair(
+            {
+                "operating.gear_torque": f"{sign * torque} N*m",
+                "operating.pinion_torque": f"{sign * torque * 23 / 47} N*m",
+                "mesh.backlash": f"{gap} m",
+                "mesh.compliance": "constant",
+                "mesh.stiffness": "2e8 N/m",
+                "friction.law": "none",
+            },
+            "1 ms",
+        )
+        found = run(prepared)
+        assert np.max(np.abs(found["speed"])) < 1e-7
+        (loads,) = (mesh["normal_load"][-1] for mesh in found.seen.meshes)
+        radius = float(prepared.cycle.gear_pitch_radius) * np.cos(np.radians(20.0))
+        force = torque / radius
+        give.append(force / (np.count_nonzero(loads) * 2e8) + 2.0 * force / 1e9)  # teeth, and both bearings
+        ends.append(found["angle"][-1, 1] * radius)
+    assert abs(ends[1] - ends[0]) == pytest.approx(gap + sum(give), rel=1e-5)
+
+
+@pytest.mark.parametrize("method", ["dop853", "lsoda"])
+def test_a_motor_starts_it_like_a_drive_of_one_degree_of_freedom(method):
+    """SciPy on J ω' = T(ω) − T_load from rest; energy put in is taken out, lost, or in the masses."""
+    found = run(springs("90 ms", **curve(*INDUCTION)), method)
+    line = PchipInterpolator(*INDUCTION)
+    drive = solve_ivp(
+        lambda _, y: [(line(y[0]) - LOAD) / TOTAL],
+        (0.0, found["time"][-1]),
+        [0.0],
+        t_eval=found["time"],
+        rtol=1e-10,
+        atol=1e-10,
+    )
+    assert found["speed"][0, 0] == 0.0
+    assert drive.y[0, -1] > 95.0
+    np.testing.assert_allclose(found["speed"][:, 0], drive.y[0], rtol=0.0, atol=2e-5 * SPEED)
+    assert abs(found.residual) < 1e-6
+
+
+def test_a_load_turns_it_back_evenly():
+    """ω = ω0 + a t through standstill, whatever pairs of teeth it goes through in either direction."""
+    first, torque = 20.0, 5.0
+    found = run(springs("60 ms", input_torque=f"{torque} N*m", start_speed=f"{first} rad/s"))
+    speed = first + (torque - LOAD) / TOTAL * found["time"]
+    assert speed[-1] < -15.0
+    np.testing.assert_allclose(found["speed"][:, 0], speed, rtol=0.0, atol=1e-6 * SPEED)
+    angle = first * found["time"] + (torque - LOAD) / TOTAL * found["time"] ** 2 / 2.0
+    np.testing.assert_allclose(found["reference_angle"], angle, rtol=0.0, atol=1e-7)
+    assert abs(found.residual) < 1e-8
+
+
+def test_teeth_with_friction_are_turned_back_without_a_jump():
+    """Friction changes its direction with the rotation, and the balance of energy closes."""
+    found = run(pair({"operating.pinion_torque": "20 N*m", "operating.start_speed": "6 rad/s"}, "60 ms"))
+    speed = found["speed"][:, 0]
+    assert speed[0] > 5.0
+    assert speed[-1] < -10.0
+    assert np.max(np.abs(np.diff(speed))) < 0.05 * np.ptp(speed)
+    turned = found.seen.cycles
+    assert np.ptp(turned) > 1.0
+    loss = found["power_friction"]
+    assert np.all(loss[np.abs(speed) > 2.0] > 0.0)
+    assert abs(found.residual) < 1e-6
+    for values in (found["power_friction"], found.seen.meshes[0]["friction_force"]):
+        assert np.all(np.isfinite(values))
+
+
+def test_by_time_it_is_the_motion_by_rotation():
+    """Two integrators of the same equations, from 6 rad/s."""
+    changes = {"operating.start_speed": "6 rad/s", "solver.cycles": 3, "solver.rtol": 1e-9}
+    plain = {"operating.pinion_torque": "57 N*m", "mesh.damping_ratio": 0.1}
+    by_rotation = td.run(td.scenario("run-up", changes | plain))
+    with Record(by_rotation.path) as record:
+        speed, time = record["velocity"][:, -2], record["time"]
+    found = run(pair(changes, "90 ms"), samples=400)
+    assert time[-1] > 0.04
+    inside = (time < found["time"][-1]) & (np.arange(len(time)) % 40 > 0)  # where a pair enters is a kink
+    again = CubicSpline(found["time"], found["speed"][:, 0])(time[inside])
+    np.testing.assert_allclose(again, speed[inside], rtol=0.0, atol=1e-5)
+
+
+def test_friction_at_rest_converges_as_it_reverses_more_sharply():
+    """Speeds after a start, and while it stands no friction but that of creep."""
+    ends = []
+    for width in (40.0, 20.0, 10.0, 5.0):
+        found = run(pair({"friction.reversal_width": f"{width} um"}, "8 ms"), rtol=1e-8)
+        ends.append(found["speed"][-1, 0])
+        (first,) = (mesh["friction_force"][0] for mesh in found.seen.meshes)
+        assert not np.any(first)
+    steps = np.abs(np.diff(ends))
+    assert np.all(steps[1:] < 0.7 * steps[:-1])
+    assert steps[-1] < 3e-3 * ends[-1]
+
+
+def test_a_brake_stalls_it():
+    """A brake holds more than the motor gives: it creeps at 2 w sin(arcsin(T/C)/3), and says what passes."""
+    width, capacity, torque, drag = 0.1, 200.0, 60.0, 5.0
+    brake = {"ends": ["b1", "ground"], "torque": f"{capacity} N*m", "reversal_speed": f"{width} rad/s"}
+    line = curve([0.0, SPEED], [torque, 0.0])
+    found = run(springs("40 ms", brake, output_torque=f"{drag} N*m", **line))
+    creep = found["speed"][-1, 0]
+    held = torque * (1.0 - creep / SPEED) - drag
+    assert creep == pytest.approx(2.0 * width * np.sin(np.arcsin(held / capacity) / 3.0), rel=1e-4)
+    assert found["clutch_torque"][-1, 0] == pytest.approx(held, rel=1e-5)
+    assert found["clutch_power"][-1, 0] == pytest.approx(held * creep, rel=1e-4)
+    assert abs(found.residual) < 1e-6
+
+
+@pytest.mark.parametrize("law", ["masjedi-khonsari", "coulomb", "niemann", "xu", "benedict-kelley"])
+def test_laws_are_finite_where_nothing_moves(law):
+    own = {"friction.coefficient": 0.05} if law == "coulomb" else {}
+    prepared = pair({"friction.law": law, "operating.pinion_torque": "48.936170 N*m"} | own, "0.2 ms")
+    found = run(prepared, rtol=1e-6)
+    (mesh,) = found.seen.meshes
+    loaded = mesh["normal_load"] > 0.0
+    assert loaded.any()
+    for name in (
+        "friction_coefficient",
+        "central_film_thickness",
+        "flash_temperature_rise",
+        "friction_force",
+    ):
+        assert np.all(np.isfinite(mesh[name][loaded])), name
+
+
+def test_a_record_begins_at_rest(tmp_path):
+    """Its efficiency is told where power flows, of the run as of each moment."""
+    made = {
+        "operating.start_speed": "0 rad/s",
+        "operating.pinion_torque": f"{100.0 * 23 / 47!r} N*m",
+        "solver.duration": "5 ms",
+        "friction.law": "none",
+    }
+    case = td.scenario("run-up", made)
+    stands = td.run(case, output=tmp_path / "stands.h5")
+    assert stands.summary["efficiency"] is None
+    assert "no power" in stands.summary["efficiency_withheld"]
+    assert stands.summary["power_friction_mean"] == 0.0
+    starts = td.run(td.scenario("run-up", made | {"operating.pinion_torque": "80 N*m"}))
+    with Record(starts.path) as record:
+        assert record["velocity"][0, -2] == 0.0
+        assert np.isnan(record["efficiency"][0])
+    assert 0.99 < starts.summary["efficiency"] <= 1.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"operating.source": "speed"}, "solver.duration"),
+        ({"solver.method": "dopri5"}, "solver.method"),
+        ({"solver.revolutions": 2.0}, "solver.revolutions"),
+        ({"output.window": "all"}, "output.window"),
+        ({"mesh.formulation": "energy-consistent"}, "mesh.formulation"),
+    ],
+)
+def test_what_goes_by_rotation_alone_is_refused(changes, key):
+    plain = {"solver.duration": "5 ms", "operating.source": "torque"}
+    with pytest.raises((InputErrors, td.InputError)) as refused:
+        td.scenario("run-up", plain | changes)
+    assert key in str(refused.value)

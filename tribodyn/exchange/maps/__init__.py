@@ -1,0 +1,1 @@
+"""Maps of losses for other simulators, one file a format."""
