@@ -110,6 +110,10 @@ class Statics(NamedTuple):
     #: of every mesh, error along the pitch circles, m: mean, and amplitudes of its harmonics
     transmission_error_mean: Float[Array, "point mesh"]
     transmission_error_harmonic: Float[Array, "point mesh harmonic"]
+    #: of the harmonics, rad: Σ a_k cos(2π k c + φ_k) over the cycles c that a mesh has passed since the one
+    #: begins in which the train stands
+    transmission_error_phase: Float[Array, "point mesh harmonic"]
+    mesh_order: Float[Array, " mesh"]  # cycles of every mesh per turn of the input
     #: at the output with the input held, N m/rad: of meshes, shafts and couplings that twist
     stiffness_total: Float[Array, " point"]
     backlash: float  # angle at the output with the input held, rad; 0: none is given

@@ -91,7 +91,7 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
         heat = heat._replace(
             oil=heat.oil + wanted.other_heat, housing=heat.housing + wanted.other_housing_heat
         )
-        temperatures, given_off = _temperatures(case, assembly, wanted, heat, lost, supplied)
+        temperatures, given_off = temperatures_of(case, assembly, wanted, heat, lost, supplied)
         latest[:] = [Thermal(lubricant, lost, losses, temperatures, heat, given_off)]
         return temperatures.bulk, temperatures.oil
 
@@ -105,9 +105,17 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
     wanted: LossData | None = case.losses
     if wanted is None:
         return {}
-    drive, path, speed = case.drive, assembly.path, case.operating.pinion_speed
+    drive, speed = case.drive, case.operating.pinion_speed
+    speeds = float(speed), float(speed * abs(drive.pinion.teeth / drive.gear.teeth))
+    state = OilState(float(oil.inlet_viscosity), float(oil.density))
+    return losses_of_pair(wanted, wheels_of(case, assembly), speeds, state)
+
+
+def wheels_of(case: Any, assembly: Assembly) -> tuple[Wheel, Wheel]:
+    """The gears of a case as formulas of churning and windage take them."""
+    drive, path = case.drive, assembly.path
     radii = path.pinion_pitch_radius, path.gear_pitch_radius
-    depths = wanted.pinion_immersion, wanted.gear_immersion
+    depths = case.losses.pinion_immersion, case.losses.gear_immersion
 
     def wheel(side: Side) -> Wheel:
         body, place = body_of(drive, side), SIDES.index(side)
@@ -122,9 +130,7 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
             abs(float(drive.helix_angle)),
         )
 
-    speeds = float(speed), float(speed * abs(drive.pinion.teeth / drive.gear.teeth))
-    state = OilState(float(oil.inlet_viscosity), float(oil.density))
-    return losses_of_pair(wanted, (wheel("pinion"), wheel("gear")), speeds, state)
+    return wheel("pinion"), wheel("gear")
 
 
 def thermal_quantities(thermal: Thermal | None, power_in: float, efficiency: float) -> dict[str, Any]:
@@ -168,9 +174,13 @@ def contact_quantities(lubricant: LubricantData, summary: Mapping[str, Any]) -> 
     return {} if warm is None or flash is None else {"contact_temperature_max": float(warm + flash)}
 
 
-def _temperatures(
-    case: Any, assembly: Assembly, wanted: TemperatureData, heat: Heat, lost: float, supplied: float
-) -> tuple[Temperatures, float | None]:
+def temperatures_of(
+    case: Any, assembly: Assembly, wanted: TemperatureData, heat: Heat, lost: Any, supplied: Any
+) -> tuple[Temperatures, Any]:
+    """Temperatures that heat gives, of the loss to tooth friction, W, in oil supplied at a temperature, K.
+
+    The heat that leaves a network besides. Losses and temperatures may be arrays over points of operation.
+    """
     if wanted.model == "iso":
         centre = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
         width = float(min(case.drive.pinion.face_width, case.drive.gear.face_width))
@@ -178,7 +188,7 @@ def _temperatures(
         bulk = supplied + bulk_rise(lost, 1.0, 1.0, centre, width, supply)
         return Temperatures(bulk, bulk, supplied, supplied), None
     sheet = case.lubricant.sheet
-    flow = wanted.oil_flow * float(case.lubricant.density) * float(specific_heat(sheet.density_15, supplied))
+    flow = wanted.oil_flow * float(case.lubricant.density) * specific_heat(sheet.density_15, supplied)
     network = Network(
         wanted.pinion_oil,
         wanted.gear_oil,

@@ -49,8 +49,8 @@ def is_jax(value: Any) -> bool:
 
 
 def as_float(value: Any) -> Any:
-    """A Python float, or what JAX holds as it is."""
-    return value if is_jax(value) else float(value)
+    """A Python float, or arrays and what JAX holds as they are."""
+    return value if is_jax(value) or np.ndim(value) else float(value)
 
 
 def namespace(*values: Any) -> Any:

@@ -9,6 +9,9 @@ from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import NamedTuple
 
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.willis import Equation, reactions
 
 #: Meshes, those whose losses differ in no direction counted once, up to which every direction is tried.
@@ -43,6 +46,55 @@ class LossyMesh(NamedTuple):
     def rolling(self, speeds: Sequence[float]) -> float:
         """Speed with which the first gear's teeth roll, times their number."""
         return self.teeth[0] * (speeds[self.one] - (speeds[self.carrier] if self.carrier >= 0 else 0.0))
+
+
+class Influence(NamedTuple):
+    """What torques from outside and drags make of the torques of meshes, N m, without any other losses.
+
+    Torques of a mesh are those on its second gear, positive where its first one drives. Drags are against
+    the motion: of a body, or of a mesh at its first gear against the carrier, which bears them.
+    """
+
+    load: Float[Array, " mesh"]  # of the loads
+    body: Float[Array, "mesh body"]  # of a drag of 1 N m on a body
+    mesh: Float[Array, "mesh mesh"]  # of a drag of 1 N m at the first gear of a mesh
+
+
+def influence(
+    meshes: Sequence[LossyMesh],
+    rows: Sequence[Equation],
+    speeds: Sequence[float],
+    loads: Mapping[int, float],
+) -> Influence:
+    """Torques of the meshes by loads and by drags; arguments as of `power_flow`.
+
+    Bodies that nothing joins bear nothing.
+    """
+    balance = [*(mesh._replace(loss=0.0).row(True) for mesh in meshes), *rows]
+    known = {body for row in balance for body in row.factors}
+
+    def against(body: int) -> float:
+        return -1.0 if speeds[body] > 0.0 else 1.0
+
+    def torques(outside: Mapping[int, float]) -> Float[Array, " mesh"]:
+        found = reactions(balance, {body: torque for body, torque in outside.items() if body in known})
+        return np.array([-force * each for force, each in zip(found, scale, strict=False)])
+
+    scale = []
+    for mesh in meshes:
+        carried = speeds[mesh.carrier] if mesh.carrier >= 0 else 0.0
+        second = abs(speeds[mesh.two] - carried)
+        scale.append(mesh.rolling(speeds) / second if second else abs(mesh.teeth[1]))
+    by_body = [
+        torques({body: against(body)}) if speeds[body] else 0.0 * np.array(scale)
+        for body in range(len(speeds))
+    ]
+    by_mesh = []
+    for mesh in meshes:
+        carried = speeds[mesh.carrier] if mesh.carrier >= 0 else 0.0
+        way = -1.0 if speeds[mesh.one] - carried > 0.0 else 1.0
+        by_mesh.append(torques({mesh.one: way, mesh.carrier: -way}))
+    return Influence(torques(loads), np.array(by_body).T, np.array(by_mesh).T)
 
 
 class PowerFlow(NamedTuple):

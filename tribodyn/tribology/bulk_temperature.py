@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
+import numpy as np
+
 from tribodyn.errors import SimulationError
 from tribodyn.tribology.losses.loss import Loss
 
@@ -98,7 +100,7 @@ class Network(NamedTuple):
     @property
     def holds_oil(self) -> bool:
         """Whether the oil is held at its temperature: nothing is given that carries its heat away."""
-        return self.oil_flow == 0.0 and self.housing_ambient == 0.0
+        return bool(np.all(self.oil_flow == 0.0)) and self.housing_ambient == 0.0
 
 
 class Temperatures(NamedTuple):

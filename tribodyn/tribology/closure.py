@@ -284,7 +284,7 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
 
     path = family(case.family).working_path(case.drive)
     angle, torque = path.pressure_angle(0.0), case.operating.gear_torque
-    if (not is_jax(angle) and angle < MINIMUM_ANGLE) or (not is_jax(torque) and torque == 0.0):
+    if (not is_jax(angle) and angle < MINIMUM_ANGLE) or (not is_jax(torque) and np.any(torque == 0.0)):
         law = case.friction.law
         name = quoted(law if isinstance(law, str) else law.name)
         rule = "is a mean over the mesh from radius, speed and load at the pitch point, which vanish here"

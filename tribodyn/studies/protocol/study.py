@@ -41,6 +41,7 @@ _ALSO_IN = {
     "rules": ("scenario",),
     "check": ("run",),
     "estimate": ("case", "scenario"),
+    "losses": ("losses.part",),
     "sweep_figures": ("figures",),
     "page": ("figures",),
 }
@@ -77,7 +78,7 @@ class Study:
     assess        ``ROLE``, its part in an assessment of a drive (optional): `cases.assessment_part`
     assessable    ``WHOLE``, its meshes as pairs of gears (optional): it can be assessed mesh by mesh, see
                   `cases.assessment_part`
-    losses        ``LOSSES``, its losses at any point of operation (optional): see `cases.loss_part`
+    losses        ``LOSSES``, losses at any point of operation (optional; losses.part): `cases.loss_part`
     derivatives   ``DIFFERENTIABLE``, what makes quantities of a case a function of its numbers (optional:
                   that of a pair of gears), called as `derivatives.differentiable.Differentiable`
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional; figures)

@@ -1,15 +1,17 @@
 """Powers in a train with planetary sets by Willis, with the losses that its meshes have in slow rotation."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from tribodyn.cases.results import TextTable
 from tribodyn.gears.tabulated import quasi_static_loss
 from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of, together
 from tribodyn.train.planetary import CARRIER
 from tribodyn.train.power_flow import LossyMesh, PowerFlow, power_flow
 from tribodyn.train.structure import TURN
-from tribodyn.train.willis import of_coupling, of_speed
+from tribodyn.train.willis import Equation, of_coupling, of_speed
 
 #: Share of the power in by which a branch must exceed it to circulate.
 _ROUNDING = 1e-6
@@ -22,21 +24,31 @@ LOCKS = (
 
 def flow_of(prepared: PreparedGearbox) -> PowerFlow | None:
     """Power flow at the nominal duty; None: no torque of the input turns the loads."""
-    case, speeds = prepared.case, speeds_of(prepared)
+    case, speeds = prepared.case, speeds_of(prepared.case)
+    return power_flow(_meshes(prepared), rows_of(case), speeds, loads_of(case, speeds))
+
+
+def loads_of(case: Gearbox, speeds: Sequence[float]) -> dict[int, float]:
+    """The constant loads by body, N m, counter-clockwise."""
     loads: dict[int, float] = {}
     for load in case.loads:
         along = 1.0 if speeds[load.body] > 0.0 else -1.0
         loads[load.body] = loads.get(load.body, 0.0) - along * load.torque
+    return loads
+
+
+def rows_of(case: Gearbox) -> list[Equation]:
+    """Couplings, the source and what is held, as `power_flow` takes them; clutches are closed."""
     joined = [link.ends for link in case.links if link.stiffness[TURN] > 0.0]
+    joined += [clutch.ends for clutch in case.clutches]
     rows = [of_coupling(one, two) for one, two in joined if two >= 0]
-    rows += [of_speed(case.source.body), *(of_speed(link.ends[0]) for link in case.links if link.holds)]
-    return power_flow(_meshes(prepared), rows, speeds, loads)
+    return [*rows, of_speed(case.source.body), *(of_speed(link.ends[0]) for link in case.links if link.holds)]
 
 
-def speeds_of(prepared: PreparedGearbox) -> list[float]:
+def speeds_of(case: Gearbox) -> list[float]:
     """Nominal speeds of the case's bodies, counter-clockwise, rad/s."""
-    reference = float(prepared.model.operation.nominal_speed)
-    return [float(body.ratio) * body.sense * reference for body in prepared.case.bodies]
+    reference = case.source.speed / float(case.bodies[case.source.body].ratio)
+    return [float(body.ratio) * body.sense * reference for body in case.bodies]
 
 
 def _meshes(prepared: PreparedGearbox) -> list[LossyMesh]:
@@ -45,8 +57,9 @@ def _meshes(prepared: PreparedGearbox) -> list[LossyMesh]:
         duty, ratio = pair.operating, float(tabulated.cycle.speed_ratio)
         key = id(tabulated), duty.pinion_speed, duty.gear_torque
         if key not in shares:
-            rolling = abs(duty.gear_torque * ratio * duty.pinion_speed)
-            shares[key] = quasi_static_loss(tabulated)(pair) / rolling if rolling else 0.0
+            lost, given = quasi_static_loss(tabulated)(pair), duty.gear_torque * ratio * duty.pinion_speed
+            entering = given + lost if given > 0.0 else -given
+            shares[key] = lost / entering if given else 0.0
         one, two = (case.gears[gear].teeth for gear in mesh.gears)
         meshes.append(LossyMesh(mesh.driver, mesh.driven, (one, two), mesh.carrier, shares[key]))
     return meshes
@@ -57,7 +70,7 @@ def power_data(prepared: PreparedGearbox, flow: PowerFlow | None) -> dict[str, A
 
     Nothing of a train without power.
     """
-    case, speeds = prepared.case, speeds_of(prepared)
+    case, speeds = prepared.case, speeds_of(prepared.case)
     if flow is None or not flow.put_in:
         return {}
     meshes = {

@@ -1,0 +1,188 @@
+"""What a gearbox loses at any points of operation: meshes in slow rotation, and drags without load.
+
+Torques balance with all losses downstream of a mesh. Flanks of both sides are taken to be alike. The tables
+of the meshes are those of the scenario's own loads.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tribodyn.cases.loss_part import LossesOver, LossSource, OperatingPoints
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.gears.mesh_loss import LEAST_SPEED, LossTable, MeshLoss, MeshPoints
+from tribodyn.gears.tabulated import Tabulated
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.losses.elements import Drag, drags_of
+from tribodyn.studies.motion.losses.temperatures import Warmth, warmth
+from tribodyn.studies.motion.planetary.powers import loads_of, rows_of, speeds_of
+from tribodyn.train.power_flow import LossyMesh, influence
+from tribodyn.tribology.closure import laws_of
+from tribodyn.tribology.losses.loss import OilState, Torque
+from tribodyn.tribology.oil import LubricantData, lubricant_from
+
+#: Passes over torques and temperatures at most, and changes that end them: of temperatures, K, and of torques
+#: as a share of the largest.
+PASSES, SETTLED, STEADY = 30, 0.02, 1e-4
+
+
+class GearboxLoss:
+    """A gearbox with its tables, and how torques and drags flow through it."""
+
+    def __init__(self, case: Gearbox, tabulated: Sequence[Tabulated]) -> None:
+        self.case, self.tabulated = case, tabulated
+        tables: dict[int, LossTable] = {}
+        for each, mesh in zip(tabulated, case.meshes, strict=True):
+            tables.setdefault(id(each), LossTable(each, mesh.pair))
+        self.tables = [tables[id(each)] for each in tabulated]
+        self.speeds = speeds_of(case)
+        teeth = [
+            (case.gears[one].teeth, case.gears[two].teeth) for one, two in (m.gears for m in case.meshes)
+        ]
+        meshes = [
+            LossyMesh(mesh.driver, mesh.driven, each, mesh.carrier)
+            for mesh, each in zip(case.meshes, teeth, strict=True)
+        ]
+        self.flow = influence(meshes, rows_of(case), self.speeds, loads_of(case, self.speeds))
+        depends = np.abs(self.flow.mesh) > 1e-9
+        self.order = [int(m) for m in np.argsort(depends.sum(axis=1), kind="stable")]
+        self.drags: list[Drag] = drags_of(case, tabulated)
+        self.sources = tuple(
+            [LossSource("P_VZP", mesh.name, "mesh", laws_of(mesh.pair)[1].name) for mesh in case.meshes]
+            + [drag.source for drag in self.drags]
+        )
+        #: of the drivers of meshes against their carriers, and of bodies with drags, over that of the input
+        self.turning = (
+            np.array([mesh.pair.operating.pinion_speed for mesh in case.meshes]) / case.source.speed
+        )
+        self.warms = any(pair.temperature is not None for pair in case.pairs)
+        self.of_bodies = np.array([abs(self.speeds[drag.body]) for drag in self.drags]) / case.source.speed
+
+    def at(self, points: OperatingPoints) -> LossesOver:
+        """Losses at points of operation; torques, temperatures and losses settle together."""
+        given = [np.atleast_1d(np.asarray(values, dtype=float)) for values in points[:3]]
+        load, speed, supplied = np.broadcast_arrays(*given)
+        _refuse_other_temperatures(self.case.pair.lubricant, supplied)
+        speed = np.maximum(np.abs(speed), LEAST_SPEED * self.case.source.speed)
+        bulk = np.repeat(supplied[:, None], len(self.case.meshes), axis=1)
+        warm = Warmth(
+            bulk if points.bulk_temperature is None else np.asarray(points.bulk_temperature), supplied
+        )
+        drag, losses = np.zeros((len(self.tables), len(load))), list[MeshLoss]()
+        idle = self._idle(speed, supplied)
+        for _ in range(PASSES):
+            outside = self.flow.load[:, None] * load + self.flow.body @ self._on_bodies(idle)
+            losses, torque = self._of_meshes(outside, drag, speed, warm)
+            drag = np.array([each.drag for each in losses])
+            moved = np.max(np.abs(outside + self.flow.mesh @ drag - torque))
+            change = 0.0
+            if points.bulk_temperature is None and self.warms:
+                warmer = self._warmth(drag, idle, speed, supplied)
+                change = max(np.max(np.abs(warmer.bulk - warm.bulk)), np.max(np.abs(warmer.oil - warm.oil)))
+                warm, idle = warmer, self._idle(speed, warmer.oil)
+            if change < SETTLED and moved <= STEADY * np.max(np.abs(torque)):
+                break
+        else:
+            raise SimulationError(
+                f"the temperature of the teeth does not settle: still moving by {change:.2g} K"
+            )
+        of_meshes = [each.drag * ratio for each, ratio in zip(losses, self.turning, strict=True)]
+        others = [torque * ratio for (torque, _), ratio in zip(idle, self.of_bodies, strict=True)]
+        seen = {name: np.stack([each.seen[name] for each in losses], axis=1) for name in losses[0].seen}
+        exceeded = [_outside(mesh.pair, each) for mesh, each in zip(self.case.meshes, losses, strict=True)]
+        return LossesOver(
+            self.sources,
+            np.stack([*of_meshes, *others], axis=1),
+            (*exceeded, *(limits for _, limits in idle)),
+            {**seen, "bulk_temperature": warm.bulk},
+        )
+
+    def _idle(self, speed: Float[Array, " point"], temperature: Float[Array, " point"]) -> list[Torque]:
+        """Torques of the drags without load on their bodies, in oil at temperatures, K."""
+        oil = self.case.pair.lubricant
+        if oil.sheet is not None:
+            oil = lubricant_from(oil.sheet, temperature, oil.fzg)
+        state = OilState(*(np.broadcast_to(each, speed.shape) for each in (oil.inlet_viscosity, oil.density)))
+        turning = zip(self.drags, self.of_bodies, strict=True)
+        found = [drag.torque(speed * ratio, state) for drag, ratio in turning]
+        return [each._replace(torque=np.broadcast_to(each.torque, speed.shape)) for each in found]
+
+    def _on_bodies(self, idle: Sequence[Torque]) -> Float[Array, "body point"] | Float[Array, "body 1"]:
+        """Sum of these torques by body."""
+        bodies = np.zeros((len(self.speeds), len(idle[0][0]) if idle else 1))
+        for drag, (torque, _) in zip(self.drags, idle, strict=True):
+            bodies[drag.body] += torque
+        return bodies
+
+    def _warmth(
+        self,
+        drag: Float[Array, "mesh point"],
+        idle: Sequence[Torque],
+        speed: Float[Array, " point"],
+        supplied: Float[Array, " point"],
+    ) -> Warmth:
+        """Temperatures that these losses give."""
+        power = {"bearing": 0.0 * speed, "gear": 0.0 * speed}
+        for one, (torque, _), ratio in zip(self.drags, idle, self.of_bodies, strict=True):
+            place = "bearing" if one.source.sort == "bearing" else "gear"
+            power[place] = power[place] + torque * ratio * speed
+        friction = list(drag * self.turning[:, None] * speed)
+        return warmth(self.case, self.tabulated, friction, power["gear"], power["bearing"], supplied)
+
+    def _of_meshes(
+        self,
+        outside: Float[Array, "mesh point"],
+        drag: Float[Array, "mesh point"],
+        speed: Float[Array, " point"],
+        warm: Warmth,
+    ) -> tuple[list[MeshLoss], Float[Array, "mesh point"]]:
+        """Losses of the meshes, and the torques that they are of: those downstream first.
+
+        `outside` are torques without drags of meshes, which are known from before. Planets, which are alike,
+        are looked at once.
+        """
+        drag, torque = drag.copy(), outside.copy()
+        losses, found = dict[int, MeshLoss](), list[tuple[LossTable, MeshPoints, MeshLoss]]()
+        for m in self.order:
+            torque[m] = outside[m] + self.flow.mesh[m] @ drag
+            at = MeshPoints(torque[m], speed * self.turning[m], warm.bulk[:, m], warm.oil)
+            loss = next(
+                (of for table, other, of in found if table is self.tables[m] and alike(other, at)), None
+            )
+            if loss is None:
+                loss = self.tables[m].at(at)
+                found.append((self.tables[m], at, loss))
+            losses[m], drag[m] = loss, loss.drag
+        return [losses[m] for m in range(len(self.tables))], torque
+
+
+def alike(one: MeshPoints, two: MeshPoints) -> bool:
+    """Whether points of two meshes are the same but for rounding."""
+    scale = np.max(np.abs(one.torque), initial=0.0)
+    return bool(np.allclose(one.torque, two.torque, rtol=1e-9, atol=1e-9 * scale)) and all(
+        np.allclose(a, b, rtol=1e-12, equal_nan=True) for a, b in zip(one[1:], two[1:], strict=True)
+    )
+
+
+def _refuse_other_temperatures(oil: LubricantData, asked: Float[Array, " point"]) -> None:
+    """Refuse temperatures of an oil that is known at one."""
+    known = asked[0] if oil.temperature is None else float(oil.temperature)
+    if oil.sheet is None and np.any(np.abs(asked - known) > 1e-6):
+        raise InputError(
+            "lubricant",
+            None,
+            "is known at one temperature, and points of operation are at others",
+            "give its data sheet: type, viscosity_40, viscosity_100 and density_15",
+        )
+
+
+def _outside(pair: Any, loss: MeshLoss) -> tuple[str, ...]:
+    """Laws of a mesh that are outside their range in some contact at some point."""
+    names = zip(laws_of(pair), ("film_in_range", "friction_in_range"), strict=True)
+    return tuple(
+        f"range of the {law.table} law {law.name}"
+        for law, share in names
+        if np.any(np.nan_to_num(loss.seen[share], nan=1.0) < 1.0)
+    )
