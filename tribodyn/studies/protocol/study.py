@@ -330,7 +330,7 @@ class Study:
             try:
                 return getattr(import_module(module), name)
             except ModuleNotFoundError as error:
-                if needed or error.name not in (module, self.package):
+                if needed or not f"{module}.".startswith(f"{error.name}."):
                     raise
             except AttributeError as error:
                 if needed or error.name != name:
