@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.support.three_gearboxes import GEARBOXES
-from tests.unit.studies.motion.test_warmth import NETWORK, expected
+from tests.support.warmed_reducer import NETWORK, temperatures_of
 from tribodyn.cases.loss_part import OperatingPoints
 from tribodyn.errors import InputError
 from tribodyn.gears.tabulated import quasi_static_loss
@@ -113,7 +113,7 @@ def test_teeth_warm_as_their_losses_say():
     asked = points(case, [1.0, 0.5], [1.0, 0.7])
     found = LOSSES.at(case, asked)
     for row, bulk in zip(found.power(asked.speed), found.meshes["bulk_temperature"], strict=True):
-        _, gears = expected(row)
+        _, gears = temperatures_of(row)
         assert bulk == pytest.approx([sum(own) / 2.0 for own in gears], abs=0.05)
 
 
