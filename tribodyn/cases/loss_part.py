@@ -114,6 +114,7 @@ class Statics(NamedTuple):
     #: begins in which the train stands
     transmission_error_phase: Float[Array, "point mesh harmonic"]
     mesh_order: Float[Array, " mesh"]  # cycles of every mesh per turn of the input
+    error_at_output: Float[Array, " mesh"]  # rad at the output per m of a mesh's transmission error
     #: at the output with the input held, N m/rad: of meshes, shafts and couplings that twist
     stiffness_total: Float[Array, " point"]
     backlash: float  # angle at the output with the input held, rad; 0: none is given

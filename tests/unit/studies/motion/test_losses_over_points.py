@@ -132,8 +132,9 @@ def test_oil_of_one_temperature_is_not_known_at_others():
 
 def test_a_train_of_constant_stiffness_gives_way_as_springs_in_series():
     keys = {"mesh.compliance": "constant", "mesh.stiffness": "4e8 N/m", "bearings": "rigid-1e9"}
+    keys |= {"mesh.backlash": "50 um"}
     case = load_scenario("involute-23-47", keys)
-    found = LOSSES.statics(case, [0.2, 1.0])
+    found = LOSSES.statics(case, [-0.2, 0.0, 1.0])
     radius = float(prepare(case).cycle.gear_pitch_radius) * np.cos(np.radians(20.0))
     count = found.stiffness_mean[0, 0] / (4e8 * np.cos(np.radians(20.0)) ** 2)
     assert 1.0 < count < 2.0  # pairs in contact on the mean
@@ -141,6 +142,8 @@ def test_a_train_of_constant_stiffness_gives_way_as_springs_in_series():
     expected = radius**2 / (1.0 / (4e8 * count) + 2.0 / bearing)
     assert found.stiffness_total == pytest.approx(expected, rel=0.02)
     assert found.mesh_order.tolist() == [23.0]
+    assert found.error_at_output == pytest.approx([np.cos(np.radians(20.0)) / radius], rel=1e-12)
+    assert found.backlash == pytest.approx(50e-6 / radius, rel=1e-12)
 
 
 def test_a_study_of_gearboxes_offers_its_losses():

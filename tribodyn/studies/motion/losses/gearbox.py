@@ -53,6 +53,8 @@ class GearboxLoss:
             [LossSource("P_VZP", mesh.name, "mesh", laws_of(mesh.pair)[1].name) for mesh in case.meshes]
             + [drag.source for drag in self.drags]
         )
+        #: what the loads take at nominal speed, W
+        self.output_power = sum(load.torque * abs(self.speeds[load.body]) for load in case.loads)
         #: of the drivers of meshes against their carriers, and of bodies with drags, over that of the input
         self.turning = (
             np.array([mesh.pair.operating.pinion_speed for mesh in case.meshes]) / case.source.speed

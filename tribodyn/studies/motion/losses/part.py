@@ -42,7 +42,7 @@ def nominal(case: Gearbox) -> NominalPoint:
     prepared, loss = ready(case)
     speeds, source, oil = loss.speeds, case.source, case.pair.lubricant
     output = prepared.order[prepared.model.layout.output]
-    power = sum(load.torque * abs(speeds[load.body]) for load in case.loads)
+    power = loss.output_power
     kinetic = sum(one.inertia * speed**2 for one, speed in zip(prepared.inertias, speeds, strict=True))
     motor = source.inertia if source.shaft_stiffness is not None else 0.0  # else in its body's
     return NominalPoint(

@@ -10,7 +10,7 @@ from tribodyn.dynamics.modes import linearised
 from tribodyn.gears.mesh_loss import LEAST_TORQUE
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.quasi_static import normal_arms, quasi_static
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.losses.gearbox import GearboxLoss
@@ -30,6 +30,7 @@ def statics_of(prepared: PreparedGearbox, gearbox: GearboxLoss, loads: Any) -> S
     ]
     stiffness, error = (np.stack([of[k] for of in seen], axis=1) for k in range(2))
     entry = np.asarray(prepared.phases.meshes, dtype=float)[:, None] * np.arange(1, HARMONICS + 1)
+    reflected = _at_output(prepared, gearbox)
     teeth = np.array([abs(case.gears[mesh.gears[0]].teeth) for mesh in case.meshes])
     return Statics(
         stiffness[:, :, 0].real,
@@ -38,8 +39,9 @@ def statics_of(prepared: PreparedGearbox, gearbox: GearboxLoss, loads: Any) -> S
         np.abs(error[:, :, 1:]),
         np.angle(error[:, :, 1:] * np.exp(2j * math.pi * entry)),
         teeth * gearbox.turning,
-        np.array([_stiffness(prepared, load) for load in loads]),
-        _backlash(prepared, gearbox),
+        reflected,
+        np.array([_stiffness(prepared, max(abs(load), LEAST_TORQUE)) for load in loads]),
+        float(_backlash(gearbox) @ reflected),
     )
 
 
@@ -82,19 +84,26 @@ def _stiffness(prepared: PreparedGearbox, load: float) -> float:
     return float(1.0 / moved[np.searchsorted(free, output)])
 
 
-def _backlash(prepared: PreparedGearbox, gearbox: GearboxLoss) -> float:
-    """Angle at the output with the source held, rad: backlash of the meshes between them, without load."""
-    case, flow = gearbox.case, gearbox.flow.load
+def _at_output(prepared: PreparedGearbox, gearbox: GearboxLoss) -> Float[Array, " mesh"]:
+    """Angle of the output, rad, per m along the pitch circles of each mesh with the source held.
+
+    By virtual work: it is what the mesh bears of the output's torque. 0 without loads.
+    """
     output = prepared.order[prepared.model.layout.output]
-    power = sum(load.torque * abs(gearbox.speeds[load.body]) for load in case.loads)
-    torque = power / abs(gearbox.speeds[output]) if power else 0.0
-    angle = 0.0
-    for mesh, tabulated, on_driven in zip(case.meshes, prepared.tables, flow, strict=True):
-        cycle = tabulated.cycle
-        arm = float(cycle.gear_sense * cycle.gear_pitch_radius) * math.cos(
-            float(tabulated.assembly.path.pressure_angle(0.0))
+    torque = gearbox.output_power / abs(gearbox.speeds[output])
+    radii = np.array(
+        [float(each.cycle.gear_sense * each.cycle.gear_pitch_radius) for each in prepared.tables]
+    )
+    return np.abs(gearbox.flow.load / torque) / radii if torque else 0.0 * radii
+
+
+def _backlash(gearbox: GearboxLoss) -> Float[Array, " mesh"]:
+    """Backlash along the pitch circles, m; 0 where none is given."""
+    play = []
+    for mesh, tabulated in zip(gearbox.case.meshes, gearbox.tabulated, strict=True):
+        arms = normal_arms(tabulated.cycle)
+        normal = math.cos(float(tabulated.assembly.path.pressure_angle(0.0))) * float(
+            np.mean(arms / np.cos(tabulated.cycle.pressure_angle))
         )
-        # virtual work: what a mesh bears of the output's torque is what the output turns by its play
-        if torque and mesh.pair.mesh.backlash is not None:
-            angle += mesh.pair.mesh.backlash / arm * abs(on_driven / torque)
-    return angle
+        play.append((mesh.pair.mesh.backlash or 0.0) / normal)
+    return np.array(play)
