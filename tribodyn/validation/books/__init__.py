@@ -14,16 +14,25 @@ from tribodyn.validation.rows import Row, compare
 Values = Mapping[str, float | tuple[float, float] | np.ndarray]
 
 
-def rows_of(book: str, values: Callable[[], Values]) -> Callable[..., list[Row]]:
+#: Remarks on rows by name, put before their reasons; called as `progress` with the share done.
+Remarks = Callable[[Callable[[float], None]], Mapping[str, str]]
+
+
+def rows_of(
+    book: str, values: Callable[[], Values], remarks: Remarks | None = None
+) -> Callable[..., list[Row]]:
     """Return the function that compares every row of a book with our values.
 
-    It is called as the `rows` of a paper; nothing needs a run, and nothing is written into its folder.
+    It is called as the `rows` of a paper; nothing is written into its folder.
     """
 
     def rows(folder: Path, progress: Callable[[float], None]) -> list[Row]:
-        ours = values()
+        ours, said = values(), remarks(progress) if remarks else {}
         progress(1.0)
-        return [compare(row, _value(ours, key)) for key, row in published(book).items()]
+        return [
+            compare(row, _value(ours, key), said.get(key.partition("/")[2], ""))
+            for key, row in published(book).items()
+        ]
 
     return rows
 
