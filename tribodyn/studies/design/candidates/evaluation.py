@@ -1,19 +1,17 @@
 """Evaluates cases of a base scenario, side by side: on this machine or on those of a cluster.
 
-On this machine one is evaluated in this process, the others in processes of their own, which are handed lines
-of text. They import nothing of the user's program, which a process of `multiprocessing` would run again.
+On this machine one is evaluated in this process, the others in processes of their own.
 """
 
 import copy
 import json
-import sys
 from collections.abc import Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
+from functools import partial
 from math import isfinite
 from pathlib import Path
-from queue import PriorityQueue
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import assemble
@@ -22,15 +20,12 @@ from tribodyn.geometry.limits.limits import LIMITS, plain_distances
 from tribodyn.input.names import named_in, same_key
 from tribodyn.input.resolve import resolve_table
 from tribodyn.input.tables.duty import LOADS, SPEEDS
-from tribodyn.numerics.processes import child
+from tribodyn.numerics.processes import workers
 from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.sources import own
 from tribodyn.studies.protocol.cluster import workers_of
 from tribodyn.studies.protocol.evaluated import evaluated, kept_in, within
 from tribodyn.studies.protocol.load import Loaded, loaded_from, table_of
-
-if TYPE_CHECKING:
-    import subprocess
 
 #: Keys of `operating` of which one is given.
 ALTERNATIVES = (SPEEDS, LOADS)
@@ -127,77 +122,46 @@ def numbers(quantities: Mapping[str, Any]) -> dict[str, float]:
 
 
 def serve() -> None:
-    """Evaluate what comes in as lines of JSON: first scenarios and folder, then lists of overrides."""
-    answers, sys.stdout = sys.stdout, sys.stderr  # what a library prints is no answer
-    scenarios, folder = json.loads(sys.stdin.readline())
-    for line in sys.stdin:
-        with kept_in(Path(folder)):
-            results = evaluate(scenarios, json.loads(line), workers=1)
-        answers.write(json.dumps(results) + "\n")
-        answers.flush()
+    """Evaluate lists of overrides that come in, see `numerics.processes.workers`."""
+    workers.serve(lambda head: partial(_evaluate_in, head[0], Path(head[1]), 1))
 
 
-class Pool:
-    """Evaluates lists of overrides, `workers` at a time; a context manager."""
+def _evaluate_in(
+    scenarios: Mapping[str, Mapping[str, Any]],
+    folder: Path,
+    threads: int | None,
+    several: Sequence[Mapping[str, Any]],
+) -> Results:
+    """The same as `evaluate`, with a folder for the parts of the cases."""
+    with kept_in(folder):
+        return evaluate(scenarios, several, threads)
+
+
+class Pool(workers.Workers):
+    """Evaluates lists of overrides as `evaluate` does, so many at a time; a context manager."""
 
     name = "native"
 
-    def __init__(self, scenarios: Mapping[str, Mapping[str, Any]], workers: int) -> None:
-        self.workers = workers
-        self._scenarios = scenarios
-        self._threads = ThreadPoolExecutor(workers)
-        #: those that are free, the first of which is this process, and the processes of the others
-        self._seats: PriorityQueue[int] = PriorityQueue()
-        self._processes: dict[int, subprocess.Popen[bytes]] = {}
-        for seat in range(workers):
-            self._seats.put(seat)
-        # of the parts of cases, by seat; its own, as processes that are ended cannot remove theirs
+    def __init__(self, scenarios: Mapping[str, Mapping[str, Any]], count: int) -> None:
+        self.workers = count
+        # of the parts of cases, by worker; its own, as processes that are ended cannot remove theirs
         self._folder = TemporaryDirectory(prefix="tribodyn-", ignore_cleanup_errors=True)
-
-    def __enter__(self) -> Self:
-        return self
+        own = partial(_evaluate_in, scenarios, self._place(0), None if count == 1 else 1)
+        super().__init__(
+            count,
+            own,
+            f"{evaluate.__module__}:serve",
+            lambda number: [scenarios, str(self._place(number))],
+            "a process that evaluates designs",
+        )
 
     def __exit__(self, *_: object) -> None:
-        self._threads.shutdown(wait=False, cancel_futures=True)
-        for process in self._processes.values():
-            child.end(process)
+        super().__exit__()
         self._folder.cleanup()
 
-    def submit(self, several: Sequence[Mapping[str, Any]]) -> "Future[Results]":
-        """Evaluate cases by their overrides, as `evaluate` does."""
-        return self._threads.submit(self._evaluate, list(several))
-
-    def _evaluate(self, several: list[Mapping[str, Any]]) -> Results:
-        seat = self._seats.get()
-        try:
-            if seat == 0:
-                with kept_in(self._place(seat)):
-                    return evaluate(self._scenarios, several, None if self.workers == 1 else 1)
-            answer = self._answer(seat, several)
-        except OSError:
-            answer = b""
-        finally:
-            self._seats.put(seat)
-        if not answer:
-            raise SimulationError("a process that evaluates designs ended: out of memory, or killed")
-        return json.loads(answer)
-
-    def _answer(self, seat: int, several: list[Mapping[str, Any]]) -> bytes:
-        """What the process of a seat answers; it is started for its first question."""
-        if seat not in self._processes:
-            self._processes[seat] = child.start(f"{evaluate.__module__}:serve")
-            child.tell(self._processes[seat], _line([self._scenarios, str(self._place(seat))]))
-        process = self._processes[seat]
-        child.tell(process, _line(several))
-        return process.stdout.readline() if process.stdout else b""
-
-    def _place(self, seat: int) -> Path:
-        """Where the parts of the cases of a seat lie."""
-        return Path(self._folder.name) / str(seat)
-
-
-def _line(message: Any) -> bytes:
-    return json.dumps(message).encode() + b"\n"
+    def _place(self, number: int) -> Path:
+        """Where the parts of the cases of a worker lie."""
+        return Path(self._folder.name) / str(number)
 
 
 class Cluster:
