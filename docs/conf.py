@@ -65,6 +65,7 @@ CONTENTS = {
         "wear",
         "quality",
         "efficiency",
+        "map",
         "oil",
         "ehl",
         "solvers",

@@ -53,7 +53,9 @@ if TYPE_CHECKING:
     from tribodyn.tribology.wear.law import WearLaw
 
     Design: type[Run]
+    Map: type[Run]
     design: Callable[..., Run]
+    map: Callable[..., Run]
     compare_laws: Callable[..., Finding]
 
 __all__ = [
@@ -68,6 +70,7 @@ __all__ = [
     "Identified",
     "InputError",
     "LinkLaw",
+    "Map",
     "NamedGear",
     "OutputError",
     "Parameter",
@@ -89,6 +92,7 @@ __all__ = [
     "identify",
     "import_scenario",
     "line_contact",
+    "map",
     "open",
     "plate_housing",
     "run",

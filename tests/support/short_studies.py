@@ -56,6 +56,12 @@ SHORT: dict[str, dict[str, Any]] = {
         "assessment.speeds": 2,
         "assessment.samples": 2,
     },
+    "map": {
+        "map.torque": ["500 N*m", "1770 N*m"],
+        "map.speed": ["0 rpm", "1480 rpm"],
+        "map.oil_temperature": ["50 degC", "70 degC"],
+        "map.accuracy": 0.0,
+    },
 }
 
 #: Kind or name of a scenario -> KEY=VALUE under which a shipped one takes seconds.
@@ -74,6 +80,7 @@ SHORTER = {
         'assessment.friction_laws=["iso-14179-1"]',
     ),
     "train-assessment": ("scenario.solver.cycles=4", "assessment.speeds=0"),
+    "map": ("map.accuracy=0.0", 'map.oil_temperature=["70 degC"]'),
 }
 
 

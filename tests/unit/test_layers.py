@@ -80,7 +80,7 @@ KINDS = {
     if STUDIES[kind].package.startswith("tribodyn.")
 }
 #: Kinds whose names are also words of their own: these strings say nothing.
-WORDS = {"efficiency", "design", "ehl", "wear"}
+WORDS = {"efficiency", "design", "ehl", "wear", "map"}
 #: Style: a file is one idea; lines.
 LONGEST_FILE = 340
 #: Modules of a folder beside its subfolders; of the command line a verb each.

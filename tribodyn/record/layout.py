@@ -125,7 +125,8 @@ def encode(variable: Variable, values: Any) -> np.ndarray:
     """Turn `values` into what the file holds: NaN of flags into "nothing written", texts cut to the room."""
     kind, values = np.dtype(variable.dtype), np.asarray(values)
     if kind.kind == "S" and values.dtype.kind in "OU":
-        return np.array([_cut(str(value), kind.itemsize) for value in values], kind)
+        texts = [_cut(str(value), kind.itemsize) for value in values.flat]
+        return np.array(texts, kind).reshape(values.shape)
     if variable.flags and values.dtype.kind == "f":
         values = np.where(np.isnan(values), variable.fill, values)
     return values.astype(kind)

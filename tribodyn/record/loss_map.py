@@ -57,14 +57,20 @@ class LossMap(NamedTuple):
         return abs(self.ratio) * self.torque[:, None] + self.total
 
     def efficiency(self) -> np.ndarray:
-        """Power out over power in, whichever end drives; below 0: it drives from neither (self-locking).
+        """Power out over power in at every point, see `efficiency_of`."""
+        return efficiency_of(abs(self.ratio) * self.torque[:, None], self.total)
 
-        NaN where no power is to be transmitted.
-        """
-        load = np.broadcast_to(abs(self.ratio) * self.torque[:, None], self.total.shape)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            given = np.where(load > 0.0, load / (load + self.total), (-load - self.total) / -load)
-        return np.where(load == 0.0, np.nan, given)
+
+def efficiency_of(load: Any, drag: Any) -> np.ndarray:
+    """Power out over power in, whichever end drives; below 0: it drives from neither (self-locking).
+
+    Of a load, reflected to the input as the drag is; below 0 it drives. NaN where no power is to be
+    transmitted.
+    """
+    load, drag = np.broadcast_arrays(np.asarray(load, float), np.asarray(drag, float))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        given = np.where(load > 0.0, load / (load + drag), (-load - drag) / -load)
+    return np.where(load == 0.0, np.nan, given)
 
 
 class GridValues(NamedTuple):

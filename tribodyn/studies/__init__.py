@@ -21,6 +21,7 @@ STUDIES: Registry[Study] = Registry(
         "design": "tribodyn.studies.design:STUDY",
         "assessment": "tribodyn.studies.assessment:STUDY",
         "train-assessment": "tribodyn.studies.assessment:OF_SCENARIO",
+        "map": "tribodyn.studies.map:STUDY",
     },
     "tribodyn.studies",
     Study,

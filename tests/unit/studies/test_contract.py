@@ -123,7 +123,7 @@ def test_a_record_describes_itself(kind: str, short_runs):
             assert record.units(name) == file[name].attrs["units"], name
             assert record.long_name(name) == file[name].attrs["long_name"], name
             scales = tuple(str(dim[0].name).strip("/") for dim in file[name].dims if len(dim))
-            assert data[name].dims == (scales or (name,)), name
+            assert data[name].dims == (scales or (name,) * bool(file[name].shape)), name
         for name in record:
             assert len(record[name]) == record.samples, name
             assert data[name].dims[0] == record.axis

@@ -1,0 +1,98 @@
+"""Maps of gearboxes with teeth: at every node what the gearbox itself loses, however it is written."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tribodyn.cases.loss_part import OperatingPoints
+from tribodyn.record.loss_map import loss_map
+from tribodyn.record.reader import Record
+from tribodyn.studies.map.looked_up import loaded_map, looked_up
+from tribodyn.studies.protocol.run import run
+
+COULOMB = {"friction.law": "coulomb", "friction.coefficient": 0.05}
+
+
+def mapped(folder: Path, source: Any, overrides: Any = None, **table: Any) -> Record:
+    case = loaded_map(source, {"accuracy": 0.0, **table}, overrides or {}).case
+    return Record(run(case, folder / "map.h5", force=True).path)
+
+
+@pytest.fixture(scope="module")
+def reducer(tmp_path_factory: pytest.TempPathFactory):
+    """In both directions of power and of motion, with a standstill."""
+    with mapped(
+        tmp_path_factory.mktemp("map"),
+        "two-stage-reducer",
+        torque=["0 N*m", "590 N*m", "1770 N*m"],
+        speed=["-300 rpm", "0 rpm", "1480 rpm"],
+        oil_temperature=["40 degC", "70 degC"],
+        directions="both",
+    ) as record:
+        yield record
+
+
+def test_at_its_nodes_it_is_what_the_gearbox_loses_at_each_by_itself(reducer: Record):
+    loaded = loaded_map("two-stage-reducer", {}, {}).case.subject
+    losses = loaded.study.losses()
+    assert losses is not None
+    for i, oil in enumerate(reducer["oil_temperature"]):
+        for j, torque in enumerate(reducer["torque"]):
+            for k, speed in enumerate(reducer["speed"]):
+                point = OperatingPoints(*(np.array([value]) for value in (torque / 1770.0, speed, oil)))
+                alone = losses.at(loaded.case, point).drag[0]
+                np.testing.assert_allclose(reducer["drag"][:, i, j, k], alone, rtol=1e-9)
+
+
+def test_it_has_both_directions_and_a_standstill(reducer: Record):
+    still, loaded = reducer["speed"] == 0.0, reducer["torque"] != 0.0
+    assert reducer["torque"].tolist() == [-1770.0, -590.0, 0.0, 590.0, 1770.0]
+    assert list(reducer["mesh"]) == ["first", "second"]
+    assert (reducer["drag"] >= 0.0).all()
+    assert (reducer["power_loss"][..., still] == 0.0).all()
+    assert (reducer["drag"][:, :, loaded][..., still] > 0.0).all()
+    own = looked_up(loss_map(reducer), 1770.0, 1480.0 * np.pi / 30.0, 343.15)
+    assert own["power_loss"] == pytest.approx(reducer.summary["own_power_loss"], rel=1e-9)
+    assert own["efficiency"] == pytest.approx(reducer.summary["efficiency_own"], rel=1e-12)
+    back = looked_up(loss_map(reducer), -1770.0, 1480.0 * np.pi / 30.0, 343.15)["efficiency"]
+    assert back == pytest.approx(
+        2.0 - 1.0 / own["efficiency"], abs=1e-3
+    )  # nearly: loads differ by the losses
+
+
+def test_errors_of_the_meshes_reach_the_output_by_the_ratio_behind_them(reducer: Record):
+    """23/69 teeth of 3 mm, then 23/57 of 4 mm: the working pitch circles follow from the shifts' sum."""
+    amplitude, at_output = reducer["transmission_error_harmonic"], reducer["transmission_error_output"]
+    turned = at_output[:, -1, 0] / amplitude[:, -1, 0]
+    assert turned[0] / turned[1] == pytest.approx(23.0 / 57.0 * (57 * 4.0) / (69 * 3.0), rel=0.02)
+    assert turned[1] == pytest.approx(1.0 / (0.5 * 57 * 4.0e-3), rel=0.02)
+    assert reducer["mesh_order"].tolist() == pytest.approx([23.0, 23.0 * 23.0 / 69.0])
+    np.testing.assert_allclose(reducer["stiffness_total"], reducer["stiffness_total"][::-1], rtol=1e-6)
+    assert (reducer["stiffness_mean"] > 1e8).all()
+
+
+def test_a_pair_and_the_same_pair_as_a_train_have_one_map(tmp_path: Path):
+    keys = {"torque": ["100 N*m", "500 N*m"], "speed": ["0 rpm", "1500 rpm"]}
+    names = ("drag", "efficiency", "film_min", "stiffness_mean", "stiffness_total", "backlash")
+    with mapped(tmp_path, "spur-25-51", COULOMB, **keys) as record:
+        pair = {name: record[name] for name in names} | {"ratio": record.attrs["ratio"]}
+        scenario = dict(record.scenario["scenario"])
+    operating = dict(scenario["operating"])
+    operating |= {"input": "pinion", "output": "gear"}
+    train = {**scenario, "kind": "gear-train", "operating": operating}
+    with mapped(tmp_path, train, **keys) as record:
+        for name in names:
+            np.testing.assert_allclose(np.squeeze(record[name]), np.squeeze(pair[name]), rtol=1e-9)
+        assert record.attrs["ratio"] == pytest.approx(pair["ratio"])
+
+
+def test_a_planetary_set_has_a_map(tmp_path: Path):
+    """Its sun drives, its carrier is loaded: ratio 1 + 84/24; losses of all meshes."""
+    with mapped(
+        tmp_path, "planetary-24-84", COULOMB, speed=["0 rpm", "1000 rpm"], directions="both"
+    ) as record:
+        assert abs(record.attrs["ratio"]) == pytest.approx(1.0 / (1.0 + 84.0 / 24.0))
+        assert len(record["mesh"]) == 6
+        assert (record["drag"].sum(axis=0)[:, -1] > 0.0).all()
