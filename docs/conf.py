@@ -38,6 +38,8 @@ CONTENTS = {
         "assessment",
         "compare",
         "report",
+        "export",
+        "rexs",
         "extending",
     ],
     "Reference": [

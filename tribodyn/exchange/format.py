@@ -64,11 +64,17 @@ class Deviation(NamedTuple):
 
 
 def deviation(
-    of: str, units: str, written: Any, exact: Any, over: str = "all points of the map"
+    of: str,
+    units: str,
+    written: Any,
+    exact: Any,
+    over: str = "all points of the map",
+    weights: np.ndarray | None = None,
 ) -> Deviation:
-    """How far written values are from exact ones."""
+    """How far written values are from exact ones; `weights` are those of the mean."""
     error = np.abs(np.asarray(written) - np.asarray(exact))
-    return Deviation(of, units, float(error.max()), float(error.mean()), float(np.abs(exact).max()), over)
+    mean = float(np.average(error, weights=weights))
+    return Deviation(of, units, float(error.max()), mean, float(np.abs(exact).max()), over)
 
 
 class Written(NamedTuple):

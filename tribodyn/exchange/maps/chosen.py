@@ -102,6 +102,16 @@ def read_numbers(text: str, name: str) -> np.ndarray:
     return np.array(json.loads(match[1].translate({ord("{"): "[", ord("}"): "]"})))
 
 
+def shares(*axes: np.ndarray) -> np.ndarray:
+    """Share of the range of a map that each of its points stands for: they are not evenly spread."""
+    found = np.ones(())
+    for axis in axes:
+        ends = np.concatenate([axis[:1], 0.5 * (axis[1:] + axis[:-1]), axis[-1:]])
+        width = np.diff(ends) if len(axis) > 1 else np.ones(1)
+        found = np.multiply.outer(found, width / width.sum())
+    return found
+
+
 def celsius(temperature: float) -> str:
     """For remarks."""
     return f"{temperature - 273.15:.4g} °C"

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.exchange.format import Deviation, Exported, FormatChoice, deviation
-from tribodyn.exchange.maps.chosen import CHOICES, at_temperature, celsius, within
+from tribodyn.exchange.maps.chosen import CHOICES, at_temperature, celsius, shares, within
 
 #: Choices of formats that hold such a friction.
 FRICTION_CHOICES = {
@@ -28,26 +28,34 @@ class JointFriction(NamedTuple):
         exact = at_temperature(exported, choices)[1] / abs(losses.ratio)
         speed = np.abs(losses.speed * losses.ratio)
         fitted = np.broadcast_to(self.coulomb + self.viscous * speed, exact.shape)
-        found = [deviation("friction at the output", "N m", fitted, exact, over)]
+        weights = shares(losses.torque, losses.speed)
+        found = [deviation("friction at the output", "N m", fitted, exact, over, weights)]
         if "torque" in choices:
             exact = _at_load(exported, choices)
-            found.append(deviation("friction at the output", "N m", fitted[0], exact, "the chosen load"))
+            load = "the chosen load"
+            found.append(
+                deviation("friction at the output", "N m", fitted[0], exact, load, shares(losses.speed))
+            )
         return tuple(found)
 
 
 def fitted_friction(exported: Exported, choices: Mapping[str, float]) -> JointFriction:
-    """By least squares over the loads and speeds of the map at an oil temperature, neither below 0."""
+    """By least squares over the range of loads and speeds at an oil temperature, neither below 0."""
     from scipy.optimize import nnls
 
     losses = exported.losses
     temperature, drag = at_temperature(exported, choices)
     if "torque" in choices:
         within(exported, "torque", choices["torque"], losses.torque)
-        friction, load = _at_load(exported, choices)[None], f"a load of {choices['torque']:.6g} N m"
+        friction, weights = _at_load(exported, choices)[None], shares(losses.speed)[None]
+        load = f"a load of {choices['torque']:.6g} N m"
     else:
-        friction, load = drag / abs(losses.ratio), "all loads of the map, which it cannot tell apart"
+        friction, weights = drag / abs(losses.ratio), shares(losses.torque, losses.speed)
+        load = "all loads of the map, which it cannot tell apart"
     speed = np.broadcast_to(np.abs(losses.speed * losses.ratio), friction.shape).ravel()
-    (coulomb, viscous), _ = nnls(np.stack([np.ones_like(speed), speed], axis=1), friction.ravel())
+    root = np.sqrt(weights.ravel())
+    matrix = np.stack([np.ones_like(speed), speed], axis=1)
+    (coulomb, viscous), _ = nnls(matrix * root[:, None], friction.ravel() * root)
     remark = f"friction fitted at {celsius(temperature)} oil to {load}"
     return JointFriction(float(coulomb), float(viscous), (remark,))
 

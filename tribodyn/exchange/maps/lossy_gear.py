@@ -12,6 +12,7 @@ So drag that is linear over the load to either side, d = d0 + m1 L and d = d0 + 
 import numpy as np
 from scipy.optimize import nnls
 
+from tribodyn.exchange.maps.chosen import shares
 from tribodyn.record.loss_map import LossMap
 
 
@@ -27,8 +28,9 @@ def fitted_table(losses: LossMap, drag: np.ndarray) -> np.ndarray | None:
     rows = []
     for speed in np.unique(np.abs(losses.speed)):
         columns = drag[:, np.abs(losses.speed) == speed]
+        root = np.tile(np.sqrt(shares(losses.torque)), columns.shape[1])
         matrix = np.tile(sides, (columns.shape[1], 1))
-        (still, forward, backward), _ = nnls(matrix, columns.T.ravel())
+        (still, forward, backward), _ = nnls(matrix * root[:, None], columns.T.ravel() * root)
         if one_sided(losses):
             forward = backward = max(forward, backward)
         eta_1, eta_2 = 1.0 / (1.0 + forward), 1.0 - backward

@@ -15,7 +15,7 @@ from scipy.io import loadmat, savemat
 from tribodyn import __version__
 from tribodyn.exchange.format import MAP, Deviation, ExchangeFormat, Exported, Written, deviation
 from tribodyn.exchange.heading import heading
-from tribodyn.exchange.maps.chosen import SPEED, nominal
+from tribodyn.exchange.maps.chosen import SPEED, nominal, shares
 from tribodyn.record.loss_map import GridValues
 
 #: Bytes of the text at the beginning of a MAT-file.
@@ -95,7 +95,10 @@ def _compared(exported: Exported, content: bytes) -> tuple[Deviation, ...]:
         base = losses.torque_at_input()[forward]
         lost = (1.0 - efficiency(temperature[forward], base)) * base
         over = "all points of the map where the input drives; it knows one speed"
-        found.append(deviation("drag at the input (simscape)", "N m", lost, losses.total[forward], over))
+        weights = shares(losses.oil_temperature, losses.torque, losses.speed)[forward]
+        found.append(
+            deviation("drag at the input (simscape)", "N m", lost, losses.total[forward], over, weights)
+        )
     return tuple(found)
 
 

@@ -25,6 +25,7 @@ from tribodyn.exchange.maps.chosen import (
     nominal,
     numbers,
     read_numbers,
+    shares,
     stiffness,
 )
 from tribodyn.exchange.maps.lossy_gear import drag_of_table, fitted_table, one_sided
@@ -88,7 +89,8 @@ def write(exported: Exported, name: str, choices: Mapping[str, float]) -> Writte
     else:
         read = drag_of_table(losses, read_numbers(text, "lossTable"))
         over = f"all loads and speeds of the map at {celsius(temperature)} oil"
-        found.append(deviation("drag at the input (Lossy)", "N m", read, drag, over))
+        weights = shares(losses.torque, losses.speed)
+        found.append(deviation("drag at the input (Lossy)", "N m", read, drag, over, weights))
         if one_sided(losses):
             remarks.append("the map has loads of one sign only: Lossy loses as much under the others")
     if amplitude.any():

@@ -20,6 +20,7 @@ from tribodyn.exchange.maps.chosen import (
     damping_ratio,
     inertia,
     nominal,
+    shares,
     stiffness,
 )
 
@@ -66,6 +67,7 @@ def write(exported: Exported, name: str, choices: Mapping[str, float]) -> Writte
             np.broadcast_to(share_lost * loads, drag[driven].shape),
             drag[driven],
             "the loads of the map that the rotor drives, at this oil temperature",
+            shares(losses.torque, losses.speed)[driven],
         ),
     )
     turns = "the same way" if losses.ratio > 0.0 else "opposite ways"
