@@ -69,6 +69,7 @@ CONTENTS = {
         "efficiency",
         "map",
         "oil",
+        "losses",
         "ehl",
         "solvers",
         "teeth",

@@ -23,7 +23,7 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.contact import Asperities
 from tribodyn.tribology.law import FilmData, FrictionData
-from tribodyn.tribology.losses.pair import LossData
+from tribodyn.tribology.losses.pair import LOSSES, LossData
 from tribodyn.tribology.oil import LubricantData
 
 LawfulCase = TypeVar("LawfulCase", bound="LubricatedCase")
@@ -38,7 +38,8 @@ ENERGY = quantities(
 )
 TEMPERATURE = quantities(
     *("bulk_temperature", "contact_temperature_max", "oil_temperature"),
-    *("power_churning", "power_windage", "power_bearings", "power_load_independent"),
+    *(f"power_{name}" for name in LOSSES),
+    "power_load_independent",
     "efficiency_with_losses",
 )
 #: What sweeps keep of a case that asks for temperatures or losses.

@@ -4,6 +4,7 @@ The bulk temperature follows from the losses, the losses from the film, and the 
 temperature: a fixed point. Load-independent losses are those at the oil's temperature.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Generic, NamedTuple, TypeVar
@@ -26,7 +27,7 @@ from tribodyn.tribology.bulk_temperature import (
     network_temperatures,
 )
 from tribodyn.tribology.law import AUTO
-from tribodyn.tribology.losses.loss import Loss, OilState, Wheel
+from tribodyn.tribology.losses.loss import Loss, Wheel, oil_state
 from tribodyn.tribology.losses.pair import LossData, losses_of_pair
 from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, LubricantData, lubricant_at, specific_heat
 
@@ -107,8 +108,12 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
         return {}
     drive, speed = case.drive, case.operating.pinion_speed
     speeds = float(speed), float(speed * abs(drive.pinion.teeth / drive.gear.teeth))
-    state = OilState(float(oil.inlet_viscosity), float(oil.density))
-    return losses_of_pair(wanted, wheels_of(case, assembly), speeds, state)
+    return losses_of_pair(wanted, wheels_of(case, assembly), speeds, oil_state(oil), normal_module(case))
+
+
+def normal_module(case: Any) -> float:
+    """Normal module of a case's teeth, m."""
+    return float(case.drive.module) * math.cos(abs(float(case.drive.helix_angle)))
 
 
 def wheels_of(case: Any, assembly: Assembly) -> tuple[Wheel, Wheel]:
@@ -153,11 +158,11 @@ def thermal_quantities(thermal: Thermal | None, power_in: float, efficiency: flo
             quantities |= {"housing_temperature": temperatures.housing, "heat_given_off": thermal.given_off}
     if thermal.losses:
         power = {f"power_{name}": loss.power for name, loss in thermal.losses.items()}
-        idle = sum(power.values())
+        every = sum(power.values())
         quantities |= power
         quantities |= {
-            "power_load_independent": idle,
-            "efficiency_with_losses": efficiency * power_in / (power_in + idle),
+            "power_load_independent": every - power.get("power_bearings_under_load", 0.0),
+            "efficiency_with_losses": efficiency * power_in / (power_in + every),
         }
         outside = [f"{name}: {limit}" for name, loss in thermal.losses.items() for limit in loss.exceeded]
         if outside:

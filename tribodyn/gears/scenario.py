@@ -12,6 +12,7 @@ from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
 from tribodyn.gears.by_standard import quality_of
 from tribodyn.gears.mesh_of_gearbox import Opened, with_every_pair, with_pair
+from tribodyn.gears.requested_losses import drawn_of_pair, requested_losses
 from tribodyn.gears.supports import displaced, has_supports, supports_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.fields import Slices, head_of
@@ -40,7 +41,7 @@ from tribodyn.input.tables.gears.quality import (
 from tribodyn.input.tables.gears.single_teeth import broken_own_teeth, teeth_alike
 from tribodyn.input.tables.gears.tooth_data import broken_internal_runs, internal_refused
 from tribodyn.input.tables.laws import FilmTable, film_of, law_values
-from tribodyn.input.tables.losses import LossesTable, broken_losses, losses_of
+from tribodyn.input.tables.losses import LossesTable, broken_losses
 from tribodyn.input.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
 from tribodyn.input.tables.shafts import Shafts, broken_shafts, drawn_shafts, listed
 from tribodyn.input.tables.temperature import TemperatureTable, broken_temperature_rules, temperature_of
@@ -135,7 +136,7 @@ def oil_fields(scenario: Any) -> dict[str, Any]:
         "lubricant": lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
         "film": FilmData(AUTO) if film is None and friction is None else film_of(film),
         "temperature": temperature_of(getattr(scenario, "temperature", None)),
-        "losses": losses_of(getattr(scenario, "losses", None)),
+        "losses": requested_losses(scenario),
     }
 
 
@@ -273,7 +274,7 @@ def broken_gear_rules(
         if oil:
             yield from broken_lubricant_rules(lubricant, scenario.operating.oil_temperature)
         yield from broken_temperature_rules(getattr(scenario, "temperature", None), lubricant)
-    yield from broken_losses(getattr(scenario, "losses", None))
+    yield from broken_losses(getattr(scenario, "losses", None), drawn=drawn_of_pair(scenario))
     yield from _broken_supports(scenario)
     misalignment = getattr(mesh, "misalignment", _ALIGNED)
     coupling = getattr(mesh, "slice_coupling", True)

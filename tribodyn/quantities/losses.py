@@ -103,14 +103,27 @@ TEMPERATURE = (
         "By the formula of losses.churning."
     ),
     Quantity("power_windage", "Loss to windage", "W", ".3g").defined_as("By the formula of losses.windage."),
+    Quantity("power_squeezing", "Loss to oil sprayed into the mesh", "W", ".3g").defined_as(
+        "By the formula of losses.squeezing."
+    ),
+    Quantity("power_bearings_under_load", "Loss to bearings under load", "W", ".3g").defined_as(
+        "What the load adds by the formula of losses.bearings, at the nominal load."
+    ),
+    Quantity("power_seals", "Loss to seals", "W", ".3g").defined_as("By the formula of losses.seals."),
+    Quantity("power_carriers", "Loss to planet carriers in the oil", "W", ".3g").defined_as(
+        "By the formula of losses.carrier."
+    ),
+    Quantity("power_pump", "Loss to the oil pump", "W", ".3g").defined_as(
+        "Its pressure times its flow over its efficiency."
+    ),
     Quantity("power_bearings", "Loss to bearings without load", "W", ".3g").defined_as(
         "By the formula of losses.bearings."
     ),
     Quantity("power_load_independent", "Load-independent losses", "W", ".3g").defined_as(
-        "Churning, windage and bearings by the formulas of [losses]; not in the lines above."
+        "Losses without load by the formulas of [losses]; not in the lines above."
     ),
-    Quantity("efficiency_with_losses", "Efficiency, load-independent losses included", "%", ".3f").defined_as(
-        "Power out over power in, to which the load-independent losses are added."
+    Quantity("efficiency_with_losses", "Efficiency, all losses included", "%", ".3f").defined_as(
+        "Power out over power in, to which all losses of [losses] are added."
     ),
 )
 SPECTRUM = (

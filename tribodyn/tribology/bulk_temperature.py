@@ -20,6 +20,9 @@ STEPS, FARTHEST, LEAST_WEIGHT = 100, 40.0, 0.02
 #: Share of the heat of tooth friction that either gear takes.
 SHARE = 0.5
 
+#: Losses whose heat enters the housing, where there is one; that of others the oil.
+IN_HOUSING = ("bearings", "bearings_under_load", "seals")
+
 Lubrication = Literal["dip", "spray", "submerged"]
 
 
@@ -63,9 +66,8 @@ def heat_partition(mesh_loss: float, losses: Mapping[str, Loss], *, housing: boo
 
     Without a housing of its own, bearings heat the oil, as churning and windage do.
     """
-    power = {name: loss.power for name, loss in losses.items()}
-    bearings = power.get("bearings", 0.0)
-    in_oil = power.get("churning", 0.0) + power.get("windage", 0.0)
+    bearings = sum(loss.power for name, loss in losses.items() if name in IN_HOUSING)
+    in_oil = sum(loss.power for name, loss in losses.items() if name not in IN_HOUSING)
     to_oil, to_housing = (in_oil, bearings) if housing else (in_oil + bearings, 0.0)
     return Heat(SHARE * mesh_loss, (1.0 - SHARE) * mesh_loss, to_oil, to_housing)
 
@@ -77,7 +79,7 @@ def heat_of_other_meshes(
 
     `friction` are the mean losses of the meshes to tooth friction, W, `idle` their load-independent ones.
     """
-    bearings = [losses["bearings"].power if "bearings" in losses else 0.0 for losses in idle]
+    bearings = [sum(loss.power for name, loss in losses.items() if name in IN_HOUSING) for losses in idle]
     power = [sum(loss.power for loss in losses.values()) for losses in idle]
     return [
         (sum(friction) - lost + sum(power) - own, sum(bearings) - turning)

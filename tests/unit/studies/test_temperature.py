@@ -45,6 +45,18 @@ LOSSES = {
     "losses.pinion_bearings.type": "deep-groove-ball",
     "losses.pinion_bearings.mean_diameter": "40 mm",
 }
+SEALED = {"losses.seals": "iso-14179-2", "losses.shaft_seals.pinion.diameter": "30 mm"}
+UNSIZED = {"losses.seals": "iso-14179-2", "losses.shaft_seals.pinion.count": 2}
+PUMP = {"losses.pump.shaft": "pinion", "losses.pump.pressure": "5 bar", "losses.pump.flow": "9 l/min"}
+SKF = {
+    "losses.bearings": "skf",
+    "losses.gear_bearings.type": "deep-groove-ball",
+    "losses.gear_bearings.series": "63",
+    "losses.gear_bearings.bore": "45 mm",
+    "losses.gear_bearings.outside_diameter": "100 mm",
+    "losses.gear_bearings.static_rating": "31.5 kN",
+    "losses.gear_bearings.radial_load": "4 kN",
+}
 MOTION = SCENARIO | {"kind": "gear-pair", "mesh": {"damping_ratio": 0.05}}
 
 
@@ -93,6 +105,23 @@ def test_a_network_gives_off_all_heat_of_friction_and_losses():
     # 2 l/min of oil at 80 °C: the density and Cragoe's specific heat there
     flow = 2e-3 / 60 * (890 - 0.7 * 64.15) * (1685 + 3.39 * 80) / 0.89**0.5
     assert found["oil_temperature"] == pytest.approx(353.15 + heat / flow, abs=0.1)
+
+
+def test_bearings_seals_and_pump_are_in_the_efficiency_and_heat_the_oil():
+    """Both bearings of the gear by SKF's model; the load's share is not among the losses without load."""
+    found = quantities_of(case(NETWORK | SEALED | PUMP | SKF))
+    names = ("bearings", "bearings_under_load", "seals", "pump")
+    power = {name: found[f"power_{name}"] for name in names}
+    assert power["seals"] == pytest.approx(7.69e-6 * 30**2 * 1800, rel=1e-3)
+    assert power["pump"] == pytest.approx(5e5 * 9e-3 / 60 / 0.8, rel=1e-6)
+    assert 5.0 < power["bearings_under_load"] < 50.0
+    assert found["power_load_independent"] == pytest.approx(
+        sum(power.values()) - power["bearings_under_load"]
+    )
+    share = found["power_in_mean"] / (found["power_in_mean"] + sum(power.values()))
+    assert found["efficiency_with_losses"] == pytest.approx(found["efficiency"] * share)
+    heat = found["power_friction_mean"] + sum(power.values())
+    assert found["heat_given_off"] == pytest.approx(heat, rel=1e-3)
 
 
 def test_losses_are_off_unless_asked_for():
@@ -150,6 +179,47 @@ def test_a_motion_with_another_loss_is_run_again_until_its_own_temperature():
         ({"losses.churning": "stirring"}, "losses.churning", "not one of the choices"),
         (LOSSES | {"losses.immersion.gear": "9 mm"}, "losses.immersion.gear", "as gear_immersion does"),
         (LOSSES | {"losses.immersion.wheel": "9 mm"}, "losses.immersion.wheel", "no such gear"),
+        (UNSIZED, "losses.shaft_seals.pinion.diameter", "missing"),
+        (SEALED | {"losses.seals": None}, "losses.shaft_seals.pinion", "no effect"),
+        ({"losses.seals": "iso-14179-2"}, "losses.shaft_seals", "needs the seals of a shaft"),
+        (
+            SEALED | {"losses.shaft_seals.pinion.material": "fkm"},
+            "losses.shaft_seals.pinion.material",
+            "no eff",
+        ),
+        (
+            SEALED | {"losses.shaft_seals.output.diameter": "9 mm"},
+            "losses.shaft_seals.output",
+            "no such gear",
+        ),
+        (PUMP | {"losses.pump.flow": None}, "losses.pump.flow", "missing: a pump needs it"),
+        (PUMP | {"losses.pump.displacement": "9 ml"}, "losses.pump.flow", "the same as displacement"),
+        (PUMP | {"losses.pump.shaft": "middle"}, "losses.pump.shaft", "no such gear"),
+        (SKF | {"losses.gear_bearings.bore": None}, "losses.gear_bearings.bore", "missing"),
+        (
+            SKF | {"losses.gear_bearings.bore": "101 mm"},
+            "losses.gear_bearings.bore",
+            "below outside_diameter",
+        ),
+        (SKF | {"losses.gear_bearings.series": "65"}, "losses.gear_bearings.series", "no such series"),
+        (SKF | {"losses.gear_bearings.static_rating": None}, "losses.gear_bearings.static_rating", "missing"),
+        (SKF | {"losses.gear_bearings.type": "needle-roller"}, "losses.gear_bearings.type", "not known"),
+        (
+            SKF | {"losses.gear_bearings.type": "tapered-roller", "losses.gear_bearings.series": "320"},
+            "losses.gear_bearings.contact_angle",
+            "the load acts along it",
+        ),
+        (SKF | {"losses.bearings": "palmgren"}, "losses.gear_bearings.series", "no effect"),
+        (SKF | {"losses.gear_bearings.seal": "RS1"}, "losses.gear_bearings.seal_diameter", "missing"),
+        (SKF | {"losses.gear_bearings.bath_factor": 1e-4}, "losses.gear_bearings.bath_factor", "without oil"),
+        (
+            {"losses.churning": "iso-14179-2", "losses.gear_immersion": "9 mm"},
+            "losses.hydraulic_length",
+            "missing",
+        ),
+        ({"losses.squeezing": "mauz"}, "losses.spray.flow", "missing"),
+        ({"losses.spray.flow": "1 l/min"}, "losses.spray", "no effect"),
+        ({"losses.carrier": "enclosed-drum"}, "losses.carrier", "no planetary stage"),
     ],
 )
 def test_what_contradicts_is_refused(changes, key, rule):

@@ -7,10 +7,22 @@ import numpy as np
 import pytest
 
 from tribodyn.tribology.losses.bearings import BearingInOil
+from tribodyn.tribology.losses.carriers import CarrierInOil, enclosed_drum
 from tribodyn.tribology.losses.churning import changenet_velex, iso_14179_1
 from tribodyn.tribology.losses.loss import OilState, Sump, Wheel
-from tribodyn.tribology.losses.pair import LossData, losses_of_pair
+from tribodyn.tribology.losses.meshes import MeshInOil, iso_14179_2, mauz
+from tribodyn.tribology.losses.pair import (
+    LOSSES,
+    LoadedBearings,
+    LossData,
+    ShaftLosses,
+    Spray,
+    losses_of_pair,
+    shaft_torques,
+)
 from tribodyn.tribology.losses.palmgren import DRAG_FACTORS, palmgren
+from tribodyn.tribology.losses.pump import PumpData
+from tribodyn.tribology.losses.seals import SealData
 from tribodyn.tribology.losses.windage import anderson_loewenthal, dawson
 
 RPM = math.pi / 30.0
@@ -113,6 +125,14 @@ def test_palmgren_by_hand():
 SPEEDS = 1500 * RPM, SPEED
 
 
+def on_sides(*bearings):
+    """Bearings of the pinion's and of the gear's shaft."""
+    return tuple(
+        ShaftLosses(side, bearings=(LoadedBearings(side, one),))
+        for side, one in zip(("pinion", "gear"), bearings, strict=True)
+    )
+
+
 def test_losses_of_both_gears_are_added_and_limits_said_once():
     pinion = WHEEL._replace(module=0.9e-3, immersion=11e-3, root_radius=31e-3)
     gear, sump = WHEEL._replace(module=0.9e-3), Sump(1.7e-3)
@@ -124,7 +144,7 @@ def test_losses_of_both_gears_are_added_and_limits_said_once():
 
     for churning, each in (("iso-14179-1", iso_14179_1), ("changenet-velex", changenet_velex)):
         for windage, blown in (("dawson", dawson), ("anderson-loewenthal", anderson_loewenthal)):
-            requested = LossData(churning, windage, "palmgren", 11e-3, 40e-3, 1.7e-3, drags)
+            requested = LossData(churning, windage, "palmgren", 11e-3, 40e-3, sump, shafts=on_sides(*drags))
             found = losses_of_pair(requested, (pinion, gear), SPEEDS, OIL)
             assert found["churning"].power == pytest.approx(both(each, OIL, sump))
             assert found["windage"].power == pytest.approx(both(blown))
@@ -141,7 +161,9 @@ def test_only_what_is_asked_for_is_lost():
     assert losses_of_pair(LossData(), both, SPEEDS, OIL) == {}
     asked = LossData(churning="iso-14179-1", bearings="palmgren", gear_immersion=40e-3)
     drag = BearingInOil("deep-groove-ball", 60e-3, 2)
-    found = losses_of_pair(replace(asked, drag=(None, drag)), both, SPEEDS, OIL)
+    found = losses_of_pair(
+        replace(asked, shafts=(ShaftLosses("gear", bearings=(LoadedBearings("", drag),)),)), both, SPEEDS, OIL
+    )
     assert set(found) == {"churning", "bearings"}
     assert found["churning"].power == pytest.approx(iso_14179_1(WHEEL, SPEED, OIL, SUMP).torque * SPEED)
     assert found["bearings"].power == pytest.approx(palmgren(drag, SPEED, OIL, 0.0, 0.0).idle * SPEED)
@@ -164,3 +186,49 @@ def test_a_helix_wets_longer_flanks_and_lessens_the_losses_of_agmas_teeth():
     assert inclined / spur == pytest.approx(share)
     least = WHEEL._replace(helix_angle=math.radians(9.0))
     assert iso_14179_1(least, SPEED, oil, SUMP) == iso_14179_1(WHEEL, SPEED, oil, SUMP)
+
+
+def test_every_loss_of_a_pair_has_its_name_and_power():
+    """Each by its own function: at the shaft's speed, the load by the force that is given."""
+    held = BearingInOil("cylindrical-roller", 60e-3, 2)
+    on_gear = ShaftLosses(
+        "gear",
+        bearings=(LoadedBearings("of gear", held, 3000.0),),
+        seals=SealData(50e-3),
+        pump=PumpData(5e5, flow=0.1e-3),
+        carrier=CarrierInOil(0.2, 0.05, 0.08, 0.01),
+    )
+    data = LossData(
+        "iso-14179-2", "dawson", "iso-14179-2", 11e-3, 40e-3, Sump(1e-3, 0.3), shafts=(on_gear,),
+        squeezing="mauz", spray=Spray(3e-5, 5.0), seals="iso-14179-2", carrier="enclosed-drum",
+    )  # fmt: skip
+    wheels = WHEEL._replace(immersion=11e-3), WHEEL
+    found = {name: loss.power for name, loss in losses_of_pair(data, wheels, SPEEDS, OIL, 3e-3).items()}
+    assert set(found) == set(LOSSES)
+    mesh = MeshInOil(*wheels, 3e-3, *data.spray)
+    rolling = 0.0003 * 3000.0 * 60e-3
+    expected = {
+        "churning": iso_14179_2(mesh, SPEEDS[0], OIL, data.sump).torque * SPEEDS[0],
+        "squeezing": mauz(mesh, SPEEDS[0], OIL, data.sump).torque * SPEEDS[0],
+        "bearings_under_load": 2 * rolling * SPEED,
+        "seals": 7.69e-6 * 50.0**2 * 750.0,
+        "pump": 5e5 * 0.1e-3 / 0.8,
+        "carriers": enclosed_drum(on_gear.carrier, SPEED, OIL, data.sump).torque * SPEED,
+    }
+    assert {name: found[name] for name in expected} == pytest.approx(expected)
+
+
+def test_losses_of_a_shaft_over_loads_and_speeds():
+    """Of arrays one torque a point: no load, none; a load that drives, that of one that is driven."""
+    held = BearingInOil("cylindrical-roller", 60e-3, 2)
+    shaft = ShaftLosses("gear", SPEED, bearings=(LoadedBearings("one", held, 3000.0),), seals=SealData(50e-3))
+    data = LossData(bearings="iso-14179-2", seals="iso-14179-1")
+    speeds, loads = np.array([0.0, 50.0, 80.0]), np.array([0.0, -1.0, 2.0])
+    found = {part.term: part for part in shaft_torques(data, shaft, speeds, OIL, loads)}
+    assert {term: part.sort for term, part in found.items()} == {
+        "P_VL0": "bearing",
+        "P_VLP": "bearing",
+        "P_VD": "seal",
+    }
+    assert found["P_VLP"].torque.torque == pytest.approx(2 * 0.0003 * 3000.0 * 60e-3 * np.abs(loads))
+    assert found["P_VD"].torque.torque == pytest.approx([2.429e-3 * 50] * 3)

@@ -26,7 +26,7 @@ from tribodyn.standards.rolling_bearings import (
     static_load,
 )
 from tribodyn.train.elastic.rolling_bearing import BallRow, BearingRows, outer_conformity
-from tribodyn.tribology.losses.loss import OilState
+from tribodyn.tribology.losses.loss import oil_state
 from tribodyn.tribology.losses.palmgren import DRAG_FACTORS, palmgren
 from tribodyn.tribology.oil import LubricantData
 
@@ -114,8 +114,7 @@ def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantDat
     in_oil = friction_data(bearing.table)
     if oil is not None and speed > 0.0 and in_oil is not None and table.type in DRAG_FACTORS:
         if table.static_rating is not None or table.type not in BALLS:
-            state = OilState(float(oil.inlet_viscosity), float(oil.density))
-            torque = palmgren(in_oil, speed, state, radial, axial)
+            torque = palmgren(in_oil, speed, oil_state(oil), radial, axial)
             numbers["power_bearing"] = float(torque.idle + torque.loaded) * speed
     return RatedBearing(name, numbers, tuple(remarks))
 

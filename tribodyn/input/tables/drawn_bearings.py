@@ -3,13 +3,13 @@
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from tribodyn.input import units
 from tribodyn.input.quantity import InUnit, Positive, Switch, Table, Text, written
 from tribodyn.input.tables.bearings import MatrixUnits, Rows, Stiffness, matrix_of
 from tribodyn.standards.rolling_bearings import static_factors
-from tribodyn.train.elastic.bearing_sizes import estimated
+from tribodyn.train.elastic.bearing_sizes import NEEDLE, PROPORTIONS, estimated
 from tribodyn.train.elastic.bearing_types import (
     Arrangement,
     four_point,
@@ -28,6 +28,13 @@ Place = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
 Fit = Annotated[float, InUnit(units.DEVIATION, "10 um")]
 Rating = Annotated[float, InUnit(units.positive(units.FORCE), "30 kN")]
 
+
+def _designation(value: object) -> object:
+    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+#: Series of dimensions as catalogues name it: "63", 222, "C31".
+Series = Annotated[Text, BeforeValidator(_designation)]
 DrawnType = Literal[
     "deep-groove-ball",
     "angular-contact-ball",
@@ -77,6 +84,7 @@ class BearingOfShaft(Table):
     fatigue_load_limit: Rating | None = None
     contamination_factor: Annotated[float, Field(strict=True, gt=0, le=1)] | None = None
     static_factor: Positive | None = None
+    series: Series | None = None
     stiffness_x: Stiffness | None = None
     stiffness_y: Stiffness | None = None
     stiffness_axial: Stiffness | None = None
@@ -102,22 +110,27 @@ def sized(table: BearingOfShaft) -> BearingOfShaft:
 
 
 def friction_data(table: BearingOfShaft) -> BearingInOil | None:
-    """A rolling bearing as the formulas of its friction take it; None: springs, or a matrix."""
+    """A rolling bearing as the formulas of its friction take it; None: springs, or a matrix.
+
+    Where the inside is given, bore and outside diameter follow from it by the usual proportions.
+    """
     inside = sized(table)
     if table.type is None or inside.pitch_diameter is None:
         return None
     pair = table.arrangement is not None or table.rows == 2
-    angle = table.contact_angle or 0.0
+    angle, pitch = table.contact_angle or 0.0, inside.pitch_diameter
+    height = (inside.element_diameter or 0.0) / PROPORTIONS.get(table.type, NEEDLE)
     return BearingInOil(
         table.type,
-        inside.pitch_diameter,
+        pitch,
         rows=2 if pair else 1,
         both_ways=table.thrust_rows == 2,
         contact_angle=angle,
         static_rating=table.static_rating,
         static_factors=static_factors(table.type, contact_angle=angle, rows=table.thrust_rows),
-        bore=table.bore,
-        outside_diameter=table.outside_diameter,
+        bore=max(pitch - height, 0.0) if table.bore is None else table.bore,
+        outside_diameter=pitch + height if table.outside_diameter is None else table.outside_diameter,
+        series=table.series or "",
     )
 
 

@@ -19,6 +19,7 @@ from tribodyn.train.structure import (
     OUT,
     rotational_error,
 )
+from tribodyn.tribology.losses.pair import LOSSES
 
 #: Numbers that an attribute of a record holds, and that a spectrum may have.
 _LONGEST = 8000.0
@@ -49,8 +50,8 @@ WORST = {
 }
 #: Of the mesh of a pair what it is of the whole gearbox.
 _POWERS = ("power_in_mean", "power_friction_mean", "efficiency")
-#: Load-independent losses; the last is their sum.
-IDLE = ("power_churning", "power_windage", "power_bearings", "power_load_independent")
+#: Losses besides those of the loaded meshes; the last is the sum of those without load.
+IDLE = (*(f"power_{name}" for name in LOSSES), "power_load_independent")
 _TOLD_ONCE = (*IDLE, "efficiency_with_losses", "losses_outside")
 #: What a mesh says of its place in the train.
 _NAMES = ("driver", "driven", ALIKE)
@@ -205,7 +206,8 @@ def _idle_losses(whole: Mapping[str, Any], each: Sequence[Mapping[str, Any]]) ->
         return {}
     totals: dict[str, Any] = {name: sum(float(of_mesh.get(name, 0.0)) for of_mesh in each) for name in names}
     put_in = float(whole["power_in_mean"])
-    totals["efficiency_with_losses"] = whole["efficiency"] * put_in / (put_in + totals[IDLE[-1]])
+    lost = totals[IDLE[-1]] + totals.get("power_bearings_under_load", 0.0)
+    totals["efficiency_with_losses"] = whole["efficiency"] * put_in / (put_in + lost)
     outside = dict.fromkeys(of_mesh["losses_outside"] for of_mesh in each if "losses_outside" in of_mesh)
     return totals | ({"losses_outside": "; ".join(outside)} if outside else {})
 

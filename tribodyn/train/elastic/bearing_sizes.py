@@ -25,6 +25,8 @@ PROPORTIONS = {
     "spherical-roller": 0.52,
     "toroidal-roller": 0.50,
 }
+#: The same of needle rollers, assumed.
+NEEDLE = 0.4
 _FILLED = {
     "cylindrical-roller": 0.8,
     "tapered-roller": 0.9,

@@ -7,6 +7,7 @@ import math
 from typing import NamedTuple
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.tribology.oil import LubricantData
 
 #: rad/s of one revolution per minute.
 RPM = math.pi / 30.0
@@ -23,6 +24,12 @@ class OilState(NamedTuple):
     def kinematic(self) -> Float[Array, "..."]:
         """Kinematic viscosity, mm²/s."""
         return 1e6 * self.viscosity / self.density
+
+
+def oil_state(oil: LubricantData) -> OilState:
+    """A lubricant at the temperature that its numbers are of."""
+    kind = oil.type if oil.sheet is None else oil.sheet.type
+    return OilState(oil.inlet_viscosity, oil.density, kind not in (None, "mineral"))
 
 
 class Wheel(NamedTuple):

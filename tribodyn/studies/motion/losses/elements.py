@@ -1,33 +1,49 @@
-"""Drags without load, element by element: of which body they are, and their torques there."""
+"""Losses besides the loaded meshes, element by element: whose they are, and their torques."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import NamedTuple
 
-import numpy as np
-
 from tribodyn.cases.loss_part import LossSource
-from tribodyn.gears.prepare import wheels_of
+from tribodyn.gears.prepare import normal_module, wheels_of
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.tribology.losses.bearings import BearingInOil
-from tribodyn.tribology.losses.churning import CHURNING
-from tribodyn.tribology.losses.loss import OilState, Sump, Torque, Wheel
-from tribodyn.tribology.losses.methods import BEARING_METHODS
-from tribodyn.tribology.losses.windage import WINDAGE
+from tribodyn.tribology.losses.loss import OilState, Torque, Wheel, oil_state
+from tribodyn.tribology.losses.pair import (
+    ElementTorque,
+    LossData,
+    ShaftLosses,
+    mesh_torques,
+    shaft_torques,
+    wheel_torques,
+)
+
+#: Of speed (rad/s) of what is braked, oil, and multiples of the nominal load.
+Torques = Callable[[Float[Array, " point"], OilState, Float[Array, " point"]], Iterable[ElementTorque]]
 
 
 class Drag(NamedTuple):
-    """A drag of a body against the housing."""
+    """Losses that brake one shaft."""
 
-    source: LossSource
+    sources: tuple[LossSource, ...]
     body: int
-    torque: Callable[[Float[Array, " point"], OilState], Torque]  # of the body's speed, rad/s, and the oil
+    turn: float  # nominal speed of what is braked, of a planet against its carrier, rad/s
+    torques: Torques  # in the order of the sources
 
 
 def drags_of(case: Gearbox, tables: Sequence[Tabulated]) -> list[Drag]:
-    """Drags that a scenario's [losses] asks for, of gears and of bearings."""
+    """Losses that a scenario's [losses] asks for: of gears, meshes, and what shafts carry."""
     drags = list[Drag]()
+    reference = case.source.speed / float(case.bodies[case.source.body].ratio)
+    state = oil_state(case.pair.lubricant)
+
+    def add(body: int, turn: float, torques: Torques) -> None:
+        found = list(torques(turn, state, 1.0))
+        sources = tuple(LossSource(part.term, part.element, part.sort, part.method) for part in found)
+        if sources:
+            drags.append(Drag(sources, body, turn, torques))
+
     for mesh, tabulated in zip(case.meshes, tables, strict=True):
         data = mesh.pair.losses
         if data is None:
@@ -35,37 +51,47 @@ def drags_of(case: Gearbox, tables: Sequence[Tabulated]) -> list[Drag]:
         wheels = wheels_of(mesh.pair, tabulated.assembly)
         for number, wheel, counted in zip(mesh.gears, wheels, data.counted, strict=True):
             gear = case.gears[number]
-            if data.churning is not None and wheel.immersion > 0.0:
-                source = LossSource("P_VZ0", gear.name, "gear", data.churning)
-                sump = Sump(data.oil_volume or 0.0)
-                drags.append(Drag(source, gear.body, _churning(data.churning, wheel, sump)))
-            if data.windage is not None and counted:
-                source = LossSource("P_VZ0", gear.name, "gear", data.windage)
-                drags.append(Drag(source, gear.body, _windage(data.windage, wheel)))
-        for bearing, speed in data.further if data.bearings is not None else ():
-            body = _turning(case, speed)
-            source = LossSource("P_VL0", case.bodies[body].name, "bearing", data.bearings)
-            drags.append(Drag(source, body, _bearing(data.bearings, bearing)))
+            speed = abs(float(case.bodies[gear.body].ratio)) * reference
+            add(gear.body, speed, partial(_of_wheel, data, gear.name, wheel, counted))
+        of_mesh = partial(_of_mesh, data, mesh.name, wheels, normal_module(mesh.pair))
+        add(mesh.driver, abs(mesh.pair.operating.pinion_speed), of_mesh)
+        for shaft in data.shafts:
+            if shaft.body is not None and shaft.speed:
+                add(shaft.body, shaft.speed, partial(_of_shaft, data, shaft))
     return drags
 
 
-def _churning(method: str, wheel: Wheel, sump: Sump) -> Callable[..., Torque]:
-    return lambda speed, oil: CHURNING[method](wheel, speed, oil, sump)
+def _of_wheel(
+    data: LossData, name: str, wheel: Wheel, counted: bool, speed: Array, oil: OilState, load: Array
+) -> Iterable[ElementTorque]:
+    return wheel_torques(data, name, wheel, counted, speed, oil)
 
 
-def _windage(method: str, wheel: Wheel) -> Callable[..., Torque]:
-    return lambda speed, _: WINDAGE[method](wheel, speed)
+def _of_mesh(
+    data: LossData,
+    name: str,
+    wheels: tuple[Wheel, Wheel],
+    module: float,
+    speed: Array,
+    oil: OilState,
+    load: Array,
+) -> Iterable[ElementTorque]:
+    return mesh_torques(data, name, wheels, module, speed, oil)
 
 
-def _bearing(method: str, bearing: BearingInOil) -> Callable[..., Torque]:
-    def torque(speed: Float[Array, " point"], oil: OilState) -> Torque:
-        found = BEARING_METHODS[method].formula(bearing, speed, oil, 0.0, 0.0)
-        return Torque(found.idle, found.exceeded)
-
-    return torque
+def _of_shaft(
+    data: LossData, shaft: ShaftLosses, speed: Array, oil: OilState, load: Array
+) -> Iterable[ElementTorque]:
+    return shaft_torques(data, shaft, speed, oil, load)
 
 
-def _turning(case: Gearbox, speed: float) -> int:
-    """The body that turns at a speed, rad/s."""
-    reference = case.source.speed / float(case.bodies[case.source.body].ratio)
-    return int(np.argmin([abs(abs(float(body.ratio)) * reference - speed) for body in case.bodies]))
+def torques_at(
+    drags: Sequence[Drag],
+    over_nominal: Float[Array, " point"],
+    oil: OilState,
+    load: Float[Array, " point"],
+) -> list[Torque]:
+    """Torques of all sources in their order, at speeds and loads as multiples of the nominal ones."""
+    found = [part.torque for drag in drags for part in drag.torques(over_nominal * drag.turn, oil, load)]
+    zero = 0.0 * over_nominal
+    return [each._replace(torque=each.torque + zero) for each in found]

@@ -15,12 +15,12 @@ from tribodyn.gears.mesh_loss import LEAST_SPEED, LossTable, MeshLoss, MeshPoint
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.studies.motion.losses.elements import Drag, drags_of
+from tribodyn.studies.motion.losses.elements import Drag, drags_of, torques_at
 from tribodyn.studies.motion.losses.temperatures import Warmth, warmth
 from tribodyn.studies.motion.planetary.powers import loads_of, rows_of, speeds_of
 from tribodyn.train.power_flow import LossyMesh, influence
 from tribodyn.tribology.closure import laws_of
-from tribodyn.tribology.losses.loss import OilState, Torque
+from tribodyn.tribology.losses.loss import Torque, oil_state
 from tribodyn.tribology.oil import LubricantData, lubricant_from
 
 #: Passes over torques and temperatures at most, and changes that end them: of temperatures, K, and of torques
@@ -51,16 +51,17 @@ class GearboxLoss:
         self.drags: list[Drag] = drags_of(case, tabulated)
         self.sources = tuple(
             [LossSource("P_VZP", mesh.name, "mesh", laws_of(mesh.pair)[1].name) for mesh in case.meshes]
-            + [drag.source for drag in self.drags]
+            + [source for drag in self.drags for source in drag.sources]
         )
         #: what the loads take at nominal speed, W
         self.output_power = sum(load.torque * abs(self.speeds[load.body]) for load in case.loads)
-        #: of the drivers of meshes against their carriers, and of bodies with drags, over that of the input
+        #: of the drivers of meshes against their carriers, and of what drags brake, over that of the input
         self.turning = (
             np.array([mesh.pair.operating.pinion_speed for mesh in case.meshes]) / case.source.speed
         )
         self.warms = any(pair.temperature is not None for pair in case.pairs)
-        self.of_bodies = np.array([abs(self.speeds[drag.body]) for drag in self.drags]) / case.source.speed
+        self.braked = [(drag.body, drag.turn) for drag in self.drags for _ in drag.sources]
+        self.of_bodies = np.array([turn for _, turn in self.braked]) / case.source.speed
 
     def at(self, points: OperatingPoints) -> LossesOver:
         """Losses at points of operation; torques, temperatures and losses settle together."""
@@ -73,7 +74,7 @@ class GearboxLoss:
             bulk if points.bulk_temperature is None else np.asarray(points.bulk_temperature), supplied
         )
         drag, losses = np.zeros((len(self.tables), len(load))), list[MeshLoss]()
-        idle = self._idle(speed, supplied)
+        idle = self._idle(speed, supplied, load)
         for _ in range(PASSES):
             outside = self.flow.load[:, None] * load + self.flow.body @ self._on_bodies(idle)
             losses, torque = self._of_meshes(outside, drag, speed, warm)
@@ -83,7 +84,7 @@ class GearboxLoss:
             if points.bulk_temperature is None and self.warms:
                 warmer = self._warmth(drag, idle, speed, supplied)
                 change = max(np.max(np.abs(warmer.bulk - warm.bulk)), np.max(np.abs(warmer.oil - warm.oil)))
-                warm, idle = warmer, self._idle(speed, warmer.oil)
+                warm, idle = warmer, self._idle(speed, warmer.oil, load)
             if change < SETTLED and moved <= STEADY * np.max(np.abs(torque)):
                 break
         else:
@@ -101,21 +102,24 @@ class GearboxLoss:
             {**seen, "bulk_temperature": warm.bulk},
         )
 
-    def _idle(self, speed: Float[Array, " point"], temperature: Float[Array, " point"]) -> list[Torque]:
-        """Torques of the drags without load on their bodies, in oil at temperatures, K."""
+    def _idle(
+        self,
+        speed: Float[Array, " point"],
+        temperature: Float[Array, " point"],
+        load: Float[Array, " point"],
+    ) -> list[Torque]:
+        """Torques of the drags, in oil at temperatures, K; those of bearings under multiples of the load."""
         oil = self.case.pair.lubricant
         if oil.sheet is not None:
             oil = lubricant_from(oil.sheet, temperature, oil.fzg)
-        state = OilState(*(np.broadcast_to(each, speed.shape) for each in (oil.inlet_viscosity, oil.density)))
-        turning = zip(self.drags, self.of_bodies, strict=True)
-        found = [drag.torque(speed * ratio, state) for drag, ratio in turning]
-        return [each._replace(torque=np.broadcast_to(each.torque, speed.shape)) for each in found]
+        return torques_at(self.drags, speed / self.case.source.speed, oil_state(oil), load)
 
     def _on_bodies(self, idle: Sequence[Torque]) -> Float[Array, "body point"] | Float[Array, "body 1"]:
-        """Sum of these torques by body."""
+        """Sum of these torques by body, of those of planets against carriers what takes the same power."""
         bodies = np.zeros((len(self.speeds), len(idle[0][0]) if idle else 1))
-        for drag, (torque, _) in zip(self.drags, idle, strict=True):
-            bodies[drag.body] += torque
+        for (body, turn), (torque, _) in zip(self.braked, idle, strict=True):
+            if self.speeds[body]:
+                bodies[body] += torque * turn / abs(self.speeds[body])
         return bodies
 
     def _warmth(
@@ -127,8 +131,9 @@ class GearboxLoss:
     ) -> Warmth:
         """Temperatures that these losses give."""
         power = {"bearing": 0.0 * speed, "gear": 0.0 * speed}
-        for one, (torque, _), ratio in zip(self.drags, idle, self.of_bodies, strict=True):
-            place = "bearing" if one.source.sort == "bearing" else "gear"
+        sources = self.sources[len(self.tables) :]
+        for source, (torque, _), ratio in zip(sources, idle, self.of_bodies, strict=True):
+            place = "bearing" if source.sort in ("bearing", "seal") else "gear"
             power[place] = power[place] + torque * ratio * speed
         friction = list(drag * self.turning[:, None] * speed)
         return warmth(self.case, self.tabulated, friction, power["gear"], power["bearing"], supplied)

@@ -4,22 +4,24 @@ Every gear and every shaft counts once: a gear in its first mesh, all bearings i
 The formulas are of gears on fixed axes: those of planetary stages neither churn nor drive air here.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.gears.motion.settings import Friction, Mesh
-from tribodyn.gears.supports import GearSupports
+from tribodyn.gears.requested_losses import loaded_bearings
+from tribodyn.gears.supports import GearSupport, GearSupports
 from tribodyn.input.tables.gears.model_files import DriveTable
 from tribodyn.input.tables.gears.single_teeth import GearPlace, damage_of, own_teeth_of
 from tribodyn.input.tables.losses import LossesTable, broken_losses
+from tribodyn.input.tables.shafts import listed
 from tribodyn.mesh.teeth.fields import CARRYING, OwnTeeth
 from tribodyn.studies.motion.drivetrain.duty import TrainOperating
 from tribodyn.studies.motion.drivetrain.placed_train import TrainKinematics
 from tribodyn.studies.motion.drivetrain.structure import MeshPart
 from tribodyn.studies.motion.drivetrain.tables import BareMesh, PlanetaryStage, Stage
-from tribodyn.tribology.losses.pair import LossData
+from tribodyn.tribology.losses.pair import LossData, ShaftLosses
 
 
 class PairView(NamedTuple):
@@ -111,32 +113,81 @@ def gears_of_train(train: TrainKinematics) -> dict[str, GearPlace]:
 
 
 def losses_of_meshes(
-    table: LossesTable | None, train: TrainKinematics, speed: float
+    table: LossesTable | None,
+    train: TrainKinematics,
+    speed: float,
+    held: Mapping[int, GearSupport],
+    drawn: Mapping[int, str],
 ) -> list[LossData | None]:
-    """What every mesh counts of the losses; None: nothing. `speed` is that of the reference body, rad/s."""
+    """What every mesh counts of the losses; None: nothing. `speed` is that of the reference body, rad/s.
+
+    `held` has the bearings of drawn shafts by body, `drawn` the names of these shafts.
+    """
     motion, parts = train.motion, train.parts
     if table is None or not table.any:
         return [None] * len(motion.meshes)
-    speeds = {body: speed * abs(float(motion.ratio[number])) for body, number in train.numbers.items()}
-    turning = [(drag, speeds[parts.body(name)]) for name, drag in table.drags().items()]
+    places = {body.name: number for number, body in enumerate(parts.bodies)}
+    places |= {name: ends[0] for name, ends in parts.places.items()}
+    shafts = [replace(shaft, body=train.numbers[places[name]]) for name, shaft in table.shafts().items()]
+    if table.bearings is not None:
+        shafts += [
+            ShaftLosses(name, body=body, bearings=loaded_bearings(name, support.bearings))
+            for body, support in held.items()
+            if support.bearings and (name := drawn.get(body, parts.bodies[motion.bodies[body]].name))
+        ]
+    turns = {shaft: speed * abs(_turn(train, shaft.body)) for shaft in shafts if shaft.body is not None}
+    # one that stands loses nothing
+    turning = [replace(shaft, speed=turn) for shaft, turn in turns.items() if turn]
     losses, counted_gears = [], set[int]()
     for mesh, gears in enumerate(motion.gears):
-        one, two = (gear not in counted_gears and motion.carrier[mesh] < 0 for gear in gears)
+        fixed = motion.carrier[mesh] < 0
+        one, two = (gear not in counted_gears and fixed for gear in gears)
         counted_gears |= set(gears)
         data = table.data(*(parts.gears[gear].name for gear in gears))
-        depths = data.pinion_immersion if one else 0.0, data.gear_immersion if two else 0.0
+        in_oil = (fixed, fixed) if data.of_stage else (one, two)
+        depths = [
+            depth if dips else 0.0
+            for depth, dips in zip((data.pinion_immersion, data.gear_immersion), in_oil, strict=True)
+        ]
         losses.append(replace(data, pinion_immersion=depths[0], gear_immersion=depths[1], counted=(one, two)))
-    # a shaft that stands loses nothing
-    losses[0] = replace(losses[0], further=tuple(one for one in turning if one[1] > 0.0))
+    losses[0] = replace(losses[0], shafts=tuple(turning))
     return list(losses)
 
 
-def broken_train_losses(table: LossesTable | None, train: TrainKinematics) -> Iterator[InputError]:
-    """Go through the rules that a train's losses break."""
+def _turn(train: TrainKinematics, body: int) -> float:
+    """Speed of a body over the reference's; of a planet that against its carrier, on whose pin it turns."""
+    motion = train.motion
+    planets = {train.numbers[planet] for gearset in train.parts.sets for planet in gearset.planets}
+    carrier = -1
+    if body in planets:
+        ends = zip(motion.driver, motion.driven, motion.carrier, strict=True)
+        carrier = next(of for one, two, of in ends if body in (one, two))
+    return float(motion.ratio[body] - motion.carried(body, carrier))
+
+
+def broken_train_losses(
+    table: LossesTable | None, train: TrainKinematics, shafts: Any
+) -> Iterator[InputError]:
+    """Go through the rules that a train's losses break; `shafts` is its table of them."""
     parts = train.parts
     gears = [gear.name for gear in parts.gears]
     bodies = [*gears, *(body.name for body in parts.bodies)]
-    return broken_losses(table, gears, bodies, {parts.gears[gear].name for gear in _carried(train)})
+    carriers = [
+        parts.bodies[train.motion.bodies[body]].name
+        for body in dict.fromkeys(train.motion.carrier)
+        if body >= 0
+    ]
+    drawn = {
+        name: [
+            (f"shaft.{number}.drawn.bearing.{place}", table)
+            for place, table in enumerate(shaft.drawn.bearing)
+        ]
+        for number, shaft in enumerate(listed(shafts))
+        if shaft.drawn is not None
+        for name in dict.fromkeys((shaft.name, *shaft.gears, *shaft.drawn.positions))
+    }
+    carried = {parts.gears[gear].name for gear in _carried(train)}
+    yield from broken_losses(table, gears, bodies, carried, carriers, drawn)
 
 
 def _carried(train: TrainKinematics) -> set[int]:

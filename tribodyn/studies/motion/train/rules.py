@@ -76,7 +76,7 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
     except InputError as error:
         yield error
         return
-    of_losses = broken_train_losses(scenario.losses, train)
+    of_losses = broken_train_losses(scenario.losses, train, scenario.shaft)
     if broken := [*_each_mesh_once(train), *_hands(train), *of_losses, *_pairs(scenario, train)]:
         yield from broken
         return

@@ -151,7 +151,8 @@ def case_of(
     system = drawn_system(scenario, train, placed, duty)
     held = supports_of_bodies(scenario, train, placed, duty.torques.driven)
     held |= system.supports() if system is not None else {}
-    meshes = _meshes(scenario, train, placed, duty, (toml, sha256), held)
+    drawn = {shaft.points[0][0]: shaft.name for shaft in system.shafts} if system is not None else {}
+    meshes = _meshes(scenario, train, placed, duty, (toml, sha256), held, drawn)
     head: dict[str, Any] = {**head_of(scenario, toml, sha256)}
     sets = tuple(set_data(gearset, train, placed) for gearset in train.parts.sets)
     rims = [gearset.rim for gearset in sets if gearset.rim is not None]
@@ -287,9 +288,10 @@ def _meshes(
     duty: TrainDuty,
     text: tuple[str, str],
     held: Mapping[int, GearSupport],
+    drawn: Mapping[int, str],
 ) -> tuple[TrainMesh, ...]:
     motion, meshes = train.motion, []
-    losses = losses_of_meshes(scenario.losses, train, duty.speed)
+    losses = losses_of_meshes(scenario.losses, train, duty.speed, held, drawn)
     first: LubricatedCase | None = None
     for mesh, place in enumerate(motion.meshes):
         supports = supports_of_mesh(held, train, placed, mesh)
