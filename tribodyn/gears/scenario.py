@@ -12,7 +12,7 @@ from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
 from tribodyn.gears.by_standard import quality_of
 from tribodyn.gears.mesh_of_gearbox import Opened, with_every_pair, with_pair
-from tribodyn.gears.requested_losses import drawn_of_pair, requested_losses
+from tribodyn.gears.rating.requested_losses import drawn_of_pair, requested_losses
 from tribodyn.gears.supports import displaced, has_supports, supports_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.fields import Slices, head_of

@@ -10,7 +10,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards.contact_path import ContactPath
 from tribodyn.standards.mesh_loss.methods import MESH_LOSS_METHODS, LoadedMesh
-from tribodyn.tribology.oil import lubricant_at, lubricant_around
+from tribodyn.tribology.oil import lubricant_around, lubricant_at
 
 
 class FormulaLoss(NamedTuple):

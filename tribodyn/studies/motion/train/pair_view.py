@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.gears.motion.settings import Friction, Mesh
-from tribodyn.gears.requested_losses import loaded_bearings
+from tribodyn.gears.rating.requested_losses import loaded_bearings
 from tribodyn.gears.supports import GearSupport, GearSupports
 from tribodyn.input.tables.gears.model_files import DriveTable
 from tribodyn.input.tables.gears.single_teeth import GearPlace, damage_of, own_teeth_of
