@@ -132,7 +132,7 @@ ROWS = "0,1\n0.2,2\n0.4,3\n0.6,4\n"
         (f"mesh_phase [1]|{ERROR} [um]\n0|1\n", "line 1"),
         (f"mesh_phase [1]\n{ROWS}", "two columns at least"),
         (f"{HEAD},{ERROR} [um]\n0,1,1\n", "none twice"),
-        (f"{HEAD}\n0,1\n0.2\n", 'line 3: "" is not a number'),
+        (f"{HEAD}\n0,1\n0.2\n", "line 3: 1 value under a header of 2"),
         (f"{HEAD}\n0,1\n0.2,abc\n", f'line 3: "abc" is not a number ({ERROR})'),
         (f"{HEAD}\n0,1\n0.2,nan\n0.3,1\n0.4,1\n", "row 2: nan: not a finite number"),
         (f"{HEAD}\n0,1\n0.2,2\n0.1,3\n0.3,4\n", "row 3: 0.1: does not increase"),

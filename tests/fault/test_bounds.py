@@ -8,7 +8,8 @@ from tests.support.verbs import complaints
 from tests.support.work import at_most
 from tribodyn.errors import InputError
 from tribodyn.input.bounds import DEEPEST, TooMuch, parsed
-from tribodyn.input.sources import MOST_CSV, MOST_POINTS, MOST_TOML, read_curve, read_toml
+from tribodyn.input.csv_files import MOST_POINTS, read_curve
+from tribodyn.input.sources import MOST_CSV, MOST_TOML, read_toml
 from tribodyn.input.unit_grammar import is_unit
 from tribodyn.input.units import ANGULAR_SPEED, LENGTH, TIME, NotAQuantity, factor_to_si, to_si
 from tribodyn.studies.protocol.load import load_scenario

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError, printable_path, quoted
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.input import bounds, sources
+from tribodyn.input.csv_files import read_curve
 from tribodyn.input.messages import Key, Origins, value_at
 from tribodyn.input.names import key_in
 from tribodyn.input.quantity import LIKE, Reference, Table, csv_file, defaults_written_out
@@ -190,7 +191,7 @@ def _put_content(scenario: _References, key: Key) -> None:
         elif mark.record is not None and file.suffix == ".h5":
             curve = mark.record(file, dotted)
         else:
-            curve = sources.read_curve(file, dotted, mark.columns, mark.as_tables)
+            curve = read_curve(file, dotted, mark.columns, mark.as_tables)
         if mark.as_tables:
             holder[key[-1]] = _tables(curve)
         elif mark.reader is not None:

@@ -1,9 +1,8 @@
-"""Finding and reading what a scenario is made of: TOML files, the model files they name, CSV tables.
+"""Finding and reading what a scenario is made of: TOML files, the model files they name.
 
 A scenario may come from a stranger: files and tables have bounds, and so has what stands in them (`bounds`).
 """
 
-import csv
 import os
 import re
 import tomllib
@@ -21,12 +20,9 @@ from tribodyn.errors import (
     quoted,
 )
 from tribodyn.input.bounds import TooMuch, parsed
-from tribodyn.input.unit_grammar import decimal_comma
 
 #: Bytes of a file; a scenario that holds the points of its tables is larger than they are as CSV.
 MOST_TOML, MOST_CSV = 16 * 2**20, 4 * 2**20
-#: Points of a CSV table.
-MOST_POINTS = 100_000
 #: Names that a message offers in place of an unknown one.
 _MOST_NEAR = 3
 #: What an HDF5 file begins with.
@@ -35,7 +31,6 @@ _HDF5 = b"\x89HDF\r\n\x1a\n"
 _PACKAGE = Path(__file__).resolve().parents[1]
 #: Folders of `Reference`s that name a whole scenario, and a drive.
 SCENARIOS, DRIVES = "scenarios", "drives"
-_HEADER = re.compile(r"\s*(?P<name>\w+)\s*\[(?P<unit>[^\]]*)\]\s*$")
 
 
 def shipped(folder: str) -> Path:
@@ -172,86 +167,3 @@ def _toml_remedy(line: str) -> str:
     if re.search(r"=\s*[+-]?\d+,\d+\s*(#|$)", line):
         return "write a decimal point: 0.5"
     return 'write key = value, with quotes round text and quantities: module = "3 mm"'
-
-
-#: Separator of a row -> what it is called; the header decides.
-_SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas"}
-
-
-def read_curve(
-    path: Path, key: str, columns: Iterable[str] = (), example: Iterable[str] = ("time", "torque")
-) -> dict[str, Any]:
-    """Return the columns of a CSV file as the scenario would write them out.
-
-    The first line names the columns and their units, ``time [s],torque [N*m]``; lines that begin with # are
-    comments. Commas, semicolons or tabs separate, as in the first line; numbers have a decimal point.
-    `columns` are the names that are due, in order; none: all that there are, two at least, such as `example`.
-    """
-    due = list(columns) or list(example)
-    example = ",".join(f"{name} [unit]" for name in due)
-    lines = [
-        (number, line)
-        for number, line in enumerate(read_text(path, MOST_CSV).split("\n"), start=1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-
-    def bad(number: int, rule: str, remedy: str) -> InputError:
-        return InputError(key, rule=f"line {number}: {rule}", remedy=remedy, file=str(path))
-
-    def cells(number: int, line: str) -> list[str]:
-        try:
-            row = next(csv.reader([line], strict=True, delimiter=separator))
-        except csv.Error as error:
-            remedy = f"write plain numbers separated by {_SEPARATORS[separator]}, each row in one line"
-            raise bad(number, f"not a row of a table: {error}", remedy) from None
-        while len(row) > 1 and not row[-1].strip():
-            row.pop()
-        return row
-
-    if not lines:
-        raise bad(1, "the file is empty", f"begin it with {example}")
-    if len(lines) > MOST_POINTS + 1:
-        raise bad(lines[MOST_POINTS + 1][0], f"more than {MOST_POINTS} points", "leave some out")
-    separator = next(sign for sign in _SEPARATORS if sign in lines[0][1] or sign == ",")
-    titles = cells(*lines[0])
-    heads = [_HEADER.match(cell) for cell in titles]
-    names_there = [head["name"] for head in heads if head]
-    header = {head["name"]: (head["unit"], index) for index, head in enumerate(heads) if head}
-    if not columns:
-        unread = next((cell for cell, head in zip(titles, heads, strict=True) if not head), None)
-        if unread is not None or len(header) < max(2, len(heads)):
-            rule = (
-                "two columns at least, none twice" if unread is None else f"{quoted(unread)} names no column"
-            )
-            raise bad(lines[0][0], rule, f"begin the file with {example}, … ")
-        due = list(header)
-    for name in due:
-        if name not in header:
-            raise bad(lines[0][0], f'no column "{name} [unit]" in the header', f"write {example}")
-        if names_there.count(name) > 1:
-            raise bad(lines[0][0], f'"{name}" names more than one column', "leave the others out")
-    values: dict[str, list[float]] = {name: [] for name in due}
-    for number, line in lines[1:]:
-        row = cells(number, line)
-        if len(row) > len(titles):
-            rule = f"{len(row)} values under a header of {len(titles)}: {quoted(line.strip())}"
-            remedy = "write decimal points: 13.5" if separator == "," else "name each column, or leave it out"
-            raise bad(number, rule, remedy)
-        for name in due:
-            cell = row[header[name][1]] if header[name][1] < len(row) else ""
-            try:
-                values[name].append(float(cell))
-            except ValueError:
-                raise bad(number, *_no_number(cell, name, line, separator)) from None
-    return {name: {"unit": header[name][0], "values": values[name]} for name in due}
-
-
-def _no_number(cell: str, name: str, line: str, separator: str) -> tuple[str, str]:
-    """Rule and remedy for a cell that is no number."""
-    if (comma := decimal_comma(cell)) is not None:
-        return f"{quoted(cell.strip())}: {comma[0]} ({name})", comma[1]
-    other = next((sign for sign in _SEPARATORS if sign != separator and sign in line), None)
-    if other is not None:
-        rule = f"the row is separated by {_SEPARATORS[other]}, the header by {_SEPARATORS[separator]}"
-        return rule, "separate both by the same"
-    return f"{quoted(cell)} is not a number ({name})", "write numbers only"

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
-from tribodyn.input.sources import read_curve
+from tribodyn.input.csv_files import read_curve
 from tribodyn.input.units import ANGULAR_SPEED, Kind, NotAQuantity, factor_to_si
 from tribodyn.post.style import (
     INK,

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.input.sources import read_curve
+from tribodyn.input.csv_files import read_curve
 from tribodyn.studies.protocol.load import load_scenario
 
 COLUMNS = ("roll_angle", "error")
@@ -36,7 +36,44 @@ def test_separators_and_byte_order_marks(tmp_path: Path, separator: str, encodin
     assert [column["unit"] for column in found.values()] == ["deg", "um"]
 
 
-HEAD = "roll_angle [deg],error [um]\n"
+@pytest.mark.parametrize(
+    "text",
+    [
+        "roll_angle [deg];error [um]\n-20;8\n-13,5;8\n0;0\n",
+        "roll_angle [deg]\terror [um]\r\n-20\t8\r\n-13,5\t8,0\r\n0\t0\r\n",
+        "sep=;\nroll_angle [deg];error [um]\n-20;8\n-13.5;8\n0;0\n",
+        '"roll_angle [deg]";"error [um]"\n"-20";"8"\n"-13,5";"8"\n"0";"0"\n',
+        "roll_angle;error\n[deg];[um]\n-20;8\n-1,35e1;8\n0;0\n",
+        "error,roll_angle\num,deg\n8,-20\n8,-13.5\n0,0\n",
+        "roll_angle [deg];error [um];remark\n-20;8;\n-13,5;8;a, b\n0;0;\n",
+    ],
+)
+def test_files_as_other_programs_write_them(tmp_path: Path, text: str):
+    """Decimal commas, tabs, lines that name the separator, quotes, a line of units, a column of remarks."""
+    found = read(tmp_path, text)
+    assert {name: column["values"] for name, column in found.items()} == POINTS
+    assert [column["unit"] for column in found.values()] == ["deg", "um"]
+
+
+def test_one_column_is_not_cut_at_decimal_commas(tmp_path: Path):
+    """Under a header of one column 1,234 may be one number or two, of thousands or of one."""
+    path = tmp_path / "pitch.csv"
+    for cell in ("1,234", "0,5"):
+        path.write_text(f"error [um]\n{cell}\n", encoding="utf-8")
+        with pytest.raises(InputError, match=f'2 values under a header of 1, separated by commas: "{cell}"'):
+            read_curve(path, "pitch_errors", ["error"])
+
+
+def test_a_case_of_another_program(tmp_path: Path):
+    """A row of three values under two columns is no row of two, wherever a scenario names the file."""
+    path = tmp_path / "relief.csv"
+    path.write_text("roll_angle [deg],error [um]\n-20,8\n-13,5,8\n0,0\n", encoding="utf-8")
+    for key in ("mesh.transmission_error.table", "drive.gear.modification.profile_error"):
+        with pytest.raises(InputError, match="line 3: 3 values under a header of 2"):
+            load_scenario("involute-18-36", {key: str(path)})
+
+
+HEAD, MIXED = "roll_angle [deg],error [um]\n", "roll_angle [deg];error [um]\n"
 
 
 @pytest.mark.parametrize(
@@ -44,10 +81,25 @@ HEAD = "roll_angle [deg],error [um]\n"
     [
         (
             HEAD + "-20,8\n-13,5,8\n0,0\n",
-            ('line 3: 3 values under a header of 2: "-13,5,8"', "point"),
+            ('line 3: 3 values under a header of 2, separated by commas: "-13,5,8"', "point", "semicolons"),
         ),
         (HEAD + '-20,8\n"-13,5",8\n', ("line 3", "a comma in a number", 'write a decimal point: "-13.5"')),
-        ("roll_angle [deg];error [um]\n-13,5;8\n", ("line 2", "comma", 'write a decimal point: "-13.5"')),
+        (
+            HEAD + "-20\n",
+            ("line 2: 1 value under a header of 2, separated by commas", "each column its value"),
+        ),
+        (HEAD.strip() + ",remark\n-20,8\n", ("line 2: 2 values under a header of 3",)),
+        (MIXED + "-13,5;8.5\n", ('"-13,5" has a comma, and "8.5" in line 2 a point', "thousands")),
+        (MIXED + "1.234,5;8\n", ('"1.234,5" has a comma', "thousands")),
+        (MIXED + "1,234;8\n2,468;9\n", ('line 2: "1,234" has a separator of thousands', "write 1234, or")),
+        (MIXED + "-1,234,567;8\n0,5;9\n", ('"-1,234,567" has a separator of thousands', "write -1234567")),
+        (MIXED + "1 234;8\n", ('"1 234" has a separator of thousands',)),
+        (MIXED + "1.234.567;8\n", ('"1.234.567" has a separator of thousands',)),
+        (MIXED + "-13,5,8\n", ("the row is separated by commas, the header by semicolons",)),
+        (MIXED + "1_000;8\n", ('"1_000" is not a number',)),
+        ("sep=|\n" + HEAD, ('"sep=|": no such separator', "semicolons, tabs, commas")),
+        ("roll_angle;error\n1;2\n", ('no column "roll_angle [unit]"',)),
+        ("roll_angle;error\ndeg;um;mm\n1;2\n", ('no column "roll_angle [unit]"',)),
         (HEAD + "-20;8\n", ("line 2", "the row is separated by semicolons, the header by commas")),
         (HEAD + "-20\t8\n", ("line 2", "the row is separated by tabs, the header by commas")),
         ("roll_angle [deg],error [um],error [mm]\n-20,8,8\n", ("line 1", '"error" names more than one')),
