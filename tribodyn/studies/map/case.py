@@ -110,8 +110,11 @@ class MapCase(CaseHead):
 
     @cached_property
     def nominal(self) -> NominalPoint:
-        """The gearbox at its own point of operation."""
-        return self.losses.nominal(self.subject.case)
+        """The gearbox at its own point of operation; an oil of no temperature has the one that is asked for."""
+        nominal, temperatures = self.losses.nominal(self.subject.case), self.asked[2]
+        if np.isnan(nominal.oil_temperature) and temperatures is not None:
+            return nominal._replace(oil_temperature=temperatures[0])
+        return nominal
 
     @cached_property
     def axes(self) -> tuple[Axis, Axis, Axis]:

@@ -169,10 +169,17 @@ def _directions(torque: tuple[float, ...] | None, stated: str | None) -> Iterato
 
 
 def _temperatures(inner: Any, temperatures: tuple[float, ...] | None) -> Iterator[InputError]:
-    """Refuse temperatures at which the oil is not known."""
+    """Refuse temperatures at which the oil is not known, and an oil at a temperature that nobody says."""
+    known, operating = inner.lubricant.viscosity_40 is not None, inner.operating.oil_temperature
+    if not known and operating is None and (temperatures is None or len(temperatures) == 1):
+        if temperatures is None:
+            rule = (
+                "is not given, and the lubricant's numbers are those of one temperature, which is not known"
+            )
+            yield InputError("map.oil_temperature", None, rule, 'write the one that they are of: ["60 degC"]')
+        return
     if temperatures is None:
         return
-    known, operating = inner.lubricant.viscosity_40 is not None, inner.operating.oil_temperature
     for number, temperature in enumerate(temperatures):
         key, value = f"map.oil_temperature.{number}", f"{temperature - 273.15:.6g} degC"
         if known:

@@ -114,3 +114,13 @@ def test_the_verb_says_what_is_wrong_in_a_line(tmp_path: Path):
     assert "no direction is stated" in complaint("map", "two-stage-reducer", "--torque=-5,5N*m")
     with pytest.raises(InputError, match="no such scenario"):
         td.map("no-such-reducer")
+
+
+def test_an_oil_of_one_temperature_needs_to_be_told_which():
+    of_paper = {**REDUCER, "scenario": {"like": "involute-23-47"}}
+    with pytest.raises(InputError, match=r"(?s)map.oil_temperature.*is not known.*60 degC"):
+        load_data({**of_paper, "map": {}}, "mine")
+    told = load_data({**of_paper, "map": {"oil_temperature": ["60 degC"]}}, "mine").case
+    assert told.axes[2].tolist() == [told.nominal.oil_temperature] == [333.15]
+    with pytest.raises(InputError, match="not known at another"):
+        load_data({**of_paper, "map": {"oil_temperature": ["60 degC", "70 degC"]}}, "mine")
