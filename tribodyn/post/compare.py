@@ -18,7 +18,9 @@ from tribodyn.record.withheld_efficiency import reasons, warnings
 #: The share of the power that is lost, beside the efficiency whose difference it shows better.
 LOSS = QUANTITIES["loss_fraction"]
 #: Parts of a scenario that say under which conditions a drive ran, not which drive nor how it was solved.
-CONDITIONS = ("kind", "mode", "operating", "lubricant", "friction", "bearings", "mesh")
+CONDITIONS = (
+    *("kind", "mode", "operating", "lubricant", "friction", "bearings", "mesh", "losses", "temperature"),
+)
 _PROSE = ("source", "assumptions")
 
 
@@ -116,7 +118,12 @@ def _relative(first: Any, value: Any) -> float | None:
 
 
 def _conditions(scenario: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """Go through what a scenario says of its conditions, dotted key and value; models by their titles."""
+    """Go through what a scenario says of its conditions, dotted key and value; models by their titles.
+
+    Of one that has another one within, such as that of a map, also what this one says.
+    """
+    if isinstance(inner := scenario.get("scenario"), Mapping):
+        yield from ((key, value) for key, value in _conditions(inner) if key != "kind")
     for part in CONDITIONS:
         value = scenario.get(part)
         if isinstance(value, Mapping) and "title" in value:

@@ -152,16 +152,19 @@ def _with_zero(axis: Axis) -> Axis:
     return np.unique(np.concatenate([axis, within]) + 0.0)
 
 
-#: Core seconds of a point, bytes of one while it is worked out; points that refining takes beside the nodes.
-POINT_SECONDS, POINT_BYTES, BESIDE = 5e-3, 4e3, 1.25
-#: Numbers of sources, meshes and harmonics that an estimate counts with.
-_SIZES = {"source": 24, "mesh": 3, "harmonic": 10, "estimate": 2}
+#: Core seconds of a mesh at a point, bytes of a point while it is worked out; points that refining takes
+#: beside the nodes.
+MESH_SECONDS, POINT_BYTES, BESIDE = 4e-4, 4e3, 1.25
+#: Numbers of sources and harmonics that an estimate counts with.
+_SIZES = {"source": 24, "harmonic": 10, "estimate": 2}
 
 
 def estimate(case: MapCase) -> Estimate:
     """What a run of a case takes."""
     most = max(case.nodes, case.most_points) if case.accuracy else case.nodes
+    meshes = len(case.losses.names(case.subject.case))
     sizes = {name: len(axis) for name, axis in zip(NAMES, case.axes, strict=True)} | _SIZES
+    sizes["mesh"] = meshes
     return total(
         (
             CostKey("map.most_points", most, 20_000),
@@ -169,5 +172,5 @@ def estimate(case: MapCase) -> Estimate:
         ),
         recorded(LAYOUT, sizes, copies=2.0),
         in_memory(BESIDE * most, POINT_BYTES),
-        Estimate(seconds=case.nodes * (BESIDE if case.accuracy else 1.0) * POINT_SECONDS),
+        Estimate(seconds=case.nodes * (BESIDE if case.accuracy else 1.0) * meshes * MESH_SECONDS),
     )

@@ -45,8 +45,9 @@ def verdict(record: Record) -> list[str]:
         )
     if "map_error_max" in summary:
         worst, mean = (share(summary[name]) for name in ("map_error_max", "map_error_mean"))
-        held = record.summary.get("accuracy_held")
-        more = "" if held else ": allow more points, map.most_points"
+        held, asked = record.summary.get("accuracy_held"), record.summary.get("accuracy")
+        more = ": further values are not asked for, map.accuracy" if asked == 0.0 else ""
+        more = more or ("" if held else ": allow more points, map.most_points")
         lines.append(
             f"Between its points the map misses the loss by {worst} at most, {mean} on the mean{more}."
         )

@@ -164,6 +164,7 @@ def summary_of(case: MapCase, result: Mapped) -> dict[str, Any]:
         "map_points_evaluated": result.evaluated,
         "map_error_max": result.grid.error_max,
         "map_error_mean": result.grid.error_mean,
+        "accuracy": case.accuracy,
         "accuracy_held": bool(result.grid.error_max <= case.accuracy),
         "own_torque": nominal.output_torque,
         "own_speed": nominal.input_speed,

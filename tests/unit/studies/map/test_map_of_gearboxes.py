@@ -10,6 +10,7 @@ from tribodyn.cases.loss_part import OperatingPoints
 from tribodyn.record.loss_map import loss_map
 from tribodyn.record.reader import Record
 from tribodyn.studies.map.looked_up import loaded_map, looked_up
+from tribodyn.studies.pages import compare
 from tribodyn.studies.protocol.run import run
 
 COULOMB = {"friction.law": "coulomb", "friction.coefficient": 0.05}
@@ -96,3 +97,46 @@ def test_a_planetary_set_has_a_map(tmp_path: Path):
         assert abs(record.attrs["ratio"]) == pytest.approx(1.0 / (1.0 + 84.0 / 24.0))
         assert len(record["mesh"]) == 6
         assert (record["drag"].sum(axis=0)[:, -1] > 0.0).all()
+
+
+def test_a_drive_cycle_loses_by_the_map_what_it_loses_point_by_point(tmp_path: Path):
+    """Energy over 400 s of torques, speeds and oil that warms up, within the error that the map states."""
+    keys = {"torque": ["0 N*m", "1800 N*m"], "speed": ["0 rpm", "1600 rpm"], "directions": "both"}
+    oil = ["50 degC", "80 degC"]
+    with mapped(tmp_path, "two-stage-reducer", oil_temperature=oil, accuracy=0.03, **keys) as record:
+        time = np.arange(400.0)
+        torque = 900.0 * np.sin(time / 13.0) + 800.0 * np.sin(time / 5.0)
+        speed = 80.0 + 80.0 * np.sin(time / 31.0)
+        warm = 325.0 + 25.0 * (1.0 - np.exp(-time / 120.0))
+        by_map = looked_up(loss_map(record), torque, speed, warm)["power_loss"].sum()
+        error_max, error_mean = record.summary["map_error_max"], record.summary["map_error_mean"]
+    loaded = loaded_map("two-stage-reducer", {}, {}).case.subject
+    losses = loaded.study.losses()
+    assert losses is not None
+    found = losses.at(loaded.case, OperatingPoints(torque / 1770.0, speed, warm))
+    assert error_max <= 0.03
+    assert by_map == pytest.approx(found.power(speed).sum(), rel=2.0 * error_mean)
+
+
+def test_reversal_is_continuous_and_its_flanks_are_alike(tmp_path: Path):
+    """Towards a standstill from either side: symmetric teeth lose the same on both flanks."""
+    speeds = ["-1 rpm", "-1e-6 rpm", "0 rpm", "1e-6 rpm", "1 rpm"]
+    with mapped(
+        tmp_path, "spur-25-51", COULOMB, torque=["-300 N*m", "300 N*m"], speed=speeds, directions="both"
+    ) as record:
+        drag = record["drag"][0, 0]
+        np.testing.assert_allclose(drag[:, :3], drag[:, :1:-1], rtol=1e-6)
+        np.testing.assert_allclose(drag[:, 1], drag[:, 2], rtol=1e-6)
+
+
+def test_a_comparison_names_what_differs_in_the_gearboxes(tmp_path: Path):
+    keys = {"torque": ["500 N*m"], "speed": ["1500 rpm"]}
+    (tmp_path / "one").mkdir()
+    with (
+        mapped(tmp_path, "spur-25-51", COULOMB, **keys) as first,
+        mapped(tmp_path / "one", "spur-25-51", {**COULOMB, "friction.coefficient": 0.06}, **keys) as second,
+    ):
+        found = compare([first, second])
+        assert found.conditions == {"friction.coefficient": ("0.05", "0.06")}
+        rows = {row.quantity.name: row.values for rows in found.groups.values() for row in rows}
+        assert rows["own_power_loss"][1] / rows["own_power_loss"][0] == pytest.approx(1.2, rel=0.01)
