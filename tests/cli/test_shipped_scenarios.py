@@ -115,7 +115,7 @@ def run_shortened(name: str, drawn: bool, tmp_path: Path, forked: ForkedVerbs) -
     with Record(tmp_path / result["record"]) as record:
         assert record.status == "complete"
         assert record.scenario["name"] == name
-        loads = ("normal_load", "rms_displacement", "dynamic_factor", "line_load")
+        loads = ("normal_load", "rms_displacement", "dynamic_factor", "line_load", "power_loss")
         assert np.nanmax(record[next(name for name in loads if name in record)]) > 0
 
 
