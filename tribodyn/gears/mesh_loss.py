@@ -18,7 +18,8 @@ from tribodyn.mesh.cycle import MeshCycle, slopes
 from tribodyn.mesh.equilibrium import contacts
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.tribology.closure import laws_of, untried_closure_of
+from tribodyn.tribology.closure import closure_of, laws_of, untried_closure_of
+from tribodyn.tribology.law import Closure
 from tribodyn.tribology.oil import LubricantData, lubricant_from
 
 #: Cells of a segment that are kept, of spur teeth and of slices.
@@ -83,11 +84,11 @@ class LossTable:
 
     def at(self, points: MeshPoints) -> MeshLoss:
         """Losses at points; raises InputError for a law of one duty, SimulationError where friction locks."""
-        _refuse_tabulated(self.pair, points)
+        solved = _solved_for(self.pair, points)
         count = max(1, TOGETHER // self.cycle.compliance.size)
         several = len(points.torque)
         parts = [
-            self._of_some(MeshPoints(*(values[first : first + count] for values in points)))
+            self._of_some(MeshPoints(*(values[first : first + count] for values in points)), solved)
             for first in range(0, several, count)
         ]
         names = parts[0].seen
@@ -96,7 +97,7 @@ class LossTable:
             {name: np.concatenate([part.seen[name] for part in parts]) for name in names},
         )
 
-    def _of_some(self, points: MeshPoints) -> MeshLoss:
+    def _of_some(self, points: MeshPoints, solved: Closure | None) -> MeshLoss:
         duty, cycle = self.pair.operating, self.cycle
         least = LEAST_TORQUE * self.nominal
         way = np.where(points.torque < 0.0, -1.0, 1.0)
@@ -108,7 +109,7 @@ class LossTable:
 
         oil = _oil(self.pair.lubricant, by_contact(points.temperature), by_contact(points.supply))
         operating = replace(duty, pinion_speed=by_contact(speed), gear_torque=by_contact(torque))
-        closure = untried_closure_of(replace(self.pair, lubricant=oil, operating=operating))
+        closure = solved or untried_closure_of(replace(self.pair, lubricant=oil, operating=operating))
         seen = contacts(cycle, operating.gear_torque, operating.pinion_speed, closure)
         shared = cycle.gear_sense * np.abs(torque)[:, None, None]
         with np.errstate(all="ignore"):
@@ -205,15 +206,30 @@ def _oil(oil: LubricantData, temperature: Any, supply: Any) -> LubricantData:
     return replace(lubricant_from(oil.sheet, temperature, oil.fzg), supply=supply)
 
 
-def _refuse_tabulated(pair: LubricatedCase, points: MeshPoints) -> None:
-    """Refuse a law that is tabulated for the duty of the scenario where there are other points."""
-    duty = pair.operating
-    alike = np.all(points.speed == duty.pinion_speed) and np.all(points.torque == duty.gear_torque)
-    for law in laws_of(pair):
-        if law.table_error is not None and not alike:
-            raise InputError(
-                f"{law.table}.law",
-                quoted(law.name),
-                "is solved for the scenario's own duty, and the points of operation are others",
-                "choose a law that is a formula; tribodyn list laws names them",
-            )
+#: Torques over the nominal one between which a law that is solved for the scenario's duty serves.
+NEAR = (0.5, 2.0)
+
+
+def _solved_for(pair: LubricatedCase, points: MeshPoints) -> Closure | None:
+    """The closure of laws that are solved for the scenario's duty before; None: all laws are formulas.
+
+    Raises InputError for points at other speeds, temperatures or far other torques.
+    """
+    solved = [law for law in laws_of(pair) if law.table_error is not None]
+    if not solved:
+        return None
+    duty, first = pair.operating, points.temperature[0]
+    torques = points.torque / (duty.gear_torque or 1.0)
+    alike = np.allclose(points.speed, duty.pinion_speed, rtol=1e-9, atol=0.0)
+    alike = alike and np.array_equal(points.temperature, np.full(torques.shape, first), equal_nan=True)
+    if not alike or np.any(torques < NEAR[0]) or np.any(torques > NEAR[1]):
+        raise InputError(
+            f"{solved[0].table}.law",
+            quoted(solved[0].name),
+            "is solved for the scenario's own duty, and points of operation are at others",
+            "choose a law that is a formula; tribodyn list laws names them",
+        )
+    oil = pair.lubricant
+    return closure_of(
+        pair if oil.sheet is None else replace(pair, lubricant=_oil(oil, first, points.supply[0]))
+    )

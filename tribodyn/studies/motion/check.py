@@ -26,6 +26,8 @@ from tribodyn.studies.motion.frequencies import (
     of_sets,
     passes,
 )
+from tribodyn.studies.motion.losses.breakdown import LOSSES, listed, loss_table
+from tribodyn.studies.motion.losses.of_case import losses_at_duty
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.powers import LOCKS, flow_of, power_data, power_table
 from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
@@ -66,6 +68,10 @@ def check(case: Gearbox) -> CheckResult:
     if passes_in_bearings := _passing_elements(case):
         tables.insert(0, _element_table(passes_in_bearings))
         held["bearing_frequencies"] = passes_in_bearings
+    losses, said = losses_at_duty(prepared)
+    if losses:
+        tables.insert(0, loss_table(losses[LOSSES]))
+        held |= listed(losses)
     names = [mesh.name for mesh in case.meshes]
     faces = {name: of.data for name, of in zip(names, of_meshes, strict=True) if FACE[0].name in of.data}
     if faces:
@@ -73,7 +79,7 @@ def check(case: Gearbox) -> CheckResult:
         tables.insert(0, TextTable(title, *bearing_rows(faces, FACE)))
     if not case.named:
         (pair,) = of_meshes
-        remarks = (*pair.remarks, *bearing_remarks(shafts, oil))
+        remarks = (*pair.remarks, *bearing_remarks(shafts, oil), *said)
         return pair._replace(
             data=pair.data | of_modes | held, tables=(*pair.tables, *tables), remarks=remarks
         )
@@ -102,6 +108,7 @@ def check(case: Gearbox) -> CheckResult:
         *circling,
         *_named(names, [checked.remarks for checked in of_meshes]),
         *bearing_remarks(shafts, oil),
+        *said,
     ]
     sentences = _named(names, [checked.warnings for checked in of_meshes])
     warnings = tuple(dict.fromkeys((*locks, *jams(prepared), *sentences)))

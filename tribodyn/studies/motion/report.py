@@ -24,6 +24,7 @@ from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.withheld_efficiency import reasons
 from tribodyn.studies.motion.drivetrain.mesh_groups import between, groups_of, together
+from tribodyn.studies.motion.losses.breakdown import LOSSES, loss_table
 from tribodyn.studies.motion.pictures.deflected_gearbox import deflected_gearbox
 from tribodyn.studies.motion.pictures.rolling_train import rolling_train
 
@@ -91,8 +92,10 @@ ACROSS, NAMED = 4, 3
 def tables(record: Record) -> list[TextTable]:
     """Quantities of each mesh, a column for each, one for those of a member of a set; and of its sensors."""
     meshes = record.mesh_summaries
+    lost = record.summary.get(LOSSES)
+    losses = [loss_table(lost)] if lost else []
     if not record.names_meshes or not meshes:
-        return sensor_tables(record)
+        return [*losses, *sensor_tables(record)]
     withheld = reasons(record.summary)
     groups = groups_of(meshes)
     return [
@@ -101,6 +104,7 @@ def tables(record: Record) -> list[TextTable]:
             _table(groups[start : start + ACROSS], meshes, withheld)
             for start in range(0, len(groups), ACROSS)
         ),
+        *losses,
         *sensor_tables(record),
     ]
 

@@ -23,6 +23,7 @@ from tribodyn.record.trust import judge_tribology
 from tribodyn.record.withheld_efficiency import remarked
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.losses.of_case import losses_of_run
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.results import stage_quantities, worst_stage
 from tribodyn.studies.motion.prepare import prepare
@@ -151,6 +152,7 @@ def _concluded(
         each[m] |= limits_in(window, prepared.warm_pairs[m]) | quantities
         judge_tribology(statistics.judge, each[m])
     whole = concluded(prepared, whole, each) | of_meshes(case, each if case.named else [{}])
+    whole |= losses_of_run(prepared, [mesh["power_friction_mean"] for mesh in each], whole)
     if case.sets:
         whole[STAGES] = stages = stage_quantities(prepared, windows, each)
         whole |= worst_stage(stages)

@@ -53,8 +53,9 @@ class GearboxLoss:
             [LossSource("P_VZP", mesh.name, "mesh", laws_of(mesh.pair)[1].name) for mesh in case.meshes]
             + [source for drag in self.drags for source in drag.sources]
         )
-        #: what the loads take at nominal speed, W
-        self.output_power = sum(load.torque * abs(self.speeds[load.body]) for load in case.loads)
+        #: what every load takes at nominal speed, and all of them, W
+        self.load_powers = [load.torque * abs(self.speeds[load.body]) for load in case.loads]
+        self.output_power = sum(self.load_powers)
         #: of the drivers of meshes against their carriers, and of what drags brake, over that of the input
         self.turning = (
             np.array([mesh.pair.operating.pinion_speed for mesh in case.meshes]) / case.source.speed
@@ -74,7 +75,7 @@ class GearboxLoss:
             bulk if points.bulk_temperature is None else np.asarray(points.bulk_temperature), supplied
         )
         drag, losses = np.zeros((len(self.tables), len(load))), list[MeshLoss]()
-        idle = self._idle(speed, supplied, load)
+        idle = self.drags_at(speed, supplied, load)
         for _ in range(PASSES):
             outside = self.flow.load[:, None] * load + self.flow.body @ self._on_bodies(idle)
             losses, torque = self._of_meshes(outside, drag, speed, warm)
@@ -84,7 +85,7 @@ class GearboxLoss:
             if points.bulk_temperature is None and self.warms:
                 warmer = self._warmth(drag, idle, speed, supplied)
                 change = max(np.max(np.abs(warmer.bulk - warm.bulk)), np.max(np.abs(warmer.oil - warm.oil)))
-                warm, idle = warmer, self._idle(speed, warmer.oil, load)
+                warm, idle = warmer, self.drags_at(speed, warmer.oil, load)
             if change < SETTLED and moved <= STEADY * np.max(np.abs(torque)):
                 break
         else:
@@ -102,7 +103,7 @@ class GearboxLoss:
             {**seen, "bulk_temperature": warm.bulk},
         )
 
-    def _idle(
+    def drags_at(
         self,
         speed: Float[Array, " point"],
         temperature: Float[Array, " point"],
@@ -187,9 +188,11 @@ def _refuse_other_temperatures(oil: LubricantData, asked: Float[Array, " point"]
 
 def _outside(pair: Any, loss: MeshLoss) -> tuple[str, ...]:
     """Laws of a mesh that are outside their range in some contact at some point."""
-    names = zip(laws_of(pair), ("film_in_range", "friction_in_range"), strict=True)
-    return tuple(
-        f"range of the {law.table} law {law.name}"
-        for law, share in names
-        if np.any(np.nan_to_num(loss.seen[share], nan=1.0) < 1.0)
-    )
+    film, friction = laws_of(pair)
+    said = []
+    for law, share in ((film, "film_in_range"), (friction, "friction_in_range")):
+        if np.any(np.nan_to_num(loss.seen[share], nan=1.0) < 1.0):
+            said.append(f"range of the {law.table} law {law.name}")
+    if np.any(loss.seen["friction_held"] > 0.0):
+        said.append(f"{friction.name} at low speed or load, held at the friction of asperities")
+    return tuple(said)
