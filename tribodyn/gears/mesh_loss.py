@@ -26,6 +26,8 @@ from tribodyn.tribology.oil import LubricantData, lubricant_from
 CELLS, CELLS_OF_SLICES = 16, 32
 #: Passes of loads and friction, each of which takes a tenth or less of the change before.
 PASSES = 2
+#: Laws that say what they are told to.
+UNBOUNDED = ("coulomb", "none")
 #: Torques over the nominal one at which loads are known, from which others begin.
 TORQUES = np.geomspace(1e-4, 10.0, 41)
 #: Numbers of an array that are worked on together: what a processor's cache holds some of.
@@ -48,7 +50,7 @@ class MeshLoss(NamedTuple):
 
     drag: Float[Array, " point"]  # power lost over the driver's speed, N m
     #: film_min (m), film_parameter_min, friction_coefficient_mean, hertz_pressure_max (Pa), film_in_range,
-    #: friction_in_range (shares of the contacts); NaN without load
+    #: friction_in_range (shares of the contacts), NaN without load; friction_held, 1 where `_most` held it
     seen: Mapping[str, Float[Array, " point"]]
 
 
@@ -114,11 +116,13 @@ class LossTable:
         shared = cycle.gear_sense * np.abs(torque)[:, None, None]
         with np.errstate(all="ignore"):
             load = self._near(np.abs(torque))
+            most = self._most(load, torque, speed, oil) if solved is None else np.inf
             for _ in range(PASSES):
-                coefficient = seen.under(load).surface.friction_coefficient * seen.carrying
+                coefficient = np.minimum(seen.under(load).surface.friction_coefficient, most) * seen.carrying
                 load = quasi_static(cycle, shared, seen.side * coefficient, near=load).normal_load
             surface = seen.under(load).surface
-        coefficient = surface.friction_coefficient * seen.carrying
+        coefficient = np.minimum(surface.friction_coefficient, most) * seen.carrying
+        held = np.any((surface.friction_coefficient > most) & (seen.carrying > 0.0), axis=(1, 2, 3))
         locked = ~np.isfinite(coefficient * load)
         for normal, tangential in zip(seen.normal_arm, seen.friction_arm, strict=True):
             locked |= normal + seen.side * coefficient * tangential < 0.0
@@ -158,8 +162,36 @@ class LossTable:
                     "hertz_pressure_max": over(surface.hertz_pressure, 0.0, np.max),
                     "film_in_range": share(surface.closure_in_range),
                     "friction_in_range": share(surface.friction_in_range),
+                    "friction_held": np.where(held, 1.0, 0.0),
                 },
             )
+
+    def _most(
+        self,
+        load: Float[Array, "point segment node slot"],
+        torque: Float[Array, " point"],
+        speed: Float[Array, " point"],
+        oil: LubricantData,
+    ) -> Any:
+        """The most that a law may say of friction: regressions grow without bound towards rest and no load.
+
+        Below the nominal speed and torque they are held at the friction of asperities, or at what they say
+        of the nominal ones where that is more.
+        """
+        _, law = laws_of(self.pair)
+        duty, sizes = self.pair.operating, np.abs(torque)
+        nominal = float(duty.pinion_speed), self.nominal
+        below = (speed < nominal[0]) | (sizes < nominal[1])
+        if law.reads_film or law.name in UNBOUNDED or not np.any(below):
+            return np.inf
+        faster, more = np.maximum(speed, nominal[0]), np.maximum(sizes, nominal[1])
+        signed = (np.sign(torque) * more)[:, None, None, None]
+        raised = replace(duty, pinion_speed=faster[:, None, None, None], gear_torque=signed)
+        closure = untried_closure_of(replace(self.pair, lubricant=oil, operating=raised))
+        seen = contacts(self.cycle, raised.gear_torque, raised.pinion_speed, closure)
+        surface = seen.under(load * (more / sizes)[:, None, None, None]).surface
+        least = np.maximum(surface.friction_coefficient, oil.asperity_friction)
+        return np.where(below[:, None, None, None], least, np.inf)
 
 
 def thinned(cycle: MeshCycle, cells: int) -> MeshCycle:

@@ -148,3 +148,14 @@ def test_a_train_of_constant_stiffness_gives_way_as_springs_in_series():
 
 def test_a_study_of_gearboxes_offers_its_losses():
     assert TRAIN.losses() is LOSSES
+
+
+def test_regressions_are_held_at_the_friction_of_asperities_where_they_grow_without_bound():
+    case = load_scenario("two-pinions-bull-gear", {"friction.law": "iso-14179-1"})
+    limit = float(case.pair.lubricant.asperity_friction)
+    found = LOSSES.at(case, points(case, [1.0, 1.0, 1e-5], [0.0, 1.0, 1.0]))
+    stall, nominal, light = found.meshes["friction_coefficient_mean"]
+    assert stall == pytest.approx(limit, rel=1e-9)
+    assert light == pytest.approx(limit, rel=1e-9)
+    assert np.all(nominal < limit)
+    assert all("held at the friction of asperities" in "; ".join(limits) for limits in found.exceeded)

@@ -55,19 +55,17 @@ def loss_table(losses: Mapping[str, Any]) -> TextTable:
     """The table of a breakdown: every term that is lost, and what of it is lost where."""
     power_in, rows = losses["power_in"], list[tuple[str, ...]]()
     elements = losses["elements"]
-    elements = list(elements.values()) if isinstance(elements, Mapping) else list(elements)
+    if isinstance(elements, Mapping):  # of a record by number, in any order
+        elements = [elements[number] for number in sorted(elements, key=int)]
     for term, about in TERMS.items():
         of_term = [element for element in elements if element["term"] == term]
         if not of_term:
             continue
-        rows.append((term, about, "", *_power(losses["terms"][term], power_in)))
-        rows += [
-            ("", element, method, *_power(power, power_in)) for element, method, power in _merged(of_term)
-        ]
-    rows.append(("", "sum", "", *_power(losses["power_lost"], power_in)))
-    rows.append(("", "power in", "", *_power(power_in, power_in)))
-    rows.append(("", "power out", "", *_power(losses["power_out"], power_in)))
-    return TextTable("Losses by term and element", ("term", "of", "method", "W", "% of power in"), rows)
+        rows.append((f"{term}: {about}", "", *_power(losses["terms"][term], power_in)))
+        rows += [(f"  {name}", method, *_power(power, power_in)) for name, method, power in _merged(of_term)]
+    for what, name in (("all losses", "power_lost"), ("power in", "power_in"), ("power out", "power_out")):
+        rows.append((what, "", *_power(losses[name], power_in)))
+    return TextTable("Losses by term and element", ("", "method", "W", "% of power in"), rows)
 
 
 def _power(power: float, power_in: float) -> tuple[str, str]:
