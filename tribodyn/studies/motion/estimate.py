@@ -8,6 +8,7 @@ from tribodyn.cases import cost
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.mesh.table import MeshData
+from tribodyn.solve.methods import IN_TIME
 from tribodyn.studies.motion.case import HOUSING, Gearbox
 from tribodyn.studies.motion.record import usual_layout
 
@@ -63,7 +64,8 @@ def marching_of(case: Gearbox, cycles: float, together: bool = True) -> list[cos
         radians = float(mesh.rate) * radians_of(mesh.pair, bearings)
         most = float(solver.max_steps)
         estimates.append(table(mesh.pair.mesh))
-        estimates.append(cost.marching(cycles, radians, solver.method, most, samples, together=together))
+        method = IN_TIME if case.in_time else solver.method
+        estimates.append(cost.marching(cycles, radians, method, most, samples, together=together))
     return [each._replace(record=0.0) for each in estimates] if together else estimates
 
 

@@ -131,12 +131,12 @@ def steady_quantities(
     nominal = float(operation.pitch_angle / operation.nominal_speed)
     if case.in_time:
         duration = cycles * nominal
-        cycles = (duration - float(work[layout.lag])) / nominal
+        cycles = abs(duration - float(work[layout.lag])) / nominal
     else:  # by the actual rotation: a driven reference need not turn at its nominal speed
         duration = float(cycles * nominal + work[layout.lag])
     whole = {"averaging_cycles": int(cycles), "mesh_frequency": cycles / duration}
     whole |= power_quantities(work, duration, layout)
-    stands = case.in_time and abs(cycles) < STANDS
+    stands = case.in_time and cycles < STANDS
     if stands:
         whole["efficiency"] = float("nan")
     each, idle = [], list[dict[str, Any]]()
