@@ -12,7 +12,7 @@ from tests.support.spring_trains import Gears, scenario_of, spring_model
 from tests.support.train_matrices import Body, Mesh, Train
 from tribodyn.dynamics.recorded.outputs import Sampled, evaluated
 from tribodyn.dynamics.recorded.outputs import sampled as outputs_of
-from tribodyn.errors import InputErrors
+from tribodyn.errors import InputError, InputErrors
 from tribodyn.gears.motion.running import energy_residual
 from tribodyn.record.reader import Record
 from tribodyn.solve.choice import choose_in_time
@@ -20,6 +20,7 @@ from tribodyn.solve.in_time import transient_in_time
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings
 from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.motion.prepare import prepare
 
 #: Inertias of driver and driven gear, kg m²; loads, N m; mesh, N/m.
@@ -205,6 +206,41 @@ def test_a_brake_stalls_it():
     assert found["clutch_torque"][-1, 0] == pytest.approx(held, rel=1e-5)
     assert found["clutch_power"][-1, 0] == pytest.approx(held * creep, rel=1e-4)
     assert abs(found.residual) < 1e-6
+
+
+#: A planetary set under a motor, from rest.
+SET = {
+    "operating.source": "torque",
+    "operating.start_speed": "0 rad/s",
+    "operating.drive_inertia": "0.01 kg*m**2",
+    "operating.input_torque": "300 N*m",
+    "friction.law": "none",
+    "solver.duration": "2 ms",
+}
+
+
+def test_a_planetary_set_starts_as_its_inertias_say():
+    """Σ J_b i_b ω_b + Σ m_b r_b² i_c² ω = (T − Σ T_b i_b) t, planets carried along with their carrier."""
+    prepared = prepare(td.scenario("planetary-24-84", SET | {"stage.0.frame_forces": False}))
+    bodies = prepared.model.bodies
+    ratio, turning = np.asarray(bodies.ratio), np.asarray(bodies.inertia)
+    places = np.asarray(bodies.carried)[:, None] * np.asarray(bodies.place)
+    carried = float(np.asarray(bodies.mass) @ np.sum(places**2, axis=1))
+    torque = 300.0 - float(np.asarray(bodies.load) @ ratio)
+    found = run(prepared, rtol=1e-7, samples=40)
+    momentum = found["speed"] @ (turning * ratio) + carried * found["speed"][:, 0]
+    impulse = torque * found["time"]
+    np.testing.assert_allclose(momentum, impulse, rtol=0.0, atol=0.02 * impulse[-1])
+    assert abs(found.residual) < 1e-6
+
+
+def test_what_has_the_nominal_speed_in_it_is_refused():
+    """Forces in a carrier's frame; cases beside each other, which go by the rotation."""
+    case = td.scenario("planetary-24-84", SET)
+    with pytest.raises(InputError, match=r"frame_forces.*the gears may stand"):
+        prepare(case)
+    with pytest.raises(InputError, match=r"solver\.duration.*by the rotation"):
+        BATCH.settings([case], None, "native")
 
 
 @pytest.mark.parametrize("law", ["masjedi-khonsari", "coulomb", "niemann", "xu", "benedict-kelley"])

@@ -158,6 +158,8 @@ def steady_quantities(
                 quantities["efficiency"] = float("nan")
         put_in, efficiency = quantities["power_in_mean"], quantities["efficiency"]
         thermal = thermal_quantities(prepared.thermal[m], put_in, efficiency)
+        if case.in_time:  # those of nominal speed
+            thermal = {name: value for name, value in thermal.items() if name not in _TOLD_ONCE}
         if case.named:  # of shafts and gears of several meshes: told of all together
             idle.append({name: thermal.pop(name) for name in _TOLD_ONCE if name in thermal})
         quantities |= thermal
