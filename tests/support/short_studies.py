@@ -28,6 +28,7 @@ SHORT: dict[str, dict[str, Any]] = {
     },
     "ehl": {"output.positions": 4, "contact.step": 0.25},
     "irefc": {"output.samples_per_cycle": 8},
+    "drive-cycle": {"cycle.step": "1 h", **{f"scenario.{key}": value for key, value in COULOMB.items()}},
     "backlash-oscillator": {"frequency.step": 0.2},
     "design": {
         "design.evaluations": 3,
@@ -70,6 +71,7 @@ SHORTER = {
     "gear-train": ("solver.cycles=2",),
     "efficiency": ("output.samples_per_cycle=40",),
     "irefc": ("output.samples_per_cycle=8",),
+    "drive-cycle": ("cycle.step=1 h",),
     "backlash-oscillator": ("frequency.step=0.1",),
     "sensors-18-36": ("solver.revolutions=3", "output.window=[2.0, 3.0]"),  # a signal has to be as long
     "load-contact": ("output.positions_per_cycle=8",),

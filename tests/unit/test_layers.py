@@ -62,7 +62,7 @@ MAY_IMPORT["derivatives"] = {
     "quantities",
     "input",
 }
-MAY_IMPORT["cases"] = {"numerics", "solve", "quantities", "record"}
+MAY_IMPORT["cases"] = {"numerics", "tribology", "solve", "quantities", "record"}
 MAY_IMPORT["gears"] = set(MAY_IMPORT) - {"derivatives"}
 MAY_IMPORT["studies"] = set(MAY_IMPORT) - {"studies"}
 MAY_IMPORT["grid"] = set(MAY_IMPORT) - {"grid"}

@@ -44,12 +44,19 @@ from tribodyn.input.tables.laws import FilmTable, film_of, law_values
 from tribodyn.input.tables.losses import LossesTable, broken_losses
 from tribodyn.input.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
 from tribodyn.input.tables.shafts import Shafts, broken_shafts, drawn_shafts, listed
-from tribodyn.input.tables.temperature import TemperatureTable, broken_temperature_rules, temperature_of
+from tribodyn.input.tables.temperature import (
+    GearboxTemperatureTable,
+    TemperatureTable,
+    broken_temperature_rules,
+    oil_temperature_of,
+    temperature_of,
+)
 from tribodyn.mesh.table import MeshData
 from tribodyn.tribology.law import AUTO, FilmData, FrictionData
 
 Oil = Annotated[Lubricant, model_file("lubricants")]
 TemperatureKeys = TemperatureTable | None
+GearboxTemperatureKeys = GearboxTemperatureTable | None
 LossKeys = LossesTable | None
 ShaftKeys = Shafts | None
 #: Of studies of the teeth alone, which read matrices of it.
@@ -133,7 +140,7 @@ def oil_fields(scenario: Any) -> dict[str, Any]:
         options = {name: getattr(friction, name) for name in type(friction).model_fields if name != "law"}
         fields_of_case["friction"] = FrictionData(friction.law, law_values(friction), **options)
     return fields_of_case | {
-        "lubricant": lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
+        "lubricant": lubricant_of(scenario.lubricant, oil_temperature_of(scenario)),
         "film": FilmData(AUTO) if film is None and friction is None else film_of(film),
         "temperature": temperature_of(getattr(scenario, "temperature", None)),
         "losses": requested_losses(scenario),
@@ -272,7 +279,7 @@ def broken_gear_rules(
         yield from unnamed_duty(scenario)
     if lubricant is not None:
         if oil:
-            yield from broken_lubricant_rules(lubricant, scenario.operating.oil_temperature)
+            yield from broken_lubricant_rules(lubricant, oil_temperature_of(scenario))
         yield from broken_temperature_rules(getattr(scenario, "temperature", None), lubricant)
     yield from broken_losses(getattr(scenario, "losses", None), drawn=drawn_of_pair(scenario))
     yield from _broken_supports(scenario)

@@ -77,6 +77,8 @@ COMMON_UNITS: dict[str, dict[str, float]] = {
     "volume": {"l": 0.001, "m**3": 1.0},
     "volume flow": {"l/min": 0.001 / 60.0, "m**3/s": 1.0},
     "thermal conductance": {"W/K": 1.0},
+    "area": {"m**2": 1.0, "cm**2": 1e-4, "mm**2": 1e-6},
+    "heat transfer coefficient": {"W/(m**2*K)": 1.0},
     "mass": {"kg": 1.0, "g": 0.001},
     "moment of inertia": {"kg*m**2": 1.0, "kg*m^2": 1.0},
     "stiffness": {"N/m": 1.0, "N/mm": 1000.0, "N/um": 1000000.0},

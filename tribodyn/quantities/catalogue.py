@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.quantities import load, loss_map, losses, motion, single_studies
+from tribodyn.quantities import drive_cycle, load, loss_map, losses, motion, single_studies
 from tribodyn.quantities.quantity import Quantity
 
 EVERY = (
     *(*motion.QUANTITIES, *losses.QUANTITIES, *load.QUANTITIES, *single_studies.QUANTITIES),
     *(*load.OF_SHAFTS, *motion.SIGNALS, *single_studies.WEAR, *loss_map.QUANTITIES),
+    *drive_cycle.QUANTITIES,
 )
 QUANTITIES: Mapping[str, Quantity] = {quantity.name: quantity for quantity in EVERY}
 

@@ -22,6 +22,7 @@ STUDIES: Registry[Study] = Registry(
         "assessment": "tribodyn.studies.assessment:STUDY",
         "train-assessment": "tribodyn.studies.assessment:OF_SCENARIO",
         "map": "tribodyn.studies.map:STUDY",
+        "drive-cycle": "tribodyn.studies.drive_cycle:STUDY",
     },
     "tribodyn.studies",
     Study,

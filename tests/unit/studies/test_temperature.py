@@ -10,8 +10,8 @@ from tribodyn.errors import InputError
 from tribodyn.gears.prepare import Thermal
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.efficiency.run import prepare, quantities_of
+from tribodyn.studies.motion.heat.thermal_iteration import at_own_temperatures
 from tribodyn.studies.motion.prepare import prepare as prepare_motion
-from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
 
 SCENARIO = tomllib.loads(

@@ -76,7 +76,11 @@ def test_losses_that_outgrow_the_heat_that_leaves_and_heat_without_a_way_out_are
 def test_two_nodes_over_time_follow_the_closed_form():
     times = np.array([0.0, 10.0, 200.0, 3000.0])
     found = heat_over_time(
-        TWO, lambda time, points: _constant(300.0, 60.0)(points), lambda time: 0.0, np.full(2, AMBIENT), times
+        TWO,
+        lambda number, share, points: _constant(300.0, 60.0)(points),
+        lambda *_: 0.0,
+        np.full(2, AMBIENT),
+        times,
     )
     # rises x: C x' = P − G x, two exponentials
     matrix = np.array([[-30.0 / OIL, 30.0 / OIL], [30.0 / WALL, -42.0 / WALL]])
@@ -88,7 +92,7 @@ def test_two_nodes_over_time_follow_the_closed_form():
     first = -steady - second
     rise = steady + np.outer(np.exp(rates[0] * times), first) + np.outer(np.exp(rates[1] * times), second)
     assert found.temperatures - AMBIENT == pytest.approx(rise, abs=2e-4)
-    assert found.made[-1] == pytest.approx([300.0 * 3000.0, 60.0 * 3000.0])
+    assert found.made[-1] == pytest.approx(360.0 * 3000.0)
     assert found.balance < 1e-9
 
 
@@ -113,7 +117,7 @@ def test_a_chain_cools_as_its_eigenvalues_say():
             capacities={names[number]: capacities[number] for number in order}, paths=network.paths[::-1]
         )
         found = heat_over_time(
-            reordered, lambda time, points: 0.0 * points, lambda time: 0.0, start[order], times
+            reordered, lambda number, share, points: 0.0 * points, lambda *_: 0.0, start[order], times
         )
         assert found.temperatures == pytest.approx(expected[:, order], abs=2e-4)
 
@@ -130,14 +134,26 @@ def test_a_gearbox_that_is_run_long_enough_is_in_its_steady_state():
     steady = steady_heat(network, heat, 2.0, [300.0, 300.0], ["oil"])
     found = heat_over_time(
         network,
-        lambda time, points: heat(points),
-        lambda time: 2.0,
+        lambda *at: heat(at[-1]),
+        lambda *_: 2.0,
         np.full(2, 280.0),
         np.array([0.0, 900.0, 3e4]),
     )
     assert found.temperatures[-1] == pytest.approx(list(steady.temperatures.values()), abs=1e-4)
     assert found.balance < 1e-9
     assert steady.balance < 1e-8
+
+
+def test_heat_that_arises_in_a_held_node_leaves_at_once():
+    held = HeatNetwork({"housing": WALL}, {"oil": 340.0, "ambient": AMBIENT}, TWO.paths)
+    found = steady_heat(held, _constant(60.0, 300.0), 0.0, [300.0])
+    housing = (60.0 + 30.0 * 340.0 + 12.0 * AMBIENT) / 42.0
+    assert found.temperatures["housing"] == pytest.approx(housing)
+    assert found.given_off["oil"] == pytest.approx(300.0 + 30.0 * (housing - 340.0))
+    times, start = np.array([0.0, 50.0, 50.0]), np.array([housing])
+    over = heat_over_time(held, lambda *at: _constant(60.0, 300.0)(at[-1]), lambda *_: 0.0, start, times)
+    assert over.given_off[-1, 0] == pytest.approx(50.0 * found.given_off["oil"])
+    assert over.balance < 1e-12
 
 
 def test_a_wall_in_still_air_loses_what_the_textbook_says():

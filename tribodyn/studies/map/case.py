@@ -110,7 +110,7 @@ class MapCase(CaseHead):
 
     @cached_property
     def nominal(self) -> NominalPoint:
-        """The gearbox at its own point of operation; an oil of no temperature has the one that is asked for."""
+        """The gearbox at its own point of operation; an oil without a temperature has the one asked for."""
         nominal, temperatures = self.losses.nominal(self.subject.case), self.asked[2]
         if np.isnan(nominal.oil_temperature) and temperatures is not None:
             return nominal._replace(oil_temperature=temperatures[0])

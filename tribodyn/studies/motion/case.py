@@ -24,6 +24,7 @@ from tribodyn.train.links.law import LAW as LINEAR_LINK
 from tribodyn.train.links.law import LinkLaw
 from tribodyn.train.phases import ToothedShaft
 from tribodyn.train.planetary import IN_PAIRS, SetTeeth
+from tribodyn.tribology.heat.data import GearboxHeatData
 from tribodyn.tribology.law import FilmData, FrictionData
 
 #: As an end of a link: the housing.
@@ -227,6 +228,7 @@ class Gearbox(CaseHead):
     system: DrawnSystem | None = None  # shafts drawn with all that they carry, which then have no links
     sensors: tuple[SensorData, ...] = ()
     housing: HousingData = field(default_factory=HousingData)  # that they sit on
+    heat: GearboxHeatData | None = None  # of the whole gearbox; None: not asked for
     #: whether its file names the meshes: then a record has a dimension over them; else there is one mesh
     named: bool = True
 

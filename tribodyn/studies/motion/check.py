@@ -26,12 +26,13 @@ from tribodyn.studies.motion.frequencies import (
     of_sets,
     passes,
 )
+from tribodyn.studies.motion.heat.rating import heat_part
+from tribodyn.studies.motion.heat.settled import prepare_settled
 from tribodyn.studies.motion.losses.breakdown import LOSSES, listed, loss_table
 from tribodyn.studies.motion.losses.of_case import losses_at_duty
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.powers import LOCKS, flow_of, power_data, power_table
 from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
-from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
 from tribodyn.studies.motion.train.face_loads import FACE, along_face, of_deflected, proposals
@@ -46,7 +47,8 @@ HARMONICS = 3
 @checks_gears
 def check(case: Gearbox) -> CheckResult:
     """Check a case, tabulate its meshes, and say what gearbox it describes."""
-    prepared = prepare(case)
+    prepared = prepare_settled(case)
+    case = prepared.case
     listener_of(prepared)
     spread = of_deflected(prepared)
     mode_set = modes(prepared.model, [one.cycle for one in prepared.tables])
@@ -63,7 +65,10 @@ def check(case: Gearbox) -> CheckResult:
     tables = [_mode_table(prepared, mode_set, kinds), _campbell_table(prepared, mode_set)]
     shafts, oil = shafts_of(case), case.pair.lubricant
     held = bearing_part(shafts, oil)
-    if held:
+    of_heat, heat_tables, heat_details = heat_part(case)
+    held |= of_heat
+    tables[:0] = heat_tables
+    if "bearings" in held:
         tables.insert(0, TextTable("Bearings", *bearing_rows(held["bearings"])))
     if passes_in_bearings := _passing_elements(case):
         tables.insert(0, _element_table(passes_in_bearings))
@@ -81,7 +86,10 @@ def check(case: Gearbox) -> CheckResult:
         (pair,) = of_meshes
         remarks = (*pair.remarks, *bearing_remarks(shafts, oil), *said)
         return pair._replace(
-            data=pair.data | of_modes | held, tables=(*pair.tables, *tables), remarks=remarks
+            data=pair.data | of_modes | held,
+            tables=(*pair.tables, *tables),
+            remarks=remarks,
+            details=(*pair.details, *heat_details),
         )
     train = _train(prepared)
     flow = flow_of(prepared) if case.sets else None
@@ -103,7 +111,7 @@ def check(case: Gearbox) -> CheckResult:
         "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
     }
     tables = [*_train_tables(prepared, train), *of_powers, *_set_tables(prepared), *tables]
-    details = list(_once(names, [checked.tables for checked in of_meshes]))
+    details = [*heat_details, *_once(names, [checked.tables for checked in of_meshes])]
     remarks = [
         *circling,
         *_named(names, [checked.remarks for checked in of_meshes]),

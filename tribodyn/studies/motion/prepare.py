@@ -28,11 +28,11 @@ from tribodyn.studies.motion.assembly import (
     varying_of,
 )
 from tribodyn.studies.motion.case import HOUSING, Gearbox
+from tribodyn.studies.motion.heat.thermal_iteration import at_tooth_temperatures
 from tribodyn.studies.motion.planetary.carriers import carrier_coordinates, carriers_of
 from tribodyn.studies.motion.planetary.frames import carried_of, frames_of, pins_of, reference_pitch
 from tribodyn.studies.motion.planetary.in_space import pins_in_space, tilts_in_frames
 from tribodyn.studies.motion.planetary.rims import pushing_rims, rim_coordinates, rims_of, with_rims
-from tribodyn.studies.motion.thermal_iteration import at_tooth_temperatures
 from tribodyn.studies.motion.train.operating_point import settled
 from tribodyn.train.layout import TrainLayout, layout_of
 from tribodyn.train.links.chain import chain_of

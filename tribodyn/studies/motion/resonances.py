@@ -11,7 +11,7 @@ from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.frequencies import mesh_frequencies
-from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.heat.settled import prepare_settled
 
 #: Harmonics of the transmission error that are looked at.
 HARMONICS = 6
@@ -29,7 +29,7 @@ def resonance_speeds(case: Gearbox, span: tuple[float, float], most: int) -> lis
     strongest first; `most` of them at most, none near another; of one that is near an end of the span,
     beyond it, that end. Raises InputError or SimulationError where the case cannot be prepared.
     """
-    prepared = prepare(case)
+    prepared = prepare_settled(case)
     box, cycles = prepared.case, [each.cycle for each in prepared.tables]
     mode_set = modes(prepared.model, cycles)
     angular = 2.0 * math.pi * mode_set.frequency

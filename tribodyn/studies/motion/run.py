@@ -23,10 +23,11 @@ from tribodyn.record.trust import judge_tribology
 from tribodyn.record.withheld_efficiency import remarked
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.heat.settled import in_balance, prepare_settled, warmer
+from tribodyn.studies.motion.heat.thermal_iteration import at_own_temperatures
 from tribodyn.studies.motion.losses.of_case import losses_of_run
 from tribodyn.studies.motion.planetary.jamming import jams
 from tribodyn.studies.motion.planetary.results import stage_quantities, worst_stage
-from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.record import record_of
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.summary import (
@@ -37,7 +38,6 @@ from tribodyn.studies.motion.summary import (
     window_of,
     worst_of,
 )
-from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
 from tribodyn.studies.protocol.study import Progress, RunResult
 
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
@@ -57,18 +57,20 @@ def run(
     Where the case asks for bulk temperatures, it is run again until its own losses give them.
     """
     where, once = target(case, output, force), partial(_run, progress=progress)
-    return run_until_warm(case, where, force, once, _warmer)
+    return run_until_warm(in_balance(case), where, force, once, _warmer)
 
 
 def _warmer(case: Gearbox, summary: Mapping[str, Any]) -> Gearbox | None:
     each = [summary[MESHES][mesh.name] for mesh in case.meshes] if case.named else [summary]
-    warm = [of_mesh.get("bulk_temperature") for of_mesh in each]
-    return at_own_temperatures(case, warm, [of_mesh["power_friction_mean"] for of_mesh in each])
+    lost = [of_mesh["power_friction_mean"] for of_mesh in each]
+    if case.heat is not None:
+        return warmer(case, lost)
+    return at_own_temperatures(case, [of_mesh.get("bulk_temperature") for of_mesh in each], lost)
 
 
 def _run(case: Gearbox, path: Path, force: bool, *, progress: Progress | None) -> RunResult:
     """Run a case once."""
-    prepared = prepare(case)
+    prepared = prepare_settled(case)
     model, meshes = prepared.model, meshes_of_run(prepared)
     listener = listener_of(prepared)
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles

@@ -28,6 +28,7 @@ from tribodyn.numerics.registry import cannot_be_loaded
 
 if TYPE_CHECKING:
     from tribodyn.cases.assessment_part import Contribution, WholeDrive
+    from tribodyn.cases.heat_part import GearboxHeat
     from tribodyn.cases.loss_part import GearboxLosses
     from tribodyn.input.quantity import Table
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
@@ -42,6 +43,7 @@ _ALSO_IN = {
     "check": ("run",),
     "estimate": ("case", "scenario"),
     "losses": ("losses.part",),
+    "heat": ("heat.part",),
     "sweep_figures": ("figures",),
     "page": ("figures",),
 }
@@ -76,11 +78,10 @@ class Study:
     batch         ``BATCH``, how many cases are evaluated together (optional), see `protocol.batch.Batch`
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case or scenario)
     assess        ``ROLE``, its part in an assessment of a drive (optional): `cases.assessment_part`
-    assessable    ``WHOLE``, its meshes as pairs of gears (optional): it can be assessed mesh by mesh, see
-                  `cases.assessment_part`
+    assessable    ``WHOLE``, its meshes as pairs, to be assessed (optional): `cases.assessment_part`
     losses        ``LOSSES``, losses at any point of operation (optional; losses.part): `cases.loss_part`
-    derivatives   ``DIFFERENTIABLE``, what makes quantities of a case a function of its numbers (optional:
-                  that of a pair of gears), called as `derivatives.differentiable.Differentiable`
+    heat          ``HEAT``, case -> its thermal network, or None (optional; heat.part): `cases.heat_part`
+    derivatives   ``DIFFERENTIABLE``, called as `derivatives.differentiable.Differentiable` (its default)
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional; figures)
     verbs         ``VERBS``, verbs and Python functions that it offers (optional), see `protocol.verb`;
                   ``RUN_PROPERTIES``, a class of properties that its runs have in Python beside those of a
@@ -93,15 +94,12 @@ class Study:
     ----------
     kind : as scenarios name it
     about : what it is, in a line
-    package, apart : where its parts are; name of the package in it with those that it does not share with
-        another kind
+    package, apart : where its parts are; name of the package in it with those that no other kind shares
     instead : a key, and the kind that a file with this key is of
     quantities : what its records are about; those of studies with the same are compared and drawn together
     compared : headings of its summary that a comparison shows; none: it is not compared in a table
-    has_gears, resumes : whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run
-        can be resumed
-    verb, resolution : verb of the command line that runs its scenarios; key of the points of a cycle, as its
-        cases have it
+    has_gears, resumes : whether its cases have a pair's `family`, `drive`, `materials`; runs can be resumed
+    verb, resolution : verb that runs its scenarios; key of the points of a cycle, as its cases have it
     """
 
     kind: str
@@ -281,6 +279,10 @@ class Study:
     def losses(self) -> "GearboxLosses | None":
         """What its gearboxes lose at any point of operation; None: its cases are no gearboxes."""
         return self._part("losses", "LOSSES", optional=True)
+
+    def heat(self) -> "Callable[[Any], GearboxHeat | None] | None":
+        """What makes the thermal network of one of its cases, or None where that asks for none."""
+        return self._part("heat", "HEAT", optional=True)
 
     def differentiable(self, case: Any, of: Sequence[str], wrt: Sequence[str]) -> Any:
         """Quantities of a case as a function of its numbers: a `Differentiable`, or what serves as one."""

@@ -9,27 +9,27 @@ from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.heat.network import HeatNetwork
 
-#: Temperatures -> heat that arises in each free node, W; of all points together.
+#: Temperatures -> heat that arises in each free node, W, and behind those, where any does, in each node of
+#: given temperature; of all points together.
 HeatSources = Callable[[Float[Array, "point node"]], Float[Array, "point node"]]
 
 #: Residual heat of a node, as a share of all heat, from which a state counts as steady.
 BALANCED = 1e-8
 #: Step of the difference quotients and the farthest step of Newton's method, K; steps and halvings at most.
-_DIFFERENCE, _FARTHEST, _STEPS, _HALVINGS = 1e-3, 40.0, 60, 12
+_DIFFERENCE, _FARTHEST, _STEPS, _HALVINGS = 1e-3, 40.0, 30, 8
 
 
 class SteadyHeat(NamedTuple):
     """A network at rest."""
 
     temperatures: dict[str, float]  # of the free nodes, K
-    heat: dict[str, float]  # that arises in them, W
+    heat: float  # that arises, W
     given_off: dict[str, float]  # to each node of given temperature, W
 
     @property
     def balance(self) -> float:
         """Heat that arises and does not leave, as a share of the heat that arises."""
-        made = sum(self.heat.values())
-        return abs(made - sum(self.given_off.values())) / max(abs(made), 1e-300)
+        return abs(self.heat - sum(self.given_off.values())) / max(abs(self.heat), 1e-300)
 
 
 def steady_heat(
@@ -54,7 +54,7 @@ def steady_heat(
     moved = [names.index(name) for name in dict.fromkeys(reads)]
 
     def residual(points: Float[Array, "point node"], made: Float[Array, "point node"]) -> np.ndarray:
-        return made + network.flows(points, speed) @ carried
+        return made[:, : len(names)] + network.flows(points, speed) @ carried
 
     here = np.asarray(start, dtype=float)
     for _ in range(_STEPS):
@@ -63,18 +63,20 @@ def steady_heat(
         left = residual(here[None], made[:1])[0]
         size = max(float(np.abs(made[0]).sum()), 1e-9)
         slopes = _flow_slopes(network, here, speed, carried)
-        slopes[:, moved] += (made[1:] - made[0]).T / _DIFFERENCE
+        slopes[:, moved] += (made[1:] - made[0]).T[: len(names)] / _DIFFERENCE
         if np.abs(left).max() <= BALANCED * size:
             if np.linalg.eigvals(slopes / capacities[:, None]).real.max() > 0.0:
                 break  # the least change would grow
             given = network.flows(here[None], speed)[0] @ network.leaving()
+            given[: made.shape[1] - len(names)] += made[0, len(names) :]
             return SteadyHeat(
                 dict(zip(names, here.tolist(), strict=True)),
-                dict(zip(names, made[0].tolist(), strict=True)),
+                float(made[0].sum()),
                 dict(zip(network.held, given.tolist(), strict=True)),
             )
         step = np.linalg.solve(slopes, -left)
-        step *= min(1.0, _FARTHEST / max(float(np.abs(step).max()), 1e-300))
+        if np.all((bounds[0] <= here) & (here <= bounds[1])):  # beyond, losses no longer change
+            step *= min(1.0, _FARTHEST / max(float(np.abs(step).max()), 1e-300))
         here = _descend(here, step, float(np.abs(left).max()), heat, residual, bounds)
     raise SimulationError("the temperatures do not settle: losses grow faster with them than heat leaves")
 

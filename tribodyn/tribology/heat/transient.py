@@ -1,6 +1,7 @@
 """A thermal network over time, by an implicit method for stiff systems, with its heat counted."""
 
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -11,8 +12,15 @@ from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.heat.network import HeatNetwork
 
-#: (time s, temperatures K) -> heat that arises in each free node, W; of all points at one time together.
-HeatOverTime = Callable[[float, Float[Array, "point node"]], Float[Array, "point node"]]
+#: (number of a time, share of the way to the next one, temperatures K) -> heat that arises in each free node,
+#: W, and behind those, where any does, in each node of given temperature; of all points together.
+HeatOverTime = Callable[[int, float, Float[Array, "point node"]], Float[Array, "point node"]]
+#: (number of a time, share of the way to the next one) -> speed of the input, rad/s.
+SpeedOverTime = Callable[[int, float], float]
+
+
+#: Step of the difference quotients, K.
+_DIFFERENCE = 1e-4
 
 
 class HeatHistory(NamedTuple):
@@ -20,21 +28,22 @@ class HeatHistory(NamedTuple):
 
     times: Float[Array, " time"]  # s
     temperatures: Float[Array, "time node"]  # K
-    made: Float[Array, "time node"]  # heat that has arisen in each free node, J
+    made: Float[Array, " time"]  # heat that has arisen, J
     given_off: Float[Array, "time held"]  # heat that has left to each node of given temperature, J
     stored: Float[Array, " time"]  # in all nodes, J
 
     @property
     def balance(self) -> float:
         """Heat that has arisen and is neither stored nor gone, at worst, as a share of all that arose."""
-        missing = self.made.sum(axis=1) - self.given_off.sum(axis=1) - self.stored
-        return float(np.abs(missing).max() / max(np.abs(self.made[-1]).sum(), 1e-300))
+        missing = self.made - self.given_off.sum(axis=1) - self.stored
+        size = max(np.abs(self.made).max(), np.abs(self.stored).max(), 1e-300)
+        return float(np.abs(missing).max() / size)
 
 
 def heat_over_time(
     network: HeatNetwork,
     heat: HeatOverTime,
-    speed: Callable[[float], float],
+    speed: SpeedOverTime,
     start: Float[Array, " node"],
     times: Float[Array, " time"],
     tolerance: float = 1e-6,
@@ -42,47 +51,38 @@ def heat_over_time(
 ) -> HeatHistory:
     """Integrate a network from its temperatures at the first time, K, to each of the times, s.
 
-    Between times heat and speed (rad/s) are smooth. Radau IIA of order 5 (Hairer & Wanner), whose steps
-    end at each time: what is made, given off and stored are unknowns of the same system, and the method
-    keeps their sum to rounding. `tolerance` is relative, of a rise of 1 K too. Raises SimulationError where
-    the integration fails.
+    Radau IIA of order 5 (Hairer & Wanner), begun anew at every time, where heat and speed may jump or turn.
+    What arises and what leaves are unknowns of the same system, so that the method keeps the balance to
+    rounding. `tolerance` is relative, and of 1 K. Raises SimulationError where the integration fails.
     """
     carried, leaving = network.incidence(), network.leaving()
     capacities = np.array(list(network.capacities.values()))
     nodes, held = len(capacities), leaving.shape[1]
 
-    def rates(time: float, state: np.ndarray) -> np.ndarray:
+    def rates(number: int, share: float, state: np.ndarray) -> np.ndarray:
         points = state[:nodes].T
-        made = heat(time, points)
-        flows = network.flows(points, speed(time))
-        return np.hstack([(made + flows @ carried) / capacities, made, flows @ leaving]).T
+        made = np.asarray(heat(number, share, points))
+        flows = network.flows(points, speed(number, share))
+        left = flows @ leaving
+        left[:, : made.shape[1] - nodes] += made[:, nodes:]
+        into = made[:, :nodes] + flows @ carried
+        return np.hstack([into / capacities, made.sum(axis=1, keepdims=True), left]).T
 
-    def jacobian(time: float, state: np.ndarray) -> np.ndarray:
-        """Nothing depends on the energies; difference quotients for the temperatures alone."""
-        step = 1e-4
+    def slopes(number: int, share: float, state: np.ndarray) -> np.ndarray:
+        """By differences for the temperatures; nothing depends on energies."""
         moved = np.repeat(state[:, None], 2 * nodes, axis=1)
-        moved[:nodes] += np.hstack([np.eye(nodes), -np.eye(nodes)]) * step
-        values = rates(time, moved)
+        moved[:nodes] += np.hstack([np.eye(nodes), -np.eye(nodes)]) * _DIFFERENCE
+        values = rates(number, share, moved)
         matrix = np.zeros((len(state), len(state)))
-        matrix[:, :nodes] = (values[:, :nodes] - values[:, nodes:]) / (2.0 * step)
+        matrix[:, :nodes] = (values[:, :nodes] - values[:, nodes:]) / (2.0 * _DIFFERENCE)
         return matrix
 
-    state = np.concatenate([start, np.zeros(nodes + held)])
-    states = [state]
-    atol = np.concatenate([np.full(nodes, tolerance), np.full(nodes + held, tolerance * capacities.sum())])
+    state = np.concatenate([start, np.zeros(1 + held)])
+    states, warmest = [state], tolerance * capacities.sum()
+    atol = np.concatenate([np.full(nodes, tolerance), np.full(1 + held, warmest)])
     for number, (begin, end) in enumerate(pairwise(np.asarray(times, dtype=float).tolist())):
-        found = solve_ivp(
-            lambda time, at: rates(time, at[:, None])[:, 0] if at.ndim == 1 else rates(time, at),
-            (begin, end),
-            state,
-            method="Radau",
-            jac=jacobian,
-            rtol=tolerance,
-            atol=atol,
-        )
-        if not found.success:
-            raise SimulationError(f"the temperatures cannot be followed beyond {found.t[-1]:g} s")
-        state = found.y[:, -1]
+        if end > begin:
+            state = _integrated(partial(rates, number), partial(slopes, number), state, begin, end, atol)
         states.append(state)
         if progress is not None:
             progress(number + 1)
@@ -91,7 +91,31 @@ def heat_over_time(
     return HeatHistory(
         np.asarray(times, dtype=float),
         temperatures,
-        every[:, nodes : 2 * nodes],
-        every[:, 2 * nodes :],
+        every[:, nodes],
+        every[:, nodes + 1 :],
         (temperatures - temperatures[0]) @ capacities,
     )
+
+
+def _integrated(
+    rates: Callable[[float, np.ndarray], np.ndarray],
+    slopes: Callable[[float, np.ndarray], np.ndarray],
+    state: np.ndarray,
+    begin: float,
+    end: float,
+    atol: np.ndarray,
+) -> np.ndarray:
+    """The state at the end of an interval."""
+    found = solve_ivp(
+        lambda time, at: rates((time - begin) / (end - begin), at[:, None])[:, 0],
+        (begin, end),
+        state,
+        method="Radau",
+        first_step=end - begin,
+        jac=lambda time, at: slopes((time - begin) / (end - begin), at),
+        rtol=float(atol[0]),
+        atol=atol,
+    )
+    if not found.success:
+        raise SimulationError(f"the temperatures cannot be followed beyond {found.t[-1]:g} s")
+    return found.y[:, -1]

@@ -29,7 +29,7 @@ from tribodyn.studies.motion.batch.signals import SignalBatch, SignalSettings
 from tribodyn.studies.motion.batch.swept import SweepSettings, layout_of, row_bytes
 from tribodyn.studies.motion.case import refuse_long_period
 from tribodyn.studies.motion.estimate import cost_keys, marching_of
-from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.heat.settled import prepare_settled
 from tribodyn.studies.motion.report import SWEPT
 from tribodyn.studies.protocol.batch import Batch, Chunk, SignalRequest
 
@@ -138,7 +138,7 @@ class MotionBatch:
     def check(self, case: Any, settings: SweepSettings) -> None:
         """Prepare a case; a steady state needs a load that does not change with time."""
         refuse_by_time(case)
-        model = prepare(at_length(case, settings)).model
+        model = prepare_settled(at_length(case, settings)).model
         if settings.steady:
             refuse_steady(case)
             refuse_time_dependent(model)

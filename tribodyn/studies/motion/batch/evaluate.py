@@ -45,8 +45,8 @@ from tribodyn.studies.motion.batch.steady import (
     steady,
 )
 from tribodyn.studies.motion.batch.swept import UNSTABLE_QUANTITIES, SweepSettings
+from tribodyn.studies.motion.heat.settled import prepare_settled
 from tribodyn.studies.motion.planetary.jamming import jams
-from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.report import SWEPT
 from tribodyn.studies.motion.summary import meshes_of_run
 from tribodyn.studies.protocol.batch import Chunk, NeighbourWay
@@ -177,7 +177,7 @@ def _evaluate(
         try:
             if settings.steady:
                 refuse_steady(case)
-            prepared = prepare(at_length(case, settings))
+            prepared = prepare_settled(at_length(case, settings))
             places = places_of(prepared, settings)
             start_state = None if chunk.states is None else chunk.states[i][places]
             # a neighbour of another structure lacks states
@@ -195,7 +195,7 @@ def _evaluate(
             _fail(rows, i, str(error))
     for numbers in _alike({i: prepared.case for i, (prepared, _) in ready.items()}):
         ways = [chunk.ways[i] if chunk.ways else None for i in numbers]
-        between = partial(prepared_between, prepare=prepare)
+        between = partial(prepared_between, prepare=prepare_settled)
         prepared_at = between([ready[i][0] for i in numbers], ways)
         outcomes = _solve([ready[i] for i in numbers], ways, prepared_at, settings, workers)
         for line, (i, outcome) in enumerate(zip(numbers, outcomes, strict=True)):

@@ -17,11 +17,11 @@ from tribodyn.record.sweep_schema import OF_MESH as OF_MESH
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
 from tribodyn.studies.motion.case import Gearbox, refuse_long_period
+from tribodyn.studies.motion.heat.thermal_iteration import at_own_temperatures
 from tribodyn.studies.motion.planetary.frames import rolling_of
 from tribodyn.studies.motion.planetary.results import meshes_of_set, stage_quantities, worst_stage
 from tribodyn.studies.motion.prepare import coordinates_of_no_body, structure_of
 from tribodyn.studies.motion.summary import concluded, meshes_of_run, steady_quantities
-from tribodyn.studies.motion.thermal_iteration import at_own_temperatures
 
 #: What a sweep keeps of every mesh; the name of the dataset is that of the quantity and `OF_MESH`.
 KEPT = (

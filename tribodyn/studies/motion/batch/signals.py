@@ -39,7 +39,7 @@ from tribodyn.studies.motion.batch.stretch import (
     stretch_of,
 )
 from tribodyn.studies.motion.estimate import cost_keys, marching_of
-from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.heat.settled import prepare_settled
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.protocol.batch import Chunk, SignalRequest
 
@@ -293,7 +293,7 @@ class SignalBatch:
         output = dataclasses.replace(case.output, samples_per_cycle=settings.samples)
         solver = dataclasses.replace(case.solver, cycles=settings.cycles)
         sampled_case = dataclasses.replace(case, sensors=sensors, output=output, solver=solver)
-        return prepare(sampled_case)
+        return prepare_settled(sampled_case)
 
 
 #: Sensors and lines of settings that need none.

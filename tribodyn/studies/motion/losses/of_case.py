@@ -22,6 +22,9 @@ def losses_at_duty(prepared: PreparedGearbox) -> tuple[dict[str, Any], list[str]
         return {}, []
     speed, oil = case.source.speed, case.pair.lubricant.temperature
     at = OperatingPoints(np.ones(1), np.array([speed]), np.array([np.nan if oil is None else float(oil)]))
+    if case.heat is not None and case.heat.settled is not None:
+        bulk = [0.5 * (one + two) for one, two in case.heat.settled.gears]
+        at = at._replace(bulk_temperature=np.array([bulk]))
     try:
         found = gearbox.at(at)
     except (SimulationError, InputError) as error:

@@ -29,11 +29,11 @@ from tribodyn.gears.motion.settings import (
 )
 from tribodyn.gears.scenario import (
     FilmKeys,
+    GearboxTemperatureKeys,
     GearScenario,
     LossKeys,
     Oil,
     ShaftKeys,
-    TemperatureKeys,
     broken_gear_rules,
 )
 from tribodyn.gears.supports import has_supports
@@ -45,6 +45,7 @@ from tribodyn.input.tables.gears.drive_data import assembled_on_path, gives_back
 from tribodyn.input.tables.gears.single_teeth import Damages, GearPlace
 from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.input.tables.sensors import Housing, Sensors, broken_sensor_rules
+from tribodyn.input.tables.temperature import broken_gearbox_heat
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.duty import TrainOperating
 from tribodyn.studies.motion.drivetrain.placed_train import PlacedTrain, TrainKinematics
@@ -67,7 +68,7 @@ class GearPairScenario(GearScenario):
     shaft: ShaftKeys = None
     operating: Operating
     mesh: Mesh
-    temperature: TemperatureKeys = None
+    temperature: GearboxTemperatureKeys = None
     losses: LossKeys = None
     film: FilmKeys = None
     friction: Friction
@@ -127,6 +128,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         *broken_gear_rules(scenario, every_tooth=True),
     ]
     yield from of_drive
+    yield from broken_gearbox_heat(scenario.temperature, scenario.operating.oil_temperature, SIDES)
     if not of_drive:
         yield from broken_damage(scenario.damage, gears_of_pair(scenario))
     yield from broken_source_rules(scenario.operating)

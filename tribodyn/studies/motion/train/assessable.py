@@ -15,7 +15,7 @@ from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
-from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.heat.settled import prepare_settled
 from tribodyn.studies.motion.train.face_loads import FACE, along_face, of_deflected, proposals
 from tribodyn.studies.motion.train.pair_view import stiffness_key
 from tribodyn.studies.protocol.load import load_data
@@ -194,7 +194,7 @@ def shafts(case: Gearbox) -> list[TurningShaft]:
 
 def faces(case: Gearbox) -> dict[str, dict[str, float]]:
     """Loads along the faces of meshes on drawn shafts, matrices or pins, and what makes them even."""
-    spread = of_deflected(prepare(case))
+    spread = of_deflected(prepare_settled(case))
     proposed, found = proposals(spread, len(case.meshes)), dict[str, dict[str, float]]()
     for m, mesh in enumerate(case.meshes):
         of_mesh = along_face(spread, m) | proposed[m]

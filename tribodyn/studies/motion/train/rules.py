@@ -19,6 +19,7 @@ from tribodyn.input.tables.gears.drive_data import gives_backlash
 from tribodyn.input.tables.laws import broken_link_law
 from tribodyn.input.tables.sensors import broken_sensor_rules
 from tribodyn.input.tables.shafts import drawn_shafts, listed
+from tribodyn.input.tables.temperature import GEARBOX, broken_gearbox_heat
 from tribodyn.studies.motion.drivetrain.clutch_rules import broken_clutch
 from tribodyn.studies.motion.drivetrain.duty import broken_duty, duty_of
 from tribodyn.studies.motion.drivetrain.names import broken_names, broken_sort
@@ -62,6 +63,9 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         ]
     else:
         broken += _bare_meshes(scenario.mesh)
+        if scenario.temperature is not None and scenario.temperature.model == GEARBOX:
+            rule = "needs gears with teeth, and those of a bare model have none"
+            broken.append(InputError("temperature.model", quoted(GEARBOX), rule, "write [[stage]]"))
     broken += [*broken_solver_rules(scenario.solver), *broken_rules_in_time(scenario)]
     broken += broken_sensor_rules(scenario.sensor, scenario.housing)
     yield from broken
@@ -76,7 +80,9 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
     except InputError as error:
         yield error
         return
-    of_losses = broken_train_losses(scenario.losses, train, scenario.shaft)
+    gears = [gear.name for gear in train.parts.gears]
+    heat = broken_gearbox_heat(scenario.temperature, scenario.operating.oil_temperature, gears)
+    of_losses = [*broken_train_losses(scenario.losses, train, scenario.shaft), *heat]
     if broken := [*_each_mesh_once(train), *_hands(train), *of_losses, *_pairs(scenario, train)]:
         yield from broken
         return

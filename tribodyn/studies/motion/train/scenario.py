@@ -20,7 +20,7 @@ from tribodyn.gears.motion.settings import (
     solver_data,
 )
 from tribodyn.gears.prepare import with_chosen_laws
-from tribodyn.gears.scenario import FilmKeys, LossKeys, Oil, TemperatureKeys, gear_fields, oil_fields
+from tribodyn.gears.scenario import FilmKeys, GearboxTemperatureKeys, LossKeys, Oil, gear_fields, oil_fields
 from tribodyn.gears.supports import GearSupport
 from tribodyn.geometry.drive import SIDES, BodyMass
 from tribodyn.input.fields import PartName, head_of
@@ -39,6 +39,7 @@ from tribodyn.input.tables.gears.single_teeth import Damages, with_own_teeth
 from tribodyn.input.tables.laws import law_values
 from tribodyn.input.tables.sensors import Housing, Sensors, housing_of, sensors_of
 from tribodyn.input.tables.shafts import Shafts
+from tribodyn.input.tables.temperature import gearbox_heat_of
 from tribodyn.studies.motion.case import (
     HOUSING,
     BodyData,
@@ -122,7 +123,7 @@ class GearTrainScenario(SpectrumScenario):
     operating: TrainOperating
     load: tuple[LoadTable, ...] = Field((), max_length=MOST_PARTS)
     mesh: Meshes
-    temperature: TemperatureKeys = None
+    temperature: GearboxTemperatureKeys = None
     losses: LossKeys = None
     film: FilmKeys = None
     friction: Friction
@@ -176,6 +177,11 @@ def case_of(
         housing=housing_of(scenario.housing),
         sets=sets,
         clutches=tuple(clutch_data(part, train.numbers) for part in train.parts.clutches),
+        heat=gearbox_heat_of(
+            scenario.temperature,
+            scenario.operating.oil_temperature,
+            None if scenario.losses is None else scenario.losses.oil_volume,
+        ),
     )
     return _in_nominal_cycles(box) if box.in_time else box
 

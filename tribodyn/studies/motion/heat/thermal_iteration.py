@@ -5,13 +5,15 @@ from dataclasses import replace
 
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.prepare import CLOSE as CLOSE_TO
-from tribodyn.gears.prepare import Thermal, at_tooth_temperature
+from tribodyn.gears.prepare import Thermal, at_tooth_temperature, idle_losses
 from tribodyn.gears.tabulated import Tabulated, quasi_static_loss
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.families import family
 from tribodyn.studies.motion.case import Gearbox
-from tribodyn.tribology.bulk_temperature import heat_of_other_meshes
+from tribodyn.tribology.bulk_temperature import Heat, Temperatures, heat_of_other_meshes
+from tribodyn.tribology.heat.data import SettledTemperatures
 from tribodyn.tribology.losses.loss import Loss
+from tribodyn.tribology.oil import lubricant_at
 
 #: Change of a mesh's loss, as a share of it, that is not worth another pass; passes at most.
 CLOSE, PASSES = 1e-3, 8
@@ -24,7 +26,20 @@ def at_tooth_temperatures(case: Gearbox, tables: Sequence[Tabulated]) -> list[Wa
 
     In a lumped network all meshes heat one oil and one housing; that heat and the losses settle together.
     """
+    if case.heat is not None and case.heat.settled is not None:
+        return [_in_gearbox(case, m, case.heat.settled, each) for m, each in enumerate(tables)]
     return _settled(case, [each.assembly for each in tables], [quasi_static_loss(each) for each in tables])
+
+
+def _in_gearbox(case: Gearbox, m: int, settled: SettledTemperatures, tabulated: Tabulated) -> Warm:
+    """A pair whose temperatures are known from the balance of the whole gearbox; its heat is all of that."""
+    pair, (driving, driven), lost = case.meshes[m].pair, settled.gears[m], settled.losses[m]
+    temperatures = Temperatures(driving, driven, settled.oil, settled.housing)
+    oil = replace(lubricant_at(pair.lubricant, temperatures.bulk), supply=settled.oil)
+    idle = idle_losses(pair, tabulated.assembly, lubricant_at(pair.lubricant, settled.oil))
+    heat = Heat(0.5 * lost, 0.5 * lost, settled.heat - lost)
+    thermal = Thermal(oil, lost, idle, temperatures, heat, settled.given_off)
+    return replace(pair, lubricant=oil), thermal
 
 
 def at_own_temperatures(

@@ -1,0 +1,39 @@
+"""Thermal rating by one coefficient: at the rated power the sump is at its limit."""
+
+import math
+
+import pytest
+
+from tribodyn.tribology.heat.thermal_rating import (
+    COEFFICIENTS,
+    heat_dissipated,
+    heat_transfer_coefficient,
+    sump_temperature,
+    thermal_rating,
+)
+
+
+@pytest.mark.parametrize(("speed", "coefficient"), [(0.0, 15.0), (3.75, 19.5), (7.5, 33.0), (40.0, 58.0)])
+def test_coefficients_are_linear_between_the_air_speeds_of_the_table(speed, coefficient):
+    assert heat_transfer_coefficient(speed) == pytest.approx(coefficient)
+
+
+def test_every_row_of_the_table_is_itself():
+    assert [heat_transfer_coefficient(speed) for speed, _ in COEFFICIENTS] == [k for _, k in COEFFICIENTS]
+
+
+def test_at_the_rated_power_the_sump_is_at_its_limit():
+    area, ambient, limit, power = 0.9, 298.15, 368.15, 75e3
+    dissipated = heat_dissipated(15.0, area, limit, ambient)
+    assert dissipated == pytest.approx(945.0)
+    rated = thermal_rating(dissipated, 120.0, 1500.0, power)
+    loss = 120.0 + 1500.0 * rated / power
+    assert sump_temperature(lambda _: loss, 15.0 * area, ambient, (233.0, 453.0)) == pytest.approx(limit)
+    assert thermal_rating(100.0, 120.0, 1500.0, power) == 0.0
+
+
+def test_a_loss_that_falls_as_the_sump_warms_is_met_where_the_closed_form_says():
+    found = sump_temperature(lambda sump: 900.0 - 6.0 * (sump - 300.0), 12.0, 300.0, (233.0, 453.0))
+    assert found == pytest.approx(300.0 + 900.0 / 18.0)
+    assert sump_temperature(lambda _: 1e5, 12.0, 300.0, (233.0, 453.0)) is None
+    assert math.isclose(sump_temperature(lambda _: 0.0, 12.0, 300.0, (233.0, 453.0)) or 0.0, 300.0)

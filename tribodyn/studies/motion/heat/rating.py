@@ -1,0 +1,123 @@
+"""What is said of the heat of a gearbox: its parts and paths, and ISO/TR 14179-1's rating beside them."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.cases.loss_part import OperatingPoints
+from tribodyn.cases.results import TextTable
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.heat.nodes import heat_of
+from tribodyn.studies.motion.losses.part import LOSSES
+from tribodyn.tribology.heat.thermal_rating import (
+    heat_dissipated,
+    heat_transfer_coefficient,
+    sump_temperature,
+    thermal_rating,
+)
+from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS
+
+#: Terms of losses that go with the load.
+WITH_LOAD = ("P_VZP", "P_VLP")
+#: Temperatures between which losses are interpolated, K apart.
+_APART = 5.0
+
+
+class ThermalRating(NamedTuple):
+    """Thermal rating of ISO/TR 14179-1: one coefficient, one temperature; SI, temperatures in K."""
+
+    coefficient: float  # k, W/(m² K)
+    sump_temperature: float | None  # at the duty; None: not within the oil's range
+    sump_limit: float
+    heat_dissipated: float  # at the limit, W
+    loss_without_load: float  # at the limit, W
+    loss_with_load: float  # at the limit and the duty's power, W
+    power: float  # that the input takes at the duty, W
+    thermal_power: float  # P_T, W
+
+
+def rating_of(case: Gearbox) -> ThermalRating | None:
+    """The rating of a gearbox; None where its scenario does not ask for its heat."""
+    data = case.heat
+    if data is None:
+        return None
+    nominal = LOSSES.nominal(case)
+    known = np.arange(TEMPERATURE_RANGE[0], TEMPERATURE_RANGE[1] + _APART, _APART)
+    at = np.append(known[(known > data.ambient_temperature - _APART)], data.sump_limit)
+    ones = np.ones(len(at))
+    bulk = np.repeat(at[:, None], len(case.meshes), axis=1)
+    losses = LOSSES.at(case, OperatingPoints(ones, nominal.input_speed * ones, at, bulk))
+    power = losses.power(nominal.input_speed * ones)
+    loaded = np.array([source.term in WITH_LOAD for source in losses.sources])
+    total, limit = power.sum(axis=1), power[-1]
+    coefficient = data.housing.coefficient or heat_transfer_coefficient(data.housing.air_speed)
+    conductance = coefficient * data.housing.area
+    sump = sump_temperature(
+        lambda temperature: float(np.interp(temperature, at[:-1], total[:-1])),
+        conductance,
+        data.ambient_temperature,
+        (float(at[0]), float(at[-2])),
+    )
+    dissipated = heat_dissipated(coefficient, data.housing.area, data.sump_limit, data.ambient_temperature)
+    idle, with_load = float(limit[~loaded].sum()), float(limit[loaded].sum())
+    taken = nominal.input_torque * nominal.input_speed + float(limit.sum())
+    rated = thermal_rating(dissipated, idle, with_load, taken) if with_load > 0.0 else float("inf")
+    return ThermalRating(coefficient, sump, data.sump_limit, dissipated, idle, with_load, taken, rated)
+
+
+def heat_part(case: Gearbox) -> tuple[dict[str, Any], list[TextTable], list[TextTable]]:
+    """Data, tables and tables of details of a case in thermal balance; nothing where it asks for none."""
+    network, settled = heat_of(case), case.heat and case.heat.settled
+    if network is None or settled is None:
+        return {}, [], []
+    parts, speed = settled.parts, abs(LOSSES.nominal(case).input_speed)
+    rows = [
+        (name, f"{value - ZERO_CELSIUS:.1f}", f"{network.network.capacities[name]:.4g}")
+        if name in network.network.capacities
+        else (name, f"{value - ZERO_CELSIUS:.1f}", "–")
+        for name, value in parts.items()
+    ]
+    here = np.array([[parts[name] for name in network.network.nodes]])
+    flows = network.network.flows(here, speed)[0].tolist()
+    paths = []
+    for path, flow in zip(network.network.paths, flows, strict=True):
+        apart = parts[path.one] - parts[path.two]
+        paths.append({"from": path.one, "to": path.two, "heat": flow, "by": path.what})
+        paths[-1] |= {"conductance": flow / apart} if apart else {}
+    shown = [
+        (
+            path["from"],
+            path["to"],
+            f"{path['heat']:.4g}",
+            f"{path['conductance']:.3g}" if "conductance" in path else "–",
+            path["by"],
+        )
+        for path in paths
+    ]
+    rating = rating_of(case)
+    assert rating is not None, "it has a network"
+    sump = rating.sump_temperature
+    simple = [
+        ("k, W/(m² K)", f"{rating.coefficient:.3g}"),
+        ("sump at the duty, °C", "beyond 180" if sump is None else f"{sump - ZERO_CELSIUS:.1f}"),
+        (f"heat dissipated at {rating.sump_limit - ZERO_CELSIUS:.4g} °C, W", f"{rating.heat_dissipated:.4g}"),
+        ("losses there without load, W", f"{rating.loss_without_load:.4g}"),
+        ("losses there with the load, W", f"{rating.loss_with_load:.4g}"),
+        ("thermal rating P_T, kW", f"{1e-3 * rating.thermal_power:.4g}"),
+    ]
+    data = {
+        "heat": {
+            "oil_temperature": settled.oil,
+            "housing_temperature": settled.housing,
+            "temperatures": dict(parts),
+            "heat_generated": settled.heat,
+            "heat_given_off": settled.given_off,
+            "paths": paths,
+            "thermal_rating": rating._asdict(),
+        }
+    }
+    tables = [
+        TextTable("Temperatures of the parts", ("part", "°C", "J/K"), rows),
+        TextTable("Beside it: thermal rating of ISO/TR 14179-1", ("", ""), simple),
+    ]
+    return data, tables, [TextTable("Paths of heat", ("from", "to", "W", "W/K", "by"), shown)]
