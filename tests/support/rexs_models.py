@@ -1,6 +1,7 @@
 """A gearbox of one helical stage as REXS, written by hand, and pieces of it that tests replace."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -22,7 +23,7 @@ def sample(name: str) -> Path:
     return path
 
 
-def part(number: int, sort: str, name: str = "", **values: object) -> str:
+def part(number: int, sort: str, name: str = "", **values: Any) -> str:
     """A component; a value is a number with a unit, "3 mm", or a text."""
     lines = []
     for key, value in values.items():

@@ -76,6 +76,10 @@ def export(
         due = " or ".join(form.takes)
         raise exported.refused(f"is {exported.sort}, and {to} takes {due}", "name one")
     written = write(exported, output.stem, choices)
+    if output.suffix and output.suffix not in written.files:
+        wanted = next(iter(written.files))
+        rule = f"{to} writes {wanted} alone"
+        raise InputError("--output", str(output), rule, f'write "{output.with_suffix(wanted)}"')
     files = {output.with_name(output.stem + ending): content for ending, content in written.files.items()}
     for file in files:
         check_output(file, force)

@@ -3,6 +3,7 @@
 import base64
 import io
 import json
+import random
 import re
 import struct
 import tracemalloc
@@ -246,3 +247,38 @@ def test_a_relation_to_what_is_not_read_does_no_harm(tmp_path: Path):
         one_stage(parts=parts, more=relation(99, "assembly", assembly=31, part=30)), encoding="utf-8"
     )
     assert [(each.number, each.attribute) for each in scenario_of(path).not_used][-1] == (30, "hue")
+
+
+def broken(text: str, draw: random.Random) -> str:
+    """A file in which lines are lost, doubled, swapped, or hold other numbers, units, types or roles."""
+    lines = text.split("\n")
+    for _ in range(draw.randint(1, 3)):
+        place, other = (draw.randrange(len(lines)) for _ in range(2))
+        number = draw.choice(["0", "-1", "1e308", "nan", "1e-300", "9" * 20, "abc", "", "-0.0", "7"])
+        sort = draw.choice(["shaft", "ring_gear", "coupling", "planetary_stage", "gear_unit", "nonsense"])
+        lines[place] = draw.choice(
+            [
+                lines[other],
+                "",
+                re.sub(r"-?\d+(\.\d+)?", number, lines[place], count=1),
+                lines[place].replace("mm", draw.choice(["deg", "kg", "furlong", ""])),
+                re.sub(r'type="\w+"', f'type="{sort}"', lines[place]),
+                re.sub(r'role="\w+"', 'role="assembly"', lines[place], count=1),
+            ]
+        )
+    return "\n".join(lines)
+
+
+@pytest.mark.filterwarnings("error")
+def test_files_broken_at_random_are_read_or_refused_in_a_line(tmp_path: Path):
+    draw, path = random.Random(5), tmp_path / "gearbox.rexs"
+    text = one_stage().replace("><", ">\n<")
+    refused: list[str] = []
+    for _ in range(300):
+        path.write_text(broken(text, draw), encoding="utf-8")
+        try:
+            scenario_of(path)
+        except td.InputError as error:
+            refused.append(str(error))
+    assert 20 < len(refused) < 280
+    assert all(each.startswith(f"{path}: ") and "\n" not in each for each in refused)

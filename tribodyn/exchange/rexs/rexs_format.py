@@ -3,9 +3,10 @@
 from itertools import groupby
 from pathlib import Path
 
-from tribodyn.exchange.format import ExchangeFormat, Imported
+from tribodyn.exchange.format import RECORD, SCENARIO, ExchangeFormat, Imported
 from tribodyn.exchange.rexs.file.sheet import NotUsed
 from tribodyn.exchange.rexs.reading.scenario import scenario_of
+from tribodyn.exchange.rexs.writing.export import write
 
 
 def read(path: Path) -> Imported:
@@ -35,5 +36,7 @@ FORMAT = ExchangeFormat(
     "rexs",
     "gearboxes of calculation programs, REXS 1.0 to 2.0.0: gears, shafts, bearings, oil, loads",
     (".rexs", ".rexsj", ".rexsz"),
-    read=read,
+    (SCENARIO, RECORD),
+    write,
+    read,
 )

@@ -126,6 +126,9 @@ RADIAL_STIFFNESS, AXIAL_STIFFNESS = (
 )
 TILT_STIFFNESS = RexsKey("bending_stiffness", "stiffness_tilt", "N mm / rad")
 TORSIONAL_STIFFNESS = RexsKey("rotational_stiffness", "stiffness", "N mm / rad")
+ROWS = RexsKey("number_of_bearing_rows", "")
+ROW_DISTANCE = RexsKey("distance_between_bearing_rows", "row_distance", "mm")
+ROW_ABSORPTION = RexsKey("axial_force_absorption_of_row", "")
 CONTACT_ANGLE = RexsKey("pressure_angle", "contact_angle", "deg")
 #: Of a row of rolling elements, and of one of them.
 ROW = (

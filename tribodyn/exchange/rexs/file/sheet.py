@@ -50,6 +50,12 @@ class Sheet:
                 return attribute
         return None
 
+    def alike(self, first: Component, other: Component) -> None:
+        """Count what a component says as another one does as read: one stands for both."""
+        for name, attribute in other.attributes.items():
+            if first.attributes.get(name) == attribute and (first.case, first.number, name) in self._read:
+                self._read.add((other.case, other.number, name))
+
     def leave(self, part: Component, key: RexsKey, why: str) -> None:
         """Count an attribute as not used, and say why."""
         for name in (key.name, *key.older):
@@ -126,7 +132,7 @@ class Sheet:
             len(values) != 3
             or unit is None
             or unit.quantity != "length"
-            or not all(map(math.isfinite, values))
+            or not all(abs(each) <= _LARGEST for each in values)
         ):
             self.leave(part, key, "not three numbers")
             return None

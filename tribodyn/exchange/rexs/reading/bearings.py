@@ -21,6 +21,9 @@ from tribodyn.exchange.rexs.file.attributes import (
     RADIAL_STIFFNESS,
     RATINGS,
     ROW,
+    ROW_ABSORPTION,
+    ROW_DISTANCE,
+    ROWS,
     TILT_STIFFNESS,
     U_INNER,
     U_OUTER,
@@ -47,6 +50,7 @@ _ANGLED = (
     "tapered-roller",
     "spherical-roller",
 )
+_NO_WAY = "cylindrical-roller", "needle-roller"
 _ONE_WAY = "angular-contact-ball", "tapered-roller"
 #: Those that hold both ways and may slide.
 _BOTH_WAYS = "deep-groove-ball", "four-point-contact-ball", "self-aligning-ball", "spherical-roller"
@@ -85,10 +89,16 @@ def put_bearing(draft: Draft, support: Support, place: float, sense: int) -> Non
     if said is not None and kind is None:
         sheet.leave(bearing, BEARING_TYPE, "no such type in a scenario: springs stand for it")
     sizes = {} if kind is None else _sizes(sheet, bearing, kind)
+    if kind in _ONE_WAY and sizes and not _thrust(sheet, bearing, sense):
+        draft.change(
+            bearing, f"the direction in which a {kind} bearing holds is not in the file: springs stand for it"
+        )
+        sizes = {}
     if kind is None or not sizes:
         _put_springs(draft, bearing, kind)
         return
     draft.put("type", text(kind), sheet.text(bearing, DESIGNATION) or "")
+    sheet.truth(bearing, RADIAL_ABSORPTION)
     for key, value in sizes.items():
         draft.put(key, value)
     for rating in RATINGS:
@@ -98,44 +108,59 @@ def put_bearing(draft: Draft, support: Support, place: float, sense: int) -> Non
         draft.suggest("contamination_factor", "0.5")
     held = sheet.text(bearing, AXIAL_ABSORPTION)
     if kind in _ONE_WAY:
-        _put_thrust(draft, bearing, held, sense)
+        for key, value in _thrust(sheet, bearing, sense).items():
+            draft.put(key, value)
         if sheet.si(bearing, PRELOAD):
             draft.put("preload", sheet.toml(bearing, PRELOAD))
         elif sheet.si(bearing, PRELOAD_FORCE):
             draft.put("preload_force", sheet.toml(bearing, PRELOAD_FORCE))
-    else:
-        if sheet.si(bearing, CLEARANCE) is not None:
-            draft.put("clearance", sheet.toml(bearing, CLEARANCE))
-        if kind in _BOTH_WAYS and held == "no_direction":
-            draft.put("locating", "false")
-        elif kind in _BOTH_WAYS and held in ("positive", "negative"):
-            draft.change(bearing, f"takes axial force in the direction {held} alone; here both ways")
-        elif kind not in _BOTH_WAYS and held not in (None, "no_direction"):
-            draft.change(bearing, f"a {kind} bearing takes no axial force here; in the file {held}")
+        return
+    if sheet.si(bearing, CLEARANCE) is not None:
+        draft.put("clearance", sheet.toml(bearing, CLEARANCE))
+    if kind in _BOTH_WAYS and held == "no_direction":
+        draft.put("locating", "false")
+    elif kind in _BOTH_WAYS and held in ("positive", "negative"):
+        draft.change(bearing, f"takes axial force in the direction {held} alone; here both ways")
+    elif kind not in _BOTH_WAYS and held not in (None, "no_direction"):
+        draft.change(bearing, f"a {kind} bearing takes no axial force here; in the file {held}")
 
 
-def _put_thrust(draft: Draft, bearing: Component, held: str | None, sense: int) -> None:
+def _rows(sheet: Sheet, bearing: Component) -> list[Component]:
+    return sheet.model.related("assembly", "assembly", bearing.number, "part", "rolling_bearing_row")
+
+
+def _thrust(sheet: Sheet, bearing: Component, sense: int) -> dict[str, str]:
+    """Which way a bearing with a contact angle holds the shaft; nothing where the file does not say it.
+
+    What takes force towards -u stands at the end of smaller u of a pair in X arrangement.
+    """
     ways = {"positive": sense, "negative": -sense}
-    if held in ways:
-        draft.put("thrust", text("+z" if ways[held] > 0 else "-z"))
-    else:
-        rule = f"has to be positive or negative for a {draft.sheet.text(bearing, BEARING_TYPE)}"
-        raise draft.sheet.refused(
-            bearing, rule, "say in which direction it takes axial force", AXIAL_ABSORPTION.name
-        )
+    held, rows = sheet.text(bearing, AXIAL_ABSORPTION), _rows(sheet, bearing)
+    of_rows = [sheet.text(row, ROW_ABSORPTION) for row in rows]
+    count = max(len(rows), sheet.whole(bearing, ROWS) or 1)
+    if count == 1:
+        return {"thrust": text("+z" if ways[held] > 0 else "-z")} if held in ways else {}
+    distance = sheet.toml(bearing, ROW_DISTANCE) if sheet.si(bearing, ROW_DISTANCE) else None
+    pair = {("negative", "positive"): "X", ("positive", "negative"): "O"}.get(tuple(of_rows), "")  # type: ignore[call-overload]
+    if distance is None or count > 2 or not pair:
+        return {}
+    sliding = {"locating": "false"} if held == "no_direction" else {}
+    return {"arrangement": text(pair), "row_distance": distance, **sliding}
 
 
 def _sizes(sheet: Sheet, bearing: Component, kind: str) -> dict[str, str]:
     """The inside of a bearing, or what its catalogue says; nothing where neither is complete."""
-    rows = sheet.model.related("assembly", "assembly", bearing.number, "part", "rolling_bearing_row")
+    rows = _rows(sheet, bearing)
     found: dict[str, str] = {}
     if kind in _ANGLED:
         angle = _contact_angle(sheet, bearing, rows)
         if angle is None:
             return {}
         found["contact_angle"] = angle
-    if len(rows) == 2 and kind in ("cylindrical-roller", "needle-roller"):
-        found["rows"] = "2"
+    if max(len(rows), sheet.whole(bearing, ROWS) or 1) == 2 and kind in _NO_WAY:
+        if not sheet.si(bearing, ROW_DISTANCE):
+            return {}
+        found |= {"rows": "2", "row_distance": sheet.toml(bearing, ROW_DISTANCE) or ""}
     elements = (
         sheet.model.related("assembly", "assembly", rows[0].number, "part", "rolling_element") if rows else []
     )
@@ -205,6 +230,8 @@ def put_springs_of(draft: Draft, name: str, supports: list[Support]) -> None:
     draft.table(f"[bearings.{name}]", ", ".join(each.bearing.name for each in supports))
     stiffness = [sheet.si(each.bearing, RADIAL_STIFFNESS) for each in supports]
     total = sum(value or TYPICAL for value in stiffness)
+    for each in supports:
+        sheet.truth(each.bearing, RADIAL_ABSORPTION)
     for key in ("stiffness_x", "stiffness_y"):
         if not all(stiffness):
             draft.assume(key, f'"{total:g} N/m"')
@@ -212,6 +239,24 @@ def put_springs_of(draft: Draft, name: str, supports: list[Support]) -> None:
             draft.put(key, f'"{STIFF:g} N/m"', "rigid in the file")
         else:
             draft.put(key, f'"{total:.9g} N/m"')
+    held = [
+        each for each in supports if sheet.text(each.bearing, AXIAL_ABSORPTION) not in (None, "no_direction")
+    ]
+    along = sum(sheet.si(each.bearing, AXIAL_STIFFNESS) or 0.0 for each in held)
+    for key, value, most in (
+        ("stiffness_axial", along, STIFF),
+        (
+            "stiffness_tilt",
+            sum(sheet.si(each.bearing, TILT_STIFFNESS) or 0.0 for each in supports),
+            STIFF_TILT,
+        ),
+    ):
+        unit = "N/m" if key == "stiffness_axial" else "N*m/rad"
+        draft.put(
+            key,
+            f'"{min(value, most):.9g} {unit}"' if value else None,
+            "rigid in the file" if value > most else "",
+        )
     if all(stiffness) and total >= RIGID:
         draft.change(supports[0].bearing, f"is rigid, as others of {name}; here {STIFF:g} N/m")
     draft.assume("damping_ratio", "0.05")

@@ -33,6 +33,7 @@ class Draft:
         self.lines: list[str] = []
         self.assumed: list[str] = []
         self.changed: list[str] = []
+        self.bodies: set[int] = set()  # ids of masses that are a [[body]]
         self._names: dict[int, str] = {}
         self._table = ""
 

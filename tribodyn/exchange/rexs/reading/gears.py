@@ -7,6 +7,7 @@ from tribodyn.exchange.rexs.file.attributes import (
     CROWNING,
     CROWNING_SHAPE,
     CUTTER,
+    DATUM_FACE,
     FACE_WIDTH,
     FLANK,
     GEAR,
@@ -34,6 +35,7 @@ from tribodyn.exchange.rexs.reading.materials import material_of
 
 GEARS = "cylindrical_gear", "ring_gear"
 _FLANKS = "cylindrical_gear_flank", "flank_geometry"
+_TURNED = {"lead_relief_start": "lead_relief_end", "lead_relief_end": "lead_relief_start"}
 #: How far what both flanks, or both gears, say may differ.
 _NEAR = 1e-9
 
@@ -145,10 +147,8 @@ def _put_tip(draft: Draft, gear: Component, teeth: int, internal: bool) -> None:
     sheet = draft.sheet
     tip, module = sheet.si(gear, TIP_DIAMETER), sheet.si(gear, NORMAL_MODULE) or 0.0
     if tip is None:
-        if internal:
-            draft.assume(
-                "addendum", "0.9", "no tip diameter in the file: clear of the fillets of its planets"
-            )
+        if internal and not any(of_both_flanks(sheet, gear, key) for key in FLANK):
+            draft.assume("addendum", "0.9", "no tip diameter in the file: clear of its planets' fillets")
         return
     helix = sheet.si(gear, HELIX_ANGLE) or 0.0
     reference = teeth * module / math.cos(helix)
@@ -198,10 +198,17 @@ def _put_modification(draft: Draft, gear: Component) -> None:
     """What is taken off the flanks; both are read, the left one is written."""
     sheet = draft.sheet
     written: dict[str, str | None] = {}
+    turned = sheet.text(gear, DATUM_FACE) == "positive"
     for number, flank in enumerate(flanks_of(sheet, gear)):
         found: dict[str, str | None] = {}
         for part in sheet.model.related("reference", "origin", flank.number, "referenced"):
             found |= _modification(sheet, part)
+        if turned:  # the datum face is at the end of larger z
+            found = {_TURNED.get(key, key): value for key, value in found.items()}
+            if (slope := found.get("helix_slope")) is not None:
+                found["helix_slope"] = (
+                    slope.replace('"-', '"') if slope[1] == "-" else slope.replace('"', '"-', 1)
+                )
         if number and found != written:
             draft.change(gear, "the modification of the left flank stands for that of both")
         written = written or found

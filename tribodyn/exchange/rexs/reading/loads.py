@@ -152,7 +152,8 @@ def _end(draft: Draft, shaft: Component, names: Mapping[int, str]) -> str:
     for load, its in transmitting(sheet):
         place = sheet.si(load, U_ON_SHAFT) if its is shaft else None
         for mass in masses_on(sheet, shaft):
-            if place is not None and abs((sheet.si(mass, U_ON_SHAFT) or 0.0) - place) < 1e-6:
+            there = sheet.si(mass, U_ON_SHAFT) or 0.0
+            if mass.number in draft.bodies and place is not None and abs(there - place) < 1e-6:
                 return draft.name(mass)
         if its is shaft:
             sheet.leave(load, U_ON_SHAFT, "torque enters and leaves at gears and bodies")

@@ -4,19 +4,32 @@ import math
 from typing import NamedTuple
 
 from tribodyn.exchange.rexs.file.attributes import (
+    CENTRE_DISTANCE,
+    INERTIA,
     INNER,
     LENGTH,
+    MASS,
     OUTER,
     RADIAL_STIFFNESS,
+    TORSIONAL_STIFFNESS,
+    U_INNER,
+    U_ON_SHAFT,
     RexsKey,
 )
 from tribodyn.exchange.rexs.file.model import Component
 from tribodyn.exchange.rexs.file.sheet import Sheet
-from tribodyn.exchange.rexs.reading.bearings import RIGID, put_springs_of, supports_of
+from tribodyn.exchange.rexs.reading.bearings import (
+    RIGID,
+    RIGID_TILT,
+    STIFF,
+    TYPICAL,
+    put_springs_of,
+    supports_of,
+)
 from tribodyn.exchange.rexs.reading.draft import Draft, text, texts
-from tribodyn.exchange.rexs.reading.frames import frame_of, line_of_centres
-from tribodyn.exchange.rexs.reading.gears import check_hands, put_teeth
-from tribodyn.exchange.rexs.reading.shafts import Cylinder, gears_on, mass_of, sections_of
+from tribodyn.exchange.rexs.reading.frames import frame_of, line_of_centres, middle_of_gear, sense_of
+from tribodyn.exchange.rexs.reading.gears import check_hands, flanks_of, put_teeth
+from tribodyn.exchange.rexs.reading.shafts import Cylinder, mass_of, masses_on, sections_of
 
 COUPLINGS = "coupling", "switchable_coupling"
 ENGAGED = RexsKey("is_engaged", "")
@@ -119,6 +132,20 @@ def fixed_shafts(sheet: Sheet, *, open_too: bool = False) -> set[int]:
     return held
 
 
+def couplings_of(sheet: Sheet, shafts: tuple[Component, ...]) -> list[Component]:
+    """The couplings that join shafts with the casing."""
+    found = []
+    for coupling in sheet.model.of_type(*COUPLINGS):
+        roles = (
+            sheet.model.related("side", "assembly", coupling.number, f"{side}_part")
+            for side in ("inner", "outer")
+        )
+        parts = [part for role in roles for part in role]
+        if any(each in parts for each in shafts) and any(part.type == "gear_casing" for part in parts):
+            found.append(coupling)
+    return found
+
+
 def held_member(sheet: Sheet, found: PlanetarySet) -> str:
     """Which member does not turn."""
     for held in (fixed_shafts(sheet), fixed_shafts(sheet, open_too=True)):
@@ -152,6 +179,12 @@ def put_set(draft: Draft, found: PlanetarySet) -> None:
         raise sheet.refused(
             found.stage, "its planets stand on circles of different size", "one centre distance for all"
         )
+    for gear in (found.sun, found.ring, *found.planets):
+        if (shaft := shaft_of(sheet, gear)) is not None:
+            sense_of(sheet, shaft)
+            middle_of_gear(sheet, gear, shaft)
+    for shaft in found.carrier_shafts:
+        sense_of(sheet, shaft)
     draft.table("[[stage]]", found.stage.name)
     draft.put("type", text("planetary"))
     draft.put("name", text(draft.name(found.stage)))
@@ -168,6 +201,11 @@ def put_set(draft: Draft, found: PlanetarySet) -> None:
         draft.put("held", text(held))
     else:
         draft.assume("held", text(held), "its coupling is open in the file: no power would flow")
+    for coupling in couplings_of(sheet, found.members[held]):
+        value = sheet.si(coupling, TORSIONAL_STIFFNESS)
+        if value and value < RIGID_TILT:
+            draft.put("support_stiffness", f'"{value:.9g} N*m/rad"')
+            break
     floating = [
         name
         for name, shafts in found.members.items()
@@ -200,6 +238,11 @@ def _same_planet(draft: Draft, first: Component, other: Component) -> None:
         if not place and same is not None and same != attribute:
             rule = f"differs from that of {first}: the planets of a set are alike"
             raise draft.sheet.refused(other, rule, "let all planets say the same", name)
+    for pair in (
+        (first, other),
+        *zip(flanks_of(draft.sheet, first), flanks_of(draft.sheet, other), strict=False),
+    ):
+        draft.sheet.alike(*pair)
 
 
 def put_carrier(draft: Draft, found: PlanetarySet) -> None:
@@ -215,16 +258,22 @@ def put_carrier(draft: Draft, found: PlanetarySet) -> None:
     for shaft in found.carrier_shafts:
         part = mass_of(sheet, sections_of(draft, shaft), shaft)
         mass, inertia, guessed = mass + part[0], inertia + part[1], guessed or not part[2]
+        for each in masses_on(sheet, shaft):
+            sheet.si(each, U_ON_SHAFT)
+            mass, inertia = mass + (sheet.si(each, MASS) or 0.0), inertia + (sheet.si(each, INERTIA) or 0.0)
     for pin in sheet.model.related("planet_pin", "planetary_stage", found.stage.number, "shaft"):
-        part, frame = mass_of(sheet, sections_of(draft, pin), pin), frame_of(sheet, pin)
-        away = math.hypot(*frame.origin[1:]) if frame is not None else 0.0
+        part, away = (
+            mass_of(sheet, sections_of(draft, pin), pin),
+            sheet.si(found.meshes[0][0], CENTRE_DISTANCE) or 0.0,
+        )
+        frame_of(sheet, pin)
         mass, inertia, guessed = mass + part[0], inertia + part[1] + part[0] * away**2, guessed or not part[2]
     draft.table("[[body]]", carrier.name)
     draft.put("name", text(name))
     if mass > 0.0:
         comment = "of its plates, shafts and pins" + (", steel where no density is given" if guessed else "")
-        draft.put("mass", f'"{mass:.6g} kg"', comment)
-        draft.put("inertia", f'"{inertia:.6g} kg*m**2"')
+        draft.put("mass", f'"{mass:.9g} kg"', comment)
+        draft.put("inertia", f'"{inertia:.9g} kg*m**2"')
     else:
         draft.assume("mass", '"10 kg"')
         draft.assume("inertia", '"0.1 kg*m**2"')
@@ -244,23 +293,18 @@ def put_bearings_of_set(draft: Draft, found: PlanetarySet) -> None:
         if supports:
             put_springs_of(draft, draft.name(gears[member]), supports)
         elif {each.number for each in shafts} & fixed_shafts(sheet, open_too=True):
-            coupling = next(
-                part
-                for part in sheet.model.of_type(*COUPLINGS)
-                if any(
-                    each in sheet.model.related("side", "assembly", part.number, "inner_part")
-                    for each in shafts
-                )
-            )
+            coupling = couplings_of(sheet, shafts)[0]
             _put_coupled(draft, draft.name(gears[member]), coupling)
     shaft = shaft_of(sheet, found.planets[0])
     supports = supports_of(sheet, shaft) if shaft is not None else []
     if supports:
         put_springs_of(draft, draft.name(found.planets[0]), supports)
-    for other in found.planets[1:]:  # alike
-        if (its := shaft_of(sheet, other)) is not None:
-            for each in supports_of(sheet, its):
-                sheet.si(each.bearing, RADIAL_STIFFNESS)
+        for each in supports:
+            sheet.si(each.bearing, U_INNER)
+    for other in found.planets[1:]:
+        its = shaft_of(sheet, other)
+        for one, same in zip(supports, supports_of(sheet, its) if its is not None else [], strict=False):
+            sheet.alike(one.bearing, same.bearing)
 
 
 def _put_coupled(draft: Draft, name: str, coupling: Component) -> None:
@@ -268,21 +312,8 @@ def _put_coupled(draft: Draft, name: str, coupling: Component) -> None:
     draft.table(f"[bearings.{name}]", coupling.name)
     for key in ("stiffness_x", "stiffness_y"):
         if not value:
-            draft.assume(key, '"5e8 N/m"')
+            draft.assume(key, f'"{TYPICAL:g} N/m"')
         else:
-            draft.put(
-                key,
-                f'"{1e10 if value >= RIGID else value:.9g} N/m"',
-                "rigid in the file" if value >= RIGID else "",
-            )
+            stiff = value >= RIGID
+            draft.put(key, f'"{STIFF if stiff else value:.9g} N/m"', "rigid in the file" if stiff else "")
     draft.assume("damping_ratio", "0.05")
-
-
-def shaft_gears(sheet: Sheet, found: PlanetarySet) -> dict[int, list[Component]]:
-    """Other gears on the shafts of a set's members."""
-    own = {found.sun.number, found.ring.number, *(planet.number for planet in found.planets)}
-    return {
-        shaft.number: [gear for gear in gears_on(sheet, shaft) if gear.number not in own]
-        for shafts in found.members.values()
-        for shaft in shafts
-    }

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -134,14 +135,16 @@ def _put_parts(
     for gear in dict.fromkeys(gear.number for gear in sheet.model.of_type(*GEARS)):
         if gear not in alike:
             put_gear(draft, sheet.model.parts[gear])
-    for stage, first, second in pairs:
-        put_stage(draft, stage, first, second)
-    for each in sets:
-        put_set(draft, each)
+    writers = {stage.number: partial(put_stage, draft, stage, *gears) for stage, *gears in pairs}
+    writers |= {each.stage.number: partial(put_set, draft, each) for each in sets}
+    for number in (each for each in sheet.model.parts if each in writers):
+        writers[number]()
     members = {number: each for each in sets for number in each.shafts}
     shafts = list(sheet.model.of_type("shaft"))
+    carriers = {shaft.number for each in sets for shaft in each.carrier_shafts}
     for shaft in shafts:
-        put_masses(draft, shaft)
+        if shaft.number not in carriers:
+            put_masses(draft, shaft)
     for each in sets:
         put_carrier(draft, each)
     for shaft in shafts:
@@ -188,6 +191,7 @@ def _put_links(draft: Draft, sets: list[PlanetarySet]) -> None:
             continue
         value = sheet.si(coupling, TORSIONAL_STIFFNESS)
         draft.table("[[link]]", coupling.name)
+        draft.put("name", text(draft.name(coupling)))
         draft.put("ends", f"[{text(names[first.number])}, {text(names[second.number])}]")
         if not value:
             draft.assume("stiffness", '"1e6 N*m/rad"')

@@ -90,6 +90,7 @@ def put_masses(draft: Draft, shaft: Component) -> None:
     for part in masses_on(draft.sheet, shaft):
         draft.table("[[body]]", part.name if part.name != draft.name(part) else "")
         draft.put("name", text(draft.name(part)))
+        draft.bodies.add(part.number)
         for key in (MASS, INERTIA):
             value = draft.sheet.toml(part, key)
             if value is None:

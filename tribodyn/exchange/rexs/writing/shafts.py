@@ -1,0 +1,203 @@
+"""Shafts, bearings, bodies and links: from the tables of a scenario to components."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from tribodyn.errors import InputError, quoted
+from tribodyn.exchange.rexs.file.attributes import (
+    AXIAL_ABSORPTION,
+    AXIAL_STIFFNESS,
+    BEARING_TYPE,
+    BEARING_TYPES,
+    CLEARANCE,
+    CONTACT_ANGLE,
+    DENSITY,
+    ELEMENT,
+    INERTIA,
+    INNER,
+    INNER_BEGIN,
+    INNER_END,
+    LENGTH,
+    MASS,
+    MATERIAL,
+    OUTER,
+    OUTER_BEGIN,
+    OUTER_END,
+    PRELOAD,
+    PRELOAD_FORCE,
+    RADIAL_ABSORPTION,
+    RADIAL_STIFFNESS,
+    RATINGS,
+    ROW,
+    ROW_ABSORPTION,
+    ROW_DISTANCE,
+    ROWS,
+    TILT_STIFFNESS,
+    TORSIONAL_STIFFNESS,
+    U_INNER,
+    U_ON_SHAFT,
+    U_OUTER,
+    RexsKey,
+)
+from tribodyn.exchange.rexs.writing.builder import ModelText, si, value_in
+from tribodyn.exchange.rexs.writing.layout import RexsPlaces
+from tribodyn.exchange.rexs.writing.teeth import said
+
+_CATALOGUE, _CONCEPT = "rolling_bearing_with_catalog_geometry", "concept_bearing"
+#: Axial force of the first row, and of the second, that a pair takes: X holds outwards, O inwards.
+_PAIRS = {"X": ("negative", "positive"), "O": ("positive", "negative")}
+_ONE_WAY = "angular-contact-ball", "tapered-roller"
+_NO_WAY = "cylindrical-roller", "needle-roller"
+#: Metal of a shaft of which the scenario says none.
+_METAL = {"youngs_modulus": "206 GPa", "poisson_ratio": 0.3, "density": "7850 kg/m**3"}
+
+
+class Shafts:
+    """Writes shafts and what holds and joins them."""
+
+    def __init__(self, model: ModelText, tables: Mapping[str, Any], layout: RexsPlaces, casing: int) -> None:
+        self.model, self.tables, self.layout, self.casing = model, tables, layout, casing
+        self.numbers: dict[str, int] = {}
+        self.remarks: list[str] = []
+
+    def shaft(self, name: str) -> int:
+        """Add a shaft in its place, with its sections and bearings where it is drawn; its id."""
+        model, layout = self.model, self.layout
+        number = self.numbers[name] = model.add("shaft", name)
+        model.relate("assembly", assembly=1, part=number)
+        model.place(number, (layout.start.get(name, 0.0), *layout.centre.get(name, (0.0, 0.0))))
+        drawn = next(
+            (each.get("drawn") for each in self.tables.get("shaft", ()) if each["name"] == name), None
+        )
+        if drawn:
+            self._drawn(number, name, drawn)
+        return number
+
+    def _drawn(self, number: int, name: str, drawn: Mapping[str, Any]) -> None:
+        model, along = self.model, 0.0
+        for section in drawn["section"]:
+            outer, inner = (
+                value_in(section["diameter"], OUTER_BEGIN),
+                value_in(section.get("bore") or "0 mm", INNER_BEGIN),
+            )
+            values = {U_ON_SHAFT: float(f"{1e3 * along:.12g}"), LENGTH: value_in(section["length"], LENGTH)}
+            values |= {OUTER_BEGIN: outer, OUTER_END: outer, INNER_BEGIN: inner, INNER_END: inner}
+            model.relate("assembly", assembly=number, part=model.add("shaft_section", "", values))
+            along += si(section["length"])
+        metal = {key: drawn.get(key) or value for key, value in _METAL.items()}
+        values = said(metal, MATERIAL[:3])
+        assert DENSITY in values
+        model.relate("reference", origin=number, referenced=model.add("material", f"shaft {name}", values))
+        for count, bearing in enumerate(drawn["bearing"], start=1):
+            self._bearing(number, f"{name}-{count}", bearing)
+
+    def _bearing(self, shaft: int, name: str, table: Mapping[str, Any]) -> None:
+        """A bearing of a drawn shaft."""
+        model, kind = self.model, table.get("type")
+        if table.get("matrix") is not None or (kind is not None and kind not in BEARING_TYPES):
+            what = "a matrix" if kind is None else f"a {kind} bearing"
+            raise InputError(
+                f"bearing {name}", None, f"is {what}, which REXS has not", "write springs instead"
+            )
+        place = value_in(table["position"], U_INNER)
+        if kind is None:
+            values = _springs(
+                [table.get(key) for key in ("stiffness_x", "stiffness_y")], table, self.remarks, name
+            )
+            self._held(model.add(_CONCEPT, name, values), shaft, place)
+            return
+        rows = 2 if table.get("arrangement") or table.get("rows") == 2 else 1
+        thrust = {"+z": "positive", "-z": "negative"}.get(table.get("thrust") or "")
+        way = (
+            "no_direction"
+            if kind in _NO_WAY or table.get("locating") is False
+            else thrust or "both_directions"
+        )
+        values = {
+            BEARING_TYPE: BEARING_TYPES[str(kind)][0],
+            AXIAL_ABSORPTION: way,
+            RADIAL_ABSORPTION: True,
+            ROWS: rows,
+        }
+        values |= said(table, (INNER, OUTER, *RATINGS, ROW_DISTANCE, PRELOAD_FORCE))
+        for key in (CLEARANCE, PRELOAD):
+            if table.get(key.key) is not None and si(table[key.key]):
+                values[key] = value_in(table[key.key], key)
+        number = model.add(_CATALOGUE, name, values)
+        self._held(number, shaft, place)
+        for row in range(rows):
+            held = _PAIRS.get(str(table.get("arrangement")), (way, way))[row]
+            inside = model.add(
+                "rolling_bearing_row", "", said(table, (CONTACT_ANGLE, *ROW)) | {ROW_ABSORPTION: held}
+            )
+            model.relate("ordered_assembly", row + 1, assembly=number, part=inside)
+            if element := said(table, ELEMENT):
+                model.relate(
+                    "ordered_assembly", 1, assembly=inside, part=model.add("rolling_element", "", element)
+                )
+
+    def _held(self, bearing: int, shaft: int, place: Any, outer: int | None = None) -> None:
+        """Let a bearing hold a shaft in the casing, or in another shaft."""
+        self.model.put(bearing, U_INNER, place)
+        self.model.put(bearing, U_OUTER, None if outer is None else place)
+        casing = self.casing if outer is None else outer
+        self.model.relate("side", assembly=bearing, inner_part=shaft, outer_part=casing)
+
+    def springs(self, name: str, shaft: int, place: float, outer: int | None = None) -> None:
+        """The bearings of something that no drawn shaft carries, as one concept bearing."""
+        bearings = self.tables.get("bearings") or {}
+        table = bearings.get(name) or bearings.get("default") or bearings.get("gear")
+        if not table:
+            return
+        if table.get("rolling") or table.get("matrix"):
+            what = "rolling" if table.get("rolling") else "matrix"
+            raise InputError(
+                f"bearings.{name}.{what}",
+                None,
+                "REXS has no such bearing",
+                "write stiffness_x and stiffness_y",
+            )
+        values = _springs(
+            [table.get(key) for key in ("stiffness_x", "stiffness_y")], table, self.remarks, name
+        )
+        here = float(f"{1e3 * place:.12g}")
+        self._held(self.model.add(_CONCEPT, f"bearing of {name}", values), shaft, here, outer)
+
+    def body(self, table: Mapping[str, Any]) -> None:
+        """A body without teeth on its shaft."""
+        name = table["name"]
+        values = said(table, (MASS, INERTIA))
+        values[U_ON_SHAFT] = float(f"{1e3 * self.layout.position[name]:.12g}")
+        number = self.model.add("additional_mass", name, values)
+        self.model.relate("assembly", assembly=self.numbers[self.layout.shaft_of[name]], part=number)
+
+    def links(self) -> None:
+        """Couplings between shafts."""
+        for link in self.tables.get("link", ()):
+            name = link.get("name") or " and ".join(link["ends"])
+            if "ground" in link["ends"] or link.get("law", "linear") != "linear":
+                rule = "a link to the ground, or with a law of its own, which REXS has not"
+                raise InputError("link", quoted(name), rule, "leave it out")
+            first, second = (self.numbers[self.layout.shaft(end)] for end in link["ends"])
+            values: dict[RexsKey, Any] = {}
+            if link.get("stiffness") is not None:
+                values[TORSIONAL_STIFFNESS] = value_in(link["stiffness"], TORSIONAL_STIFFNESS)
+            number = self.model.add("coupling", name, values)
+            self.model.relate("side", assembly=number, inner_part=first, outer_part=second)
+
+
+def _springs(
+    both: Sequence[Any], table: Mapping[str, Any], remarks: list[str], name: str
+) -> dict[RexsKey, Any]:
+    """Of a concept bearing: one radial stiffness, the geometric mean where x and y differ."""
+    told = [si(each, "N/m") for each in both if each is not None]
+    values: dict[RexsKey, Any] = {RADIAL_ABSORPTION: bool(told)}
+    if told:
+        values[RADIAL_STIFFNESS] = float(f"{math.prod(told) ** (1 / len(told)):.12g}")
+        if min(told) != max(told):
+            remarks.append(f"bearing {name}: REXS has one radial stiffness; the mean of x and y stands there")
+    values[AXIAL_ABSORPTION] = (
+        "both_directions" if table.get("stiffness_axial") is not None else "no_direction"
+    )
+    return values | said(table, (AXIAL_STIFFNESS, TILT_STIFFNESS))
