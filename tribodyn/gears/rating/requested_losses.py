@@ -5,9 +5,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from tribodyn.gears.rating.mesh_forces import forces_on_pair, shared_by_bearings
 from tribodyn.gears.supports import BearingUnderLoad, supports_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.tables.drawn_bearings import friction_data
+from tribodyn.input.tables.duty import duty_of
+from tribodyn.input.tables.gears.drive_data import drive_of
 from tribodyn.input.tables.losses import Drawn, losses_of
 from tribodyn.input.tables.shafts import drawn_shafts
 from tribodyn.tribology.losses.pair import LoadedBearings, LossData, ShaftLosses
@@ -18,6 +21,11 @@ def requested_losses(scenario: Any) -> LossData | None:
     data = losses_of(getattr(scenario, "losses", None))
     if data is None or data.bearings is None:
         return data
+    if any(held.of_meshes for shaft in data.shafts for held in shaft.bearings):
+        drive = scenario.drive
+        duty = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth)
+        forces = forces_on_pair(drive.family, drive_of(drive), duty.gear_torque)
+        data = shared_by_bearings(data, forces)
     held = zip(SIDES, supports_of(scenario)[:2], strict=True)
     drawn = [
         ShaftLosses(side, bearings=loaded_bearings(side, support.bearings))

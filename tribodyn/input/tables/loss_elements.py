@@ -40,6 +40,7 @@ class BearingDrag(Table):
     width: Size | None = None
     contact_angle: Annotated[float, InUnit(units.positive(units.ANGLE_KIND), "14 deg")] | None = None
     static_rating: Annotated[float, InUnit(units.positive(units.FORCE), "30 kN")] | None = None
+    load: Literal["given", "meshes"] = "given"
     radial_load: Force = written("0 N")
     axial_load: Force = written("0 N")
     oil_level: Depth = written("0 mm")
@@ -69,7 +70,7 @@ class BearingDrag(Table):
             seal=self.seal or "",
             seal_diameter=self.seal_diameter or 0.0,
         )
-        return LoadedBearings(name, bearing, self.radial_load, self.axial_load)
+        return LoadedBearings(name, bearing, self.radial_load, self.axial_load, self.load == "meshes")
 
 
 class ShaftSeal(Table):
@@ -144,7 +145,11 @@ def broken_bearing_drag(key: str, table: BearingDrag, method: str) -> Iterator[I
         yield InputError(f"{key}.bore", value, rule, "take both from the catalogue")
     if table.series is not None and table.series not in known.series[table.type]:
         yield _unknown_series(f"{key}.series", table.series, table.type, method)
-    loaded = table.radial_load or table.axial_load
+    loaded = table.radial_load or table.axial_load or table.load == "meshes"
+    for name in ("radial_load", "axial_load") if table.load == "meshes" else ():
+        if getattr(table, name):
+            rule, remedy = 'contradicts load = "meshes", of which it follows', "leave one of them out"
+            yield InputError(f"{key}.{name}", None, rule, remedy)
     if loaded and table.type in known.rated and table.static_rating is None:
         rule = f"missing: {needs} under load"
         yield InputError(f"{key}.static_rating", rule=rule, remedy='add C_0: static_rating = "30 kN"')

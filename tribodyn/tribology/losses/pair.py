@@ -32,6 +32,7 @@ class LoadedBearings(NamedTuple):
     bearing: BearingInOil
     radial: float = 0.0
     axial: float = 0.0
+    of_meshes: bool = False  # whether the forces are to be those of the meshes, shared by all bearings
 
 
 @dataclass(frozen=True)
@@ -105,7 +106,7 @@ def shaft_torques(
     `nominal` is the nominal speed of a shaft that does not know its own.
     """
     if data.bearings is not None:
-        for name, bearing, radial, axial in shaft.bearings:
+        for name, bearing, radial, axial, _ in shaft.bearings:
             forces = np.abs(load) * radial, np.abs(load) * axial
             found = BEARING_METHODS[data.bearings].formula(bearing, speed, oil, *forces)
             element = name, "bearing", data.bearings

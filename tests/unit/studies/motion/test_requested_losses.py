@@ -1,6 +1,7 @@
 """Which losses a gearbox asks for: bearings of drawn shafts, planets on their pins, carriers; refusals."""
 
 import math
+import tomllib
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from tribodyn.gears.rating.bearings import bearing_part
 from tribodyn.studies.motion.losses.part import LOSSES
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.motion.train.assessable import shafts
+from tribodyn.studies.protocol.load import load_data, load_scenario
 from tribodyn.tribology.losses.loss import OilState
 from tribodyn.tribology.losses.methods import BEARING_METHODS
 
@@ -54,7 +56,7 @@ def test_bearings_of_drawn_shafts_lose_under_their_own_forces(method: str):
     idle = loaded = 0.0
     for shaft, ratio in zip(case.pair.losses.shafts, (1.0, 23 / 47), strict=True):
         speed = 1500 * math.pi / 30 * ratio
-        for number, (name, bearing, radial, axial) in enumerate(shaft.bearings, start=1):
+        for number, (name, bearing, radial, axial, _) in enumerate(shaft.bearings, start=1):
             assert name == f"{shaft.name}-{number}"
             held = forces[f"{shaft.name}-{number}"]
             assert (radial, axial) == pytest.approx((held["radial_load"], held["axial_load"]))
@@ -89,6 +91,41 @@ def test_losses_over_points_are_those_of_a_run_at_the_nominal_one():
     assert np.all(np.isfinite(over.drag))
     sources = {(source.element, source.sort) for source in over.sources}
     assert {("one-1", "bearing"), ("two-2", "bearing"), ("seals of two", "seal"), ("gear", "gear")} <= sources
+
+
+def test_bearings_that_are_not_drawn_share_the_forces_of_the_meshes():
+    """They are what the equilibria of drawn shafts have at all bearings of a shaft together."""
+    box = load_scenario("industrial-reducer")
+    held = {"type": "cylindrical-roller", "mean_diameter": "80 mm", "load": "meshes", "count": 2}
+    shafts = ("pinion-1", "middle", "wheel-2")
+    keys = {"losses.bearings": "iso-14179-2", **{f"losses.shaft_bearings.{name}": held for name in shafts}}
+    table = tomllib.loads(box.toml)
+    table["shaft"] = [shaft for shaft in table["shaft"] if len(shaft["gears"]) > 1]
+    table["shaft"][0].pop("drawn")
+    for key in ("losses", "housing", "sensor", "body"):
+        table.pop(key, None)
+    table["operating"] |= {"input": "pinion-1", "output": "wheel-2"}
+    bare = load_data(table, "bare", keys | {"bearings": "rigid-1e9"}).case
+    drawn_shafts = [support for support in box.supports.values() if support.bearings]
+    found = {shaft.name: shaft.bearings[0] for shaft in bare.pair.losses.shafts}
+    for name, support in zip(shafts, drawn_shafts, strict=True):
+        x, y, z = np.sum([bearing.force[:3] for bearing in support.bearings], axis=0)
+        assert 2.0 * found[name].radial == pytest.approx(math.hypot(x, y), rel=2e-3)
+        assert 2.0 * found[name].axial == pytest.approx(abs(z), rel=2e-3)
+
+
+def test_a_pair_and_its_train_share_the_same_forces():
+    held = DRAG | {"load": "meshes"}
+    pair = GEARBOXES["pair"] | {"losses": {"bearings": "palmgren", "pinion_bearings": held}}
+    alone = load_data(pair, "pair").case.pair.losses.shafts[0].bearings[0]
+    efficiency = {**pair, "kind": "efficiency", "mesh": {"compliance": "constant", "stiffness": "3e8 N/m"}}
+    for key in ("bearings", "solver", "output"):
+        efficiency.pop(key)
+    in_slow_rotation = load_data(efficiency, "pair").case.losses.shafts[0].bearings[0]
+    assert in_slow_rotation == alone
+    torque, base = 150.0, 51 * 3e-3 / 2.0 * math.cos(math.radians(20.0))
+    assert alone.radial == pytest.approx(torque / base / 2.0, rel=1e-9)
+    assert alone.axial == 0.0
 
 
 def test_planets_turn_against_their_carrier():

@@ -75,6 +75,7 @@ from tribodyn.studies.motion.drivetrain.tables import (
 from tribodyn.studies.motion.planetary.frames import reference_pitch
 from tribodyn.studies.motion.planetary.links import links_of_set, links_of_speeds, set_data
 from tribodyn.studies.motion.train.pair_view import losses_of_meshes, own_teeth, pair_view, reference_teeth
+from tribodyn.studies.motion.train.shared_forces import with_shared_forces
 from tribodyn.studies.motion.train.supports import (
     bearings_by_body,
     drawn_system,
@@ -183,6 +184,7 @@ def case_of(
             None if scenario.losses is None else scenario.losses.oil_volume,
         ),
     )
+    box = with_shared_forces(box)
     return _in_nominal_cycles(box) if box.in_time else box
 
 
