@@ -74,6 +74,7 @@ SHORTER = {
     "drive-cycle": ("cycle.step=1 h",),
     "backlash-oscillator": ("frequency.step=0.1",),
     "sensors-18-36": ("solver.revolutions=3", "output.window=[2.0, 3.0]"),  # a signal has to be as long
+    "start-from-rest": ("solver.duration=10 ms",),
     "load-contact": ("output.positions_per_cycle=8",),
     "wear": ("output.positions_per_cycle=12",),
     "ehl": ("output.positions=4", "contact.step=0.25"),
