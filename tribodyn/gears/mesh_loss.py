@@ -52,6 +52,7 @@ class MeshLoss(NamedTuple):
     #: film_min (m), film_parameter_min, friction_coefficient_mean, hertz_pressure_max (Pa), film_in_range,
     #: friction_in_range (shares of the contacts), NaN without load; friction_held, 1 where `_most` held it
     seen: Mapping[str, Float[Array, " point"]]
+    exceeded: tuple[str, ...] = ()  # limits of a standard's formula
 
 
 class LossTable:

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator
 
 from tribodyn.compliance.foundation import Support
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, quoted
 from tribodyn.gears.by_standard import quality_of
 from tribodyn.gears.mesh_of_gearbox import Opened, with_every_pair, with_pair
 from tribodyn.gears.rating.requested_losses import drawn_of_pair, requested_losses
@@ -41,7 +41,7 @@ from tribodyn.input.tables.gears.quality import (
 from tribodyn.input.tables.gears.single_teeth import broken_own_teeth, teeth_alike
 from tribodyn.input.tables.gears.tooth_data import broken_internal_runs, internal_refused
 from tribodyn.input.tables.laws import FilmTable, film_of, law_values
-from tribodyn.input.tables.losses import LossesTable, broken_losses
+from tribodyn.input.tables.losses import LossesTable, broken_losses, broken_mesh_method
 from tribodyn.input.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
 from tribodyn.input.tables.shafts import Shafts, broken_shafts, drawn_shafts, listed
 from tribodyn.input.tables.temperature import (
@@ -77,6 +77,8 @@ class GearScenario(SpectrumScenario):
 
     #: whether the kind knows internal gears
     internal_gears: ClassVar[bool] = False
+    #: whether [losses] may name a formula for meshes under load
+    mesh_formulas: ClassVar[bool] = False
     #: whether it knows them where they drive, which a negative torque says
     driving_rings: ClassVar[bool] = True
     #: tables that `completed` fills, before the defaults of this kind
@@ -281,7 +283,12 @@ def broken_gear_rules(
         if oil:
             yield from broken_lubricant_rules(lubricant, oil_temperature_of(scenario))
         yield from broken_temperature_rules(getattr(scenario, "temperature", None), lubricant)
-    yield from broken_losses(getattr(scenario, "losses", None), drawn=drawn_of_pair(scenario))
+    losses = getattr(scenario, "losses", None)
+    yield from broken_losses(losses, drawn=drawn_of_pair(scenario))
+    yield from broken_mesh_method(losses, [drive.family])
+    if losses is not None and losses.mesh is not None and not getattr(scenario, "mesh_formulas", False):
+        rule = "is for points of operation of gear pairs and trains, and this kind does not have them"
+        yield InputError("losses.mesh", quoted(losses.mesh), rule, "leave it out")
     yield from _broken_supports(scenario)
     misalignment = getattr(mesh, "misalignment", _ALIGNED)
     coupling = getattr(mesh, "slice_coupling", True)

@@ -1,6 +1,6 @@
 """The table ``[losses]``: those besides the loaded meshes."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Annotated, Any, Literal
 
@@ -32,6 +32,7 @@ class LossesTable(Table):
     Of gears named pinion and gear each key of theirs may stand by itself in place of an entry by name.
     """
 
+    mesh: Literal["iso-14179-2", "iso-14179-1", "iso-15144", "schlenk", "fernandes"] | None = None
     churning: Literal["changenet-velex", "iso-14179-1", "iso-14179-2"] | None = None
     windage: Literal["dawson", "anderson-loewenthal"] | None = None
     squeezing: Literal["mauz"] | None = None
@@ -55,7 +56,7 @@ class LossesTable(Table):
     def any(self) -> bool:
         """Whether there is one."""
         methods = self.churning, self.windage, self.squeezing, self.bearings, self.seals, self.carrier
-        return any(methods) or self.pump is not None
+        return any(methods) or self.mesh is not None or self.pump is not None
 
     def immersions(self) -> dict[str, float]:
         """Depth (m) of tip circles below the oil's level at rest, by gear."""
@@ -95,6 +96,7 @@ class LossesTable(Table):
             spray=Spray() if self.spray is None else self.spray.data(),
             seals=self.seals,
             carrier=self.carrier,
+            mesh=self.mesh,
         )
 
 
@@ -109,6 +111,18 @@ def losses_of(table: LossesTable | None) -> LossData | None:
     if table is None or not table.any:
         return None
     return replace(table.data(*SIDES), shafts=tuple(table.shafts().values()))
+
+
+def broken_mesh_method(table: LossesTable | None, families: Iterable[str | None]) -> Iterator[InputError]:
+    """Refuse a formula of involutes for the loss of meshes of other families; None: meshes without teeth."""
+    other = next((family for family in families if family != "involute"), "involute")
+    if table is None or table.mesh is None or other == "involute":
+        return
+    of_which = "meshes without teeth" if other is None else f"teeth of the family {quoted(other)}"
+    rule = f"is a formula of involutes, and there are {of_which}"
+    yield InputError(
+        "losses.mesh", quoted(table.mesh), rule, "leave it out: film and friction laws then count"
+    )
 
 
 #: Bearings of drawn shafts with their keys, by the names of all that a shaft carries.

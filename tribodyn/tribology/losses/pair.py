@@ -75,6 +75,8 @@ class LossData:
     spray: Spray = field(default_factory=Spray)
     seals: str | None = None  # of SEALS
     carrier: str | None = None  # of CARRIERS
+    #: of the meshes under load by a standard's formula; None: by film and friction laws
+    mesh: str | None = None
 
     @property
     def of_stage(self) -> bool:

@@ -11,7 +11,9 @@ import numpy as np
 
 from tribodyn.cases.loss_part import LossesOver, LossSource, OperatingPoints
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.mesh_loss import LEAST_SPEED, LossTable, MeshLoss, MeshPoints
+from tribodyn.gears.rating.mesh_loss import loss_by_formula
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox
@@ -50,7 +52,7 @@ class GearboxLoss:
         self.order = [int(m) for m in np.argsort(depends.sum(axis=1), kind="stable")]
         self.drags: list[Drag] = drags_of(case, tabulated)
         self.sources = tuple(
-            [LossSource("P_VZP", mesh.name, "mesh", laws_of(mesh.pair)[1].name) for mesh in case.meshes]
+            [LossSource("P_VZP", mesh.name, "mesh", _method(mesh.pair)) for mesh in case.meshes]
             + [source for drag in self.drags for source in drag.sources]
         )
         #: what every load takes at nominal speed, and all of them, W
@@ -160,10 +162,35 @@ class GearboxLoss:
                 (of for table, other, of in found if table is self.tables[m] and alike(other, at)), None
             )
             if loss is None:
-                loss = self.tables[m].at(at)
+                loss = self._of_mesh(m, at)
                 found.append((self.tables[m], at, loss))
             losses[m], drag[m] = loss, loss.drag
         return [losses[m] for m in range(len(self.tables))], torque
+
+    def _of_mesh(self, m: int, at: MeshPoints) -> MeshLoss:
+        """Loss by film and friction laws, or by the formula that [losses] names: film and pressure stay."""
+        loss, pair = self.tables[m].at(at), self.case.meshes[m].pair
+        formula = formula_of(pair)
+        if formula is None:
+            return loss
+        found = loss_by_formula(formula, pair, self.tabulated[m].assembly, at.torque, at.speed, at.supply)
+        nothing = np.full(len(at.torque), np.nan)
+        seen = {
+            **loss.seen,
+            "friction_coefficient_mean": found.coefficient,
+            "friction_in_range": nothing,
+            "friction_held": 0.0 * nothing,
+        }
+        return MeshLoss(found.drag, seen, found.exceeded)
+
+
+def formula_of(pair: LubricatedCase) -> str | None:
+    """The standard's formula that [losses] names for the meshes under load."""
+    return None if pair.losses is None else pair.losses.mesh
+
+
+def _method(pair: LubricatedCase) -> str:
+    return formula_of(pair) or laws_of(pair)[1].name
 
 
 def alike(one: MeshPoints, two: MeshPoints) -> bool:
@@ -195,4 +222,4 @@ def _outside(pair: Any, loss: MeshLoss) -> tuple[str, ...]:
             said.append(f"range of the {law.table} law {law.name}")
     if np.any(loss.seen["friction_held"] > 0.0):
         said.append(f"{friction.name} at low speed or load, held at the friction of asperities")
-    return tuple(said)
+    return (*said, *loss.exceeded)

@@ -9,7 +9,7 @@ from tribodyn.cases.loss_part import OperatingPoints
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.losses.breakdown import ElementLoss, balance, breakdown
-from tribodyn.studies.motion.losses.gearbox import GearboxLoss
+from tribodyn.studies.motion.losses.gearbox import GearboxLoss, formula_of
 
 
 def losses_at_duty(prepared: PreparedGearbox) -> tuple[dict[str, Any], list[str]]:
@@ -42,9 +42,8 @@ def losses_of_run(
     `whole` has the mean power that is put in, of the motion alone.
     """
     gearbox, case = GearboxLoss(prepared.case, prepared.tables), prepared.case
-    meshes = zip(gearbox.sources, friction, strict=False)
-    losses = [ElementLoss(source, float(power)) for source, power in meshes]
     speed, oil = np.array([case.source.speed]), np.array([_oil_temperature(prepared)])
+    losses = _of_meshes(gearbox, friction, OperatingPoints(np.ones(1), speed, oil))
     drags = gearbox.drags_at(speed, oil, np.ones(1))
     for source, drag, ratio in zip(gearbox.sources[len(losses) :], drags, gearbox.of_bodies, strict=True):
         losses.append(ElementLoss(source, float(drag.torque[0] * ratio * speed[0]), drag.exceeded))
@@ -52,6 +51,17 @@ def losses_of_run(
     rubbed = sum(float(power) for power in friction)
     powers = {"power_in": put_in + lost - rubbed, "power_out": put_in - rubbed, "power_lost": lost}
     return breakdown(losses, powers)
+
+
+def _of_meshes(gearbox: GearboxLoss, friction: Sequence[float], duty: OperatingPoints) -> list[ElementLoss]:
+    """Losses of the meshes by their motion, or at the duty where [losses] names a formula."""
+    count = len(gearbox.tables)
+    sources, exceeded, powers = gearbox.sources[:count], [()] * count, list(friction)
+    if formula_of(gearbox.case.pair) is not None:
+        found = gearbox.at(duty)
+        exceeded, powers = found.exceeded, found.power(duty.speed)[0].tolist()
+    each = zip(sources, powers, exceeded, strict=False)
+    return [ElementLoss(source, float(power), limits) for source, power, limits in each]
 
 
 def _oil_temperature(prepared: PreparedGearbox) -> float:

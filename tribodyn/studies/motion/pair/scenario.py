@@ -61,6 +61,7 @@ class GearPairScenario(GearScenario):
     """A scenario file."""
 
     internal_gears: ClassVar[bool] = True
+    mesh_formulas: ClassVar[bool] = True
 
     kind: Literal["gear-pair"] = "gear-pair"
     lubricant: Oil

@@ -17,6 +17,7 @@ from tribodyn.gears.scenario import broken_gear_rules
 from tribodyn.input.tables.duty import unnamed_duty
 from tribodyn.input.tables.gears.drive_data import gives_backlash
 from tribodyn.input.tables.laws import broken_link_law
+from tribodyn.input.tables.losses import broken_mesh_method
 from tribodyn.input.tables.sensors import broken_sensor_rules
 from tribodyn.input.tables.shafts import drawn_shafts, listed
 from tribodyn.input.tables.temperature import GEARBOX, broken_gearbox_heat
@@ -81,8 +82,12 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
         yield error
         return
     gears = [gear.name for gear in train.parts.gears]
-    heat = broken_gearbox_heat(scenario.temperature, scenario.operating.oil_temperature, gears)
-    of_losses = [*broken_train_losses(scenario.losses, train, scenario.shaft), *heat]
+    families = [None] if isinstance(scenario.mesh, tuple) else [stage.family for stage in scenario.stage]
+    of_losses = [
+        *broken_train_losses(scenario.losses, train, scenario.shaft),
+        *broken_mesh_method(scenario.losses, families),
+        *broken_gearbox_heat(scenario.temperature, scenario.operating.oil_temperature, gears),
+    ]
     if broken := [*_each_mesh_once(train), *_hands(train), *of_losses, *_pairs(scenario, train)]:
         yield from broken
         return
