@@ -18,6 +18,7 @@ from tests.support.rexs_models import PARTS, one_stage, part, relation, sample
 from tribodyn.exchange.rexs.file.files import read_model
 from tribodyn.exchange.rexs.file.units import UNITS, RexsUnit, shown, unit_named
 from tribodyn.exchange.rexs.reading.scenario import scenario_of
+from tribodyn.exchange.rexs.rexs_format import read
 from tribodyn.input import units
 
 
@@ -282,3 +283,25 @@ def test_files_broken_at_random_are_read_or_refused_in_a_line(tmp_path: Path):
             refused.append(str(error))
     assert 20 < len(refused) < 280
     assert all(each.startswith(f"{path}: ") and "\n" not in each for each in refused)
+
+
+def test_hours_of_load_cases_are_shares_of_time(tmp_path: Path):
+    """And speeds and torques of load cases go before those of the components."""
+    path = tmp_path / "gearbox.rexs"
+    cases = [
+        part(1, "gear_unit", operating_time=f"{hours} h")
+        + part(3, "shaft", rotational_speed=f"{speed} 1 / min")
+        + part(12, "external_load", torque_around_u_axis=f"{torque} N m")
+        for hours, speed, torque in ((300, -1200, -90), (700, -600, -40))
+    ]
+    spectrum = "".join(f'<load_case id="{number}">{case}</load_case>' for number, case in enumerate(cases, 1))
+    text = one_stage().replace("</model>", f'<load_spectrum id="1">{spectrum}</load_spectrum></model>')
+    path.write_text(text, encoding="utf-8")
+    duties = read(path).scenario["duty"]
+    assert [(each["share"], each["input_speed"], each["input_torque"]) for each in duties] == [
+        (300, "1200 rpm", "90 N*m"),
+        (700, "600 rpm", "40 N*m"),
+    ]
+    path.write_text(text.replace('"N m">-40', '"N m">40'), encoding="utf-8")
+    with pytest.raises(td.InputError, match=r"motor' .*: its torque or speed reverses in load case 2"):
+        read(path)

@@ -204,6 +204,7 @@ TRANSMITS, DEFINES_TORQUE, DEFINES_SPEED = (
     RexsKey(name, "") for name in ("transmits_torque", "defines_torque", "defines_speed")
 )
 SHARE = RexsKey("operating_time_fraction", "share", "%", ("load_duration_fraction",))
+HOURS = RexsKey("operating_time", "share", "h")
 MASS = RexsKey("mass_of_component", "mass", "kg")
 INERTIA = RexsKey("moment_of_inertia_u_axis", "inertia", "kg m^2")
 

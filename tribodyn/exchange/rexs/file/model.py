@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 #: A text of XML, or what JSON has; None: nothing, or a matrix, which nobody here reads.
@@ -81,11 +82,8 @@ class RexsModel:
 
         `kind` is the relation's type, or what it ends with: an "ordered_assembly" is an "assembly" too.
         """
-        found = [
-            relation
-            for relation in self.relations
-            if relation.type in (kind, f"ordered_{kind}") and relation.part(role) == number
-        ]
+        found = [*self._relations.get((kind, role, number), ())]
+        found += self._relations.get((f"ordered_{kind}", role, number), ())
         parts = [
             self.parts[ref.number]
             for each in sorted(found, key=_order)
@@ -93,6 +91,15 @@ class RexsModel:
             if ref.role == wanted
         ]
         return [part for part in parts if not types or part.type in types]
+
+    @cached_property
+    def _relations(self) -> dict[tuple[str, str, int], list[Relation]]:
+        """Relations by type, and a role with the part in it."""
+        found: dict[tuple[str, str, int], list[Relation]] = {}
+        for relation in self.relations:
+            for role, number in set(relation.refs):
+                found.setdefault((relation.type, role, number), []).append(relation)
+        return found
 
 
 def _order(relation: Relation) -> int:

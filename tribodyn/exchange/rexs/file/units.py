@@ -38,6 +38,7 @@ UNITS = {
         RexsUnit("kg m^2", "moment of inertia", "kg*m**2", 1.0),
         RexsUnit("mm^2 / s", "kinematic viscosity", "mm**2/s", 1e-6),
         RexsUnit("mm^2 / N", "pressure-viscosity coefficient", "1/GPa", 1e-6, 1e3),
+        RexsUnit("h", "time", "h", 3600.0),
         RexsUnit("C", "temperature", "degC", 1.0),
         RexsUnit("N / m", "stiffness", "N/m", 1.0),
         RexsUnit("N / mm", "stiffness", "N/mm", 1e3),

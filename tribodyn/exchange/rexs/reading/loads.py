@@ -6,6 +6,7 @@ from typing import NamedTuple
 from tribodyn.exchange.rexs.file.attributes import (
     DEFINES_SPEED,
     DEFINES_TORQUE,
+    HOURS,
     OIL_TEMPERATURE,
     POWER,
     SHARE,
@@ -137,7 +138,8 @@ def put_operating(draft: Draft, ends: Ends, names: Mapping[int, str]) -> None:
         told = None
         for part in (*case.parts, *([unit] if unit else ())):
             if unit is not None and part.number == unit.number and told is None:
-                told = sheet.toml(part, SHARE)
+                hours = sheet.si(part, HOURS)
+                told = sheet.toml(part, SHARE) or (f"{hours / 3600:.12g}" if hours else None)
         if told is None:
             draft.assume("share", "1.0", "not in the file: all load cases last equally long")
         draft.put("share", told)
