@@ -57,6 +57,34 @@ def test_energy_is_that_of_the_gearbox_itself_within_the_stated_error(mapped: Ma
     assert by_map == pytest.approx(exact, rel=mapped.maximum)
 
 
+def test_energy_is_that_of_a_cycle_whose_oil_warms(mapped: Mapped, tmp_path: Path):
+    """The thermal network over an hour; the map at the oil's temperatures as they came out."""
+    heat = {
+        "model": "gearbox",
+        "sump": "free",
+        "ambient_temperature": "50 degC",
+        "housing": {"area": "0.05 m**2", "air_speed": "2 m/s"},
+    }
+    warm = PAIR | {"temperature": heat}
+    table = {
+        "time": {"unit": "s", "values": [0, 2400, 2460, 3600]},
+        "speed": {"unit": "rpm", "values": [1480, 1480, 740, 740]},
+        "load": {"unit": "1", "values": [1, 1, -0.5, -0.5]},
+    }
+    cycled = {"title": "cycle", "kind": "drive-cycle", "scenario": warm, "cycle": {"table": table}}
+    axes = {"torque": ["0 N*m", "150 N*m"], "speed": ["700 rpm", "1480 rpm"]}
+    axes["oil_temperature"] = [f"{degree} degC" for degree in (50, 80, 110)]
+    case = loaded_map(warm, {**axes, "directions": "both"}, {}).case
+    with Record(run(case, tmp_path / "map.h5").path) as record:
+        losses = loss_map(record)
+    with Record(run(load_data(cycled, "cycle").case, tmp_path / "cycle.h5").path) as record:
+        time, oil, speed = (record[name] for name in ("time", "oil_temperature", "input_speed"))
+        lost, load = float(record["energy_lost"][-1]), record["load"]
+    assert oil[-1] > oil[0] + 5.0
+    by_map = np.trapezoid(losses.at(oil, load * TORQUE, speed) * speed, time)
+    assert by_map == pytest.approx(lost, rel=losses.interpolation[0])
+
+
 def test_energy_is_that_of_the_motion_in_time(tmp_path: Path):
     """A cycle of three steady parts, each of which is run; vibration moves their losses by up to 1 %."""
     law, parts = {"friction.law": "schlenk"}, [(1.0, 1.0, 8.0), (0.5, 0.6, 20.0), (0.3, 1.0, 12.0)]
