@@ -79,6 +79,45 @@ def test_both_meshes_lose_what_rigid_involutes_do(case, load: float):
     assert driving - load * nominal.input_torque == pytest.approx(sum(expected), rel=1e-9)
 
 
+def test_drags_of_shafts_load_the_meshes_before_them():
+    """Palmgren's M_0, seals by ISO/TR 14179-2, a pump: torques of shafts from printed formulas."""
+    sizes = {"pinion-1": (35.0, 30.0), "middle": (55.0, None), "wheel-2": (90.0, 70.0)}  # d_m, seal; mm
+    losses = {
+        "bearings": "palmgren",
+        "seals": "iso-14179-2",
+        "shaft_bearings": {
+            name: {"type": "deep-groove-ball", "mean_diameter": f"{size} mm", "count": 2}
+            for name, (size, _) in sizes.items()
+        },
+        "shaft_seals": {name: {"diameter": f"{seal} mm"} for name, (_, seal) in sizes.items() if seal},
+        "pump": {"shaft": "middle", "pressure": "4 bar", "displacement": "5 ml", "efficiency": 0.8},
+    }
+    case = load_scenario("two-stage-reducer", KEYS | {"losses": losses})
+    nominal = LOSSES.nominal(case)
+    oil = case.pair.lubricant
+    kinematic, turns = 1e6 * oil.inlet_viscosity / oil.density, {}
+    torques = {}
+    for name, ratio in (("pinion-1", 1.0), ("middle", 1.0 / 3.0), ("wheel-2", nominal.ratio)):
+        turns[name] = abs(ratio)
+        size, seal = sizes[name]
+        rpm = 1480.0 * abs(ratio)
+        torques[name] = 2e-3 * 2.0 * 1e-7 * (kinematic * rpm) ** (2.0 / 3.0) * size**3
+        if seal:
+            torques[name] += 7.69e-6 * seal**2 * 30.0 / np.pi
+    torques["middle"] += 4e5 * 5e-6 / (2.0 * np.pi * 0.8)
+    second, on_middle = SECOND.losses(1770.0 + torques["wheel-2"])
+    first, driving = FIRST.losses(on_middle + torques["middle"])
+    found = LOSSES.at(case, _at(nominal, 1.0))
+    assert found.drag[0, :2] == pytest.approx([first, second / 3.0], rel=1e-4)
+    of_shafts = sum(torque * turns[name] for name, torque in torques.items())
+    assert float(found.drag[0, 2:].sum()) == pytest.approx(of_shafts, rel=1e-9)
+    assert driving + torques["pinion-1"] - nominal.input_torque == pytest.approx(found.total()[0], rel=1e-4)
+    terms = found.by_term()
+    pump = 4e5 * 5e-6 / (2.0 * np.pi * 0.8) / 3.0
+    assert float(terms["P_VX"][0]) == pytest.approx(pump, rel=1e-12)
+    assert float(sum(terms.values())[0]) == pytest.approx(found.total()[0], rel=1e-12)
+
+
 def test_power_in_is_power_out_and_losses(case):
     """By η both ways: with the same loss driven backwards as forwards it were 2 − 1/η."""
     nominal = LOSSES.nominal(case)
