@@ -26,10 +26,12 @@ DRUM = CarrierInOil(0.2, 0.06, 0.2, 0.01)
 def test_seals_by_hand():
     """A lip of 50 mm at 1500 rpm: 28.8 W by part 2; 19.1 and 29.4 W of both materials by part 1."""
     speed = 1500 * RPM
-    assert seals.iso_14179_2(seals.SealData(50e-3)).torque * speed == pytest.approx(28.84, rel=1e-3)
+    assert seals.iso_14179_2(seals.SealData(50e-3), OIL).torque * speed == pytest.approx(28.84, rel=1e-3)
     for material, power in (("nbr", 19.08), ("fkm", 29.35)):
-        found = seals.iso_14179_1(seals.SealData(50e-3, 2, material)).torque
+        found = seals.iso_14179_1(seals.SealData(50e-3, 2, material), OIL).torque
         assert found * speed == pytest.approx(2 * power, rel=1e-3)
+    synthetic = OIL._replace(synthetic=True)
+    assert seals.iso_14179_2(seals.SealData(50e-3), synthetic).exceeded == ("mineral oil",)
 
 
 def test_a_pump_takes_pressure_times_flow():

@@ -184,7 +184,7 @@ def bearing_remarks(shafts: Sequence[TurningShaft], oil: LubricantData | None = 
         remarks.append(
             "Bearings: under the mean load of the duty, without application and dynamic factor; basic rating "
             "life L_10h without the influence of oil, cleanness and misalignment, L_10mh with those of oil "
-            "and cleanness, L_10rh with clearance and misalignment; losses are not in the efficiency."
+            "and cleanness, L_10rh with clearance and misalignment; in the efficiency are losses of [losses]."
         )
     return remarks
 

@@ -117,7 +117,7 @@ def shaft_torques(
                 loaded = Torque(found.loaded, found.exceeded)
                 yield ElementTorque("P_VLP", *element, "bearings_under_load", loaded)
     if data.seals is not None and shaft.seals is not None:
-        torque = _everywhere(SEALS[data.seals](shaft.seals), speed)
+        torque = _everywhere(SEALS[data.seals](shaft.seals, oil), speed)
         yield ElementTorque("P_VD", f"seals of {shaft.name}", "seal", data.seals, "seals", torque)
     if data.carrier is not None and shaft.carrier is not None:
         torque = CARRIERS[data.carrier](shaft.carrier, speed, oil, data.sump)
