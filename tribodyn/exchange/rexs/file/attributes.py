@@ -133,7 +133,7 @@ CONTACT_ANGLE = RexsKey("pressure_angle", "contact_angle", "deg")
 #: Of a row of rolling elements, and of one of them.
 ROW = (
     RexsKey("number_of_rolling_elements", "elements"),
-    RexsKey("reference_diameter_rolling_bearing", "pitch_diameter", "mm"),
+    RexsKey("reference_diameter_rolling_bearing", "pitch_diameter", "mm", ("reference_diameter",)),
 )
 ELEMENT = (
     RexsKey("diameter_of_rolling_element", "element_diameter", "mm"),
@@ -192,7 +192,7 @@ MATERIAL = (
         "nominal_stress_number_tooth_root_iso_6336_2016",
         "bending_stress_limit",
         "MPa",
-        ("nominal_stress_number_tooth_root_iso_6336_2003",),
+        ("nominal_stress_number_tooth_root_iso_6336_2003", "endurance_limit_root"),
     ),
     RexsKey("yield_strength", "yield_strength", "MPa"),
 )

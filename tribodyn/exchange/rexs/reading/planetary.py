@@ -268,14 +268,17 @@ def put_carrier(draft: Draft, found: PlanetarySet) -> None:
         )
         frame_of(sheet, pin)
         mass, inertia, guessed = mass + part[0], inertia + part[1] + part[0] * away**2, guessed or not part[2]
+    told = sheet.si(carrier, MASS)
+    if told:
+        mass, inertia = told, inertia * told / mass if mass else 0.0
     draft.table("[[body]]", carrier.name)
     draft.put("name", text(name))
-    if mass > 0.0:
+    if inertia > 0.0:
         comment = "of its plates, shafts and pins" + (", steel where no density is given" if guessed else "")
         draft.put("mass", f'"{mass:.9g} kg"', comment)
         draft.put("inertia", f'"{inertia:.9g} kg*m**2"')
     else:
-        draft.assume("mass", '"10 kg"')
+        draft.put("mass", f'"{told:.9g} kg"') if told else draft.assume("mass", '"10 kg"')
         draft.assume("inertia", '"0.1 kg*m**2"')
 
 

@@ -1,0 +1,175 @@
+"""What REXS says of a gearbox in other ways than a scenario, and what becomes of it."""
+
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.support.rexs_models import PARTS, one_stage, part, relation
+from tribodyn.exchange.format import Imported
+from tribodyn.exchange.rexs.rexs_format import read
+
+
+def imported(
+    folder: Path, parts: dict[int, str] | None = None, more: str = "", version: str = "2.0.0"
+) -> Imported:
+    path = folder / "gearbox.rexs"
+    path.write_text(one_stage(version, parts, more), encoding="utf-8")
+    return read(path)
+
+
+def shaft_of(found: Imported, name: str) -> dict[str, Any]:
+    return next(shaft["drawn"] for shaft in found.scenario["shaft"] if shaft["name"] == name)
+
+
+def with_values(number: int, **values: object) -> str:
+    """A part of the gearbox with further attributes, or other values of its own."""
+    text = PARTS[number]
+    for key in values:
+        text = re.sub(rf'\n *<attribute id="{key}".*', "", text)
+    more = part(0, "x", "", **values).split("\n", 2)[2].rsplit("\n", 1)[0]
+    return text.replace("\n    </component>", f"\n{more}\n    </component>")
+
+
+RELIEFS = {
+    20: part(
+        20,
+        "tip_relief",
+        tip_relief_depth="0.02 mm",
+        tip_relief_datum_length="3 mm",
+        shape_of_relief="parabolic",
+    ),
+    21: part(
+        21,
+        "helix_crowning",
+        helix_crowning_amount_datum_face="4 mum",
+        helix_crowning_amount_non_datum_face="8 mum",
+    ),
+    22: part(22, "helix_slope", helix_slope="-0.005 mm"),
+}
+ON_FLANK = "".join(relation(40 + each, "reference", origin=9, referenced=each) for each in RELIEFS)
+
+
+def test_modifications_are_those_of_the_flanks(tmp_path: Path):
+    found = imported(tmp_path, RELIEFS, ON_FLANK).scenario["gear"]["pinion"]["modification"]
+    assert found == {
+        "tip_relief": "0.02 mm",
+        "tip_relief_length": "3 mm",
+        "tip_relief_shape": "parabolic",
+        "lead_relief_start": "4 um",
+        "lead_relief_end": "8 um",
+        "helix_slope": "-0.005 mm",
+    }
+
+
+def test_a_datum_face_at_the_far_end_turns_them_round(tmp_path: Path):
+    parts = RELIEFS | {7: with_values(7, datum_face_orientation="positive")}
+    found = imported(tmp_path, parts, ON_FLANK).scenario["gear"]["pinion"]["modification"]
+    assert (found["lead_relief_start"], found["lead_relief_end"]) == ("8 um", "4 um")
+    assert found["helix_slope"] == "0.005 mm"
+
+
+def test_a_cone_is_cylinders_of_nearly_its_volume(tmp_path: Path):
+    found = imported(tmp_path, {6: with_values(6, outer_diameter_end="70 mm")})
+    sections = shaft_of(found, "output")["section"]
+    sizes = [[float(each[key].split()[0]) for key in ("length", "diameter")] for each in sections]
+    volume = sum(length * diameter**2 for length, diameter in sizes) * math.pi / 4
+    exact = math.pi / 12 * 100 * (50**2 + 50 * 70 + 70**2)
+    assert sum(length for length, _ in sizes) == 100
+    assert volume == pytest.approx(exact, rel=1e-3)
+    assert any("is a cone; here 4 cylinders" in line for line in found.remarks)
+
+
+def test_a_shaft_that_runs_the_other_way_is_turned_round(tmp_path: Path):
+    """Its u points along -u of the gear unit: places count from its other end, thrust has the other sign."""
+    tapered = {
+        number: with_values(
+            number,
+            bearing_type="radial_tapered_roller_bearing",
+            catalogue_value_e="0.4",
+            axial_force_absorption=held,
+        )
+        for number, held in ((16, "positive"), (17, "negative"))
+    }
+    straight = shaft_of(imported(tmp_path, tapered), "output")
+    frame = PARTS[4].replace("<c>10</c>", "<c>110</c>", 1).replace("<c>1</c>", "<c>-1</c>", 1)
+    turned = shaft_of(imported(tmp_path, tapered | {4: frame}), "output")
+    assert [each["position"] for each in straight["bearing"]] == ["10 mm", "90 mm"]
+    assert [each["position"] for each in turned["bearing"]] == ["90 mm", "10 mm"]
+    assert [each["thrust"] for each in straight["bearing"]] == ["+z", "-z"]
+    assert [each["thrust"] for each in turned["bearing"]] == ["-z", "+z"]
+    assert straight["positions"] == turned["positions"] == {"wheel": "50 mm"}
+    angle = float(straight["bearing"][0]["contact_angle"].split()[0])
+    assert 1.5 * math.tan(math.radians(angle)) == pytest.approx(0.4, rel=1e-5)
+
+
+def test_version_1_0_counts_from_the_start_of_the_face(tmp_path: Path):
+    older = {7: PARTS[7].replace('mm">60<', 'mm">44<'), 8: PARTS[8].replace('mm">50<', 'mm">35<')}
+    found = imported(tmp_path, older, version="1.0")
+    assert shaft_of(found, "input")["positions"] == {"pinion": "60 mm"}
+    assert shaft_of(found, "output")["positions"] == {"wheel": "50 mm"}
+
+
+RADIAL = {"radial_stiffness": "3e8 N / m"}
+
+
+@pytest.mark.parametrize(
+    ("values", "expected", "said"),
+    [
+        ({"radial_stiffness": "1e20 N / m"}, {"stiffness_x": "1e+10 N/m"}, "changed: concept_bearing"),
+        (RADIAL, {"stiffness_x": "300000000 N/m"}, ""),
+        ({}, {"stiffness_x": "5e+08 N/m"}, "not in the file, assumed: shaft.drawn.bearing.stiffness_x"),
+        (
+            RADIAL | {"axial_force_absorption": "both_directions", "axial_stiffness": "2e8 N / m"},
+            {"stiffness_axial": "200000000 N/m"},
+            "",
+        ),
+        (RADIAL | {"bending_stiffness": "5e7 N mm / rad"}, {"stiffness_tilt": "50000 N*m/rad"}, ""),
+    ],
+)
+def test_concept_bearings_are_springs(
+    values: dict[str, str], expected: dict[str, str], said: str, tmp_path: Path
+):
+    spring = part(17, "concept_bearing", "spring", u_coordinate_on_shaft_inner_side="90 mm", **values)
+    found = imported(tmp_path, {17: spring})
+    assert expected.items() <= shaft_of(found, "output")["bearing"][1].items()
+    assert any(said in line for line in found.remarks)
+
+
+def test_a_bearing_without_its_sizes_is_left_as_a_comment_to_fill_in(tmp_path: Path):
+    told = {"bearing_type": "radial_grooved_ball_bearing", "u_coordinate_on_shaft_inner_side": "90 mm"}
+    bare = part(17, "rolling_bearing_with_catalog_geometry", "6210", **told)
+    found = imported(tmp_path, {17: bare})
+    assert '# type = "deep-groove-ball"' in found.toml
+    assert shaft_of(found, "output")["bearing"][1]["stiffness_x"] == "5e+08 N/m"
+
+
+def test_a_mass_at_the_place_of_the_load_is_where_power_enters(tmp_path: Path):
+    told = {"mass_of_component": "3 kg", "moment_of_inertia_u_axis": "0.01 kg m^2"}
+    mass = part(30, "additional_mass", "half coupling", u_coordinate_on_shaft="0 mm", **told)
+    found = imported(tmp_path, {30: mass}, relation(50, "assembly", assembly=3, part=30))
+    assert found.scenario["body"] == [{"name": "half-coupling", "mass": "3 kg", "inertia": "0.01 kg*m**2"}]
+    assert found.scenario["operating"]["input"] == "half-coupling"
+    assert shaft_of(found, "input")["positions"] == {"half-coupling": "0 mm", "pinion": "60 mm"}
+
+
+def test_power_and_the_output_s_speed_are_taken_as_they_are(tmp_path: Path):
+    """80 N m at -1500 rpm are put in at the pinion; the same as power, and from the speed of the wheel."""
+    parts = {
+        3: re.sub(r"\n *<attribute id=.rotational_speed.*", "", PARTS[3]),
+        4: with_values(4, rotational_speed="731.7 1 / min"),
+        12: re.sub(r"\n *<attribute id=.torque_around_u.*", "", with_values(12, power="12.5 kW")),
+    }
+    operating = imported(tmp_path, parts).scenario["operating"]
+    assert (operating["power"], operating["output_speed"]) == ("12.5 kW", "731.7 rpm")
+    assert (operating["input"], operating["sense"]) == ("pinion", "clockwise")
+
+
+def test_a_load_that_drives_is_the_input(tmp_path: Path):
+    """Torque and speed of the same sign put power in, of opposite sign they take it out."""
+    found = imported(tmp_path, {12: with_values(12, torque_around_u_axis="80 N m")}).scenario["operating"]
+    assert (found["input"], found["output"]) == ("wheel", "pinion")
+    assert (found["output_torque"], found["output_speed"]) == ("80 N*m", "1500 rpm")
+    assert found["sense"] == "counter-clockwise"
