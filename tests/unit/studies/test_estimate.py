@@ -116,6 +116,7 @@ LARGE = {
     "assessment": [("assessment.speeds", 10**9)],
     "train-assessment": [("scenario.output.samples_per_cycle", 10**9)],
     "design": [("scenario.output.positions_per_cycle", 10**9)],
+    "drive-cycle": [("cycle.step", "1e-7 s")],
 }
 #: Kinds that run others, again and again.
 LONG = ("assessment", "design")

@@ -147,7 +147,7 @@ def estimate(case: DriveCycleCase) -> Estimate:
     sizes = {"time": rows, "term": 8, "source": 30, "node": 20, "mesh": 8}
     record = recorded(LAYOUT, sizes, copies=3.0)
     drivers = (
-        CostKey("cycle.table", count, 2000.0, "write fewer rows, or a longer step"),
+        CostKey("cycle.step", count, 2000.0, "write a longer one, or fewer rows"),
         CostKey("cycle.repeat", cycle.repeat, 5.0),
     )
     seconds = Estimate(seconds=_OF_POINT * points + _OF_ROW * rows)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import tomli_w
 
 import tribodyn
 from tribodyn.cases.loss_part import OperatingPoints
@@ -17,6 +18,8 @@ from tribodyn.studies.motion.heat.nodes import heat_of
 from tribodyn.studies.motion.heat.rating import rating_of
 from tribodyn.studies.motion.heat.settled import in_balance, prepare_settled, warmer
 from tribodyn.studies.motion.losses.part import LOSSES
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 REDUCER = tomllib.loads(
     (Path(tribodyn.__file__).parents[1] / "scenarios" / "two-stage-reducer.toml").read_text(encoding="utf-8")
@@ -134,6 +137,42 @@ def test_check_prints_parts_paths_and_rating():
     assert checked.data["losses"]["power_lost"] == pytest.approx(heat["heat_generated"], rel=1e-6)
     titles = [table.title for table in checked.every]
     assert {"Temperatures of the parts", "Paths of heat"} <= set(titles)
+
+
+def test_bearings_that_are_not_drawn_are_parts_too():
+    bearings = {"type": "deep-groove-ball", "mean_diameter": "60 mm"}
+    losses = {"bearings": "palmgren", "shaft_bearings": {"pinion-1": bearings, "middle": bearings}}
+    parts = in_balance(reducer(losses=losses)).heat.settled.parts
+    assert parts["bearings of pinion-1"] > parts["bearings of middle"] > parts["housing"]
+
+
+def test_carriers_and_planets_are_parts():
+    case = scenario(
+        "planetary-24-84",
+        {"friction.law": "schlenk", "temperature.model": "gearbox", "temperature.housing.area": "1 m**2"}
+        | {"temperature.sump": "free"},
+    )
+    heat = in_balance(case).heat.settled
+    planets = [heat.parts[f"gear planet-{number}"] for number in (1, 2, 3)]
+    assert planets == pytest.approx([planets[0]] * 3, abs=1e-3)
+    assert heat.parts["gear sun"] > planets[0] > heat.parts["oil"]
+    assert heat.heat == pytest.approx(heat.given_off, rel=1e-6)
+
+
+def test_a_run_and_a_mesh_taken_alone_have_the_temperatures_of_the_balance(settled, tmp_path):
+    data = REDUCER | {"losses": CHURNING, "temperature": WARM}
+    data |= {"solver": {"cycles": 3}, "output": {"samples_per_cycle": 40}}
+    summary = run(scenario(data, {}), tmp_path / "warm.h5").summary
+    heat = settled.heat.settled
+    for number, name in enumerate(("first", "second")):
+        mesh, (one, two) = summary["meshes"][name], heat.gears[number]
+        assert mesh["bulk_temperature"] == pytest.approx(0.5 * (one + two), abs=1.0)
+        assert mesh["heat_generated"] == pytest.approx(mesh["heat_given_off"], rel=1e-6)
+    (tmp_path / "train.toml").write_text(tomli_w.dumps(data), encoding="utf-8")
+    alone = {"title": "first", "kind": "efficiency", "gearbox": {"scenario": "train.toml", "mesh": "first"}}
+    (tmp_path / "mesh.toml").write_text(tomli_w.dumps(alone), encoding="utf-8")
+    pair = load_scenario(tmp_path / "mesh.toml")
+    assert pair.lubricant.temperature == pytest.approx(0.5 * sum(heat.gears[0]), abs=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 """The thermal network of a gearbox, of what is drawn of it: gears, shafts, bearings, oil, housing."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from tribodyn.cases.heat_part import AMBIENT, HOUSING, OIL, GearboxHeat
@@ -12,7 +12,7 @@ from tribodyn.input.tables.drawn_bearings import sized
 from tribodyn.studies.motion.assembly import assemblies
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.tribology.heat.data import GearboxHeatData
-from tribodyn.tribology.heat.network import HeatNetwork, HeatPath
+from tribodyn.tribology.heat.network import ConductanceLaw, HeatNetwork, HeatPath
 from tribodyn.tribology.heat.parts import (
     SEAT,
     SHAFT_DIAMETER,
@@ -28,6 +28,7 @@ from tribodyn.tribology.heat.surfaces import in_series
 
 #: Held nodes: the coolant, and the oil that enters.
 COOLANT, SUPPLY = "coolant", "oil supply"
+_SEAT = "seat, reference heat flow density of ISO 15312"
 #: Temperature at which the oil's heat capacity is taken, K.
 _USUAL = 333.15
 
@@ -55,6 +56,7 @@ def heat_of(case: Gearbox) -> GearboxHeat | None:
         *_undrawn_shafts(case, discs, oil),
         *(part for shaft in _drawn(case) for part in _shaft(case, shaft, discs, oil)),
     ]
+    parts += _typed_bearings(case, parts, oil)
     capacities = {part.name: part.capacity for part in parts}
     capacities |= {HOUSING: data.housing.capacity}
     held, paths = {AMBIENT: data.ambient_temperature}, [*_housing(data)]
@@ -181,17 +183,51 @@ def _shaft(case: Gearbox, shaft: ShaftData, discs: list[GearDisc], oil: OilHeat)
         gears = [place for _, place in on_it] or [table.position]
         along = _along(shaft, table.position, min(gears, key=lambda place: abs(place - table.position)))
         to_shaft = bearing_seat if along == math.inf else in_series(bearing_seat, along)
-        seat = "seat, reference heat flow density of ISO 15312"
         yield _Part(
             node,
             ring.capacity,
             (
-                HeatPath(node, HOUSING, ring.to_seat(ring.outside), seat),
-                HeatPath(node, name, to_shaft, f"{seat}, and the shaft to the next gear"),
+                HeatPath(node, HOUSING, ring.to_seat(ring.outside), _SEAT),
+                HeatPath(node, name, to_shaft, f"{_SEAT}, and the shaft to the next gear"),
                 HeatPath(node, OIL, ring.to_oil(ratio, oil), "plate in oil, Harris"),
             ),
             source,
         )
+
+
+def _typed_bearings(case: Gearbox, parts: Sequence[_Part], oil: OilHeat) -> Iterator[_Part]:
+    """Bearings that [losses] has and no drawing, on the shaft or the gear that they carry."""
+    names, drawn = {part.name for part in parts}, {part.source for part in parts}
+    gears = {gear.name: gear.body for gear in case.gears}
+    for pair in case.pairs:
+        for shaft in pair.losses.shafts if pair.losses is not None else ():
+            body = gears.get(shaft.name) if shaft.body is None else shaft.body
+            for name, bearing, *_ in shaft.bearings:
+                if body is None or name in drawn:
+                    continue
+                typical = BearingRing.typical(bearing.mean_diameter)
+                ring = BearingRing(
+                    bearing.bore or typical.bore,
+                    bearing.outside_diameter or typical.outside,
+                    bearing.width or typical.width,
+                )
+                node, count, law = name, bearing.count, ring.to_oil(_speed_ratio(case, body), oil)
+                carried = [f"shaft {case.bodies[body].name}"]
+                carried += [gear_node(case.gears[gear].name) for gear in case.bodies[body].gears]
+                paths = [
+                    HeatPath(node, HOUSING, count * ring.to_seat(ring.outside), _SEAT),
+                    HeatPath(node, OIL, _times(count, law), "plate in oil, Harris"),
+                    *(
+                        HeatPath(node, other, count * ring.to_seat(ring.bore), _SEAT)
+                        for other in [other for other in carried if other in names][:1]
+                    ),
+                ]
+                yield _Part(node, count * ring.capacity, tuple(paths), name)
+
+
+def _times(count: int, law: ConductanceLaw) -> ConductanceLaw:
+    """A conductance, so many times."""
+    return lambda one, two, speed: count * law(one, two, speed)
 
 
 def _section_at(shaft: ShaftData, place: float) -> Any:

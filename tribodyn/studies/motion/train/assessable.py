@@ -15,7 +15,7 @@ from tribodyn.input.tables.gears.model_files import DriveTable, Gear
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
-from tribodyn.studies.motion.heat.settled import prepare_settled
+from tribodyn.studies.motion.heat.settled import in_balance, prepare_settled
 from tribodyn.studies.motion.train.face_loads import FACE, along_face, of_deflected, proposals
 from tribodyn.studies.motion.train.pair_view import stiffness_key
 from tribodyn.studies.protocol.load import load_data
@@ -110,6 +110,13 @@ def pair_of(case: Gearbox, name: str) -> dict[str, Any]:
         speed, torque = speed * ratio, -torque * ratio
     duty = {"pinion_speed": f"{speed!r} rad/s", "gear_torque": f"{torque!r} N*m"}
     duty |= {key: operating[key] for key in ("oil_temperature",) if key in operating}
+    if case.heat is not None:  # which a mesh alone does not have: its oil is as warm as its teeth
+        settled = in_balance(case).heat
+        assert settled is not None
+        assert settled.settled is not None
+        teeth = settled.settled.gears[case.meshes.index(mesh)]
+        duty["oil_temperature"] = f"{0.5 * sum(teeth)!r} K"
+        tables.pop("temperature", None)
     return tables | {"operating": duty}
 
 
