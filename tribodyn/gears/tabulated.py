@@ -99,8 +99,8 @@ def _tabulated(case: LubricatedCase) -> Tabulated:
 
     @cache
     def split() -> MeshCycle:
-        if assembly.drive.helix_angle and not back:
-            return cycle  # friction turns within slices, not at the ends of segments
+        if assembly.drive.helix_angle:
+            return cycle.fronts() if back else cycle  # friction turns within slices, not between segments
         turning = Assembly(assembly.family._replace(corner=True), assembly.drive)
         return mesh_cycle_of(turning, case.materials, mesh, torque)
 

@@ -102,6 +102,18 @@ class MeshCycle(NamedTuple):
         """Number of pairs of driving flanks that can be in contact at once: the contact ratio rounded up."""
         return self.front_slots // self.slices
 
+    def fronts(self) -> "MeshCycle":
+        """The same without back flanks, which are not coupled with the driving ones."""
+        slots, fronts, cut = self.slots, self.front_slots, {}
+        for name in ("in_contact", "side", *OF_SLOTS):
+            values = np.asarray(getattr(self, name))
+            if values.ndim and values.shape[-1] == slots:
+                cut[name] = values[..., :fronts]
+        coupling = np.asarray(self.coupling)
+        if coupling.shape[-1] == slots:
+            cut["coupling"] = coupling[..., :fronts, :fronts]
+        return self._replace(**cut)
+
     @property
     def pair_side(self) -> Any:
         """Side of every pair (P,): 1 of driving flanks, −1 of back flanks."""
@@ -137,6 +149,12 @@ class MeshCycle(NamedTuple):
         return 2 * np.pi / self.pinion_teeth
 
 
+#: Arrays (S, N, Q) of `MeshCycle`.
+OF_SLOTS = (
+    *("pressure_angle", "signed_distance", "equivalent_radius", "pinion_speed", "gear_speed"),
+    *("compliance", "gap", "hertz_coefficient", "line_load_friction", "line_load_peak", "share"),
+    "face_place",
+)
 #: Channels of `Polynomials.channel`, in order; cosine and sine of the pressure angle.
 CHANNELS = (
     "cosine",

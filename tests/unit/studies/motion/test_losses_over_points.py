@@ -159,3 +159,10 @@ def test_regressions_are_held_at_the_friction_of_asperities_where_they_grow_with
     assert light == pytest.approx(limit, rel=1e-9)
     assert np.all(nominal < limit)
     assert all("held at the friction of asperities" in "; ".join(limits) for limits in found.exceeded)
+
+
+@pytest.mark.parametrize("name", ["helical-23-47", "involute-23-47"])
+def test_back_flanks_that_carry_nothing_lose_nothing(name):
+    both = [load_scenario(name), load_scenario(name, {"mesh.backlash": "80 um"})]
+    one, two = (LOSSES.at(case, points(case, [1.0, -0.5], [1.0, 0.5])).drag for case in both)
+    assert two == pytest.approx(one, rel=1e-9)

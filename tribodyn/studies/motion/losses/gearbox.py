@@ -20,7 +20,7 @@ from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.losses.elements import Drag, drags_of, torques_at
 from tribodyn.studies.motion.losses.temperatures import Warmth, warmth
 from tribodyn.studies.motion.planetary.powers import loads_of, rows_of, speeds_of
-from tribodyn.train.power_flow import LossyMesh, influence
+from tribodyn.train.power_flow import Influence, LossyMesh, influence
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.losses.loss import Torque, oil_state
 from tribodyn.tribology.oil import LubricantData, lubricant_from
@@ -28,6 +28,8 @@ from tribodyn.tribology.oil import LubricantData, lubricant_from
 #: Passes over torques and temperatures at most, and changes that end them: of temperatures, K, and of torques
 #: as a share of the largest.
 PASSES, SETTLED, STEADY = 30, 0.02, 1e-4
+#: Torque of a mesh per drag of another below which it does not depend on that.
+DEPENDS = 1e-9
 
 
 class GearboxLoss:
@@ -48,8 +50,7 @@ class GearboxLoss:
             for mesh, each in zip(case.meshes, teeth, strict=True)
         ]
         self.flow = influence(meshes, rows_of(case), self.speeds, loads_of(case, self.speeds))
-        depends = np.abs(self.flow.mesh) > 1e-9
-        self.order = [int(m) for m in np.argsort(depends.sum(axis=1), kind="stable")]
+        self.groups = _downstream_first(self.flow, self.tables)
         self.drags: list[Drag] = drags_of(case, tabulated)
         self.sources = tuple(
             [LossSource("P_VZP", mesh.name, "mesh", _method(mesh.pair)) for mesh in case.meshes]
@@ -153,18 +154,17 @@ class GearboxLoss:
         `outside` are torques without drags of meshes, which are known from before. Planets, which are alike,
         are looked at once.
         """
-        drag, torque = drag.copy(), outside.copy()
-        losses, found = dict[int, MeshLoss](), list[tuple[LossTable, MeshPoints, MeshLoss]]()
-        for m in self.order:
-            torque[m] = outside[m] + self.flow.mesh[m] @ drag
-            at = MeshPoints(torque[m], speed * self.turning[m], warm.bulk[:, m], warm.oil)
-            loss = next(
-                (of for table, other, of in found if table is self.tables[m] and alike(other, at)), None
-            )
-            if loss is None:
-                loss = self._of_mesh(m, at)
-                found.append((self.tables[m], at, loss))
-            losses[m], drag[m] = loss, loss.drag
+        drag, torque, losses = drag.copy(), outside.copy(), dict[int, MeshLoss]()
+        for group in self.groups:
+            torque[group] = outside[group] + self.flow.mesh[group] @ drag
+            found = list[tuple[MeshPoints, MeshLoss]]()
+            for m in group:
+                at = MeshPoints(torque[m], speed * self.turning[m], warm.bulk[:, m], warm.oil)
+                loss = next((of for other, of in found if alike(other, at)), None)
+                if loss is None:
+                    loss = self._of_mesh(m, at)
+                    found.append((at, loss))
+                losses[m], drag[m] = loss, loss.drag
         return [losses[m] for m in range(len(self.tables))], torque
 
     def _of_mesh(self, m: int, at: MeshPoints) -> MeshLoss:
@@ -191,6 +191,15 @@ def formula_of(pair: LubricatedCase) -> str | None:
 
 def _method(pair: LubricatedCase) -> str:
     return formula_of(pair) or laws_of(pair)[1].name
+
+
+def _downstream_first(flow: Influence, tables: Sequence[LossTable]) -> list[list[int]]:
+    """Meshes whose torques depend on the losses of fewest others first; those of planets together."""
+    depends = np.sum(np.abs(flow.mesh) > DEPENDS, axis=1)
+    groups: dict[tuple[int, int, str], list[int]] = {}
+    for m in np.argsort(depends, kind="stable").tolist():
+        groups.setdefault((int(depends[m]), id(tables[m]), f"{flow.load[m]:.6g}"), []).append(m)
+    return list(groups.values())
 
 
 def alike(one: MeshPoints, two: MeshPoints) -> bool:
