@@ -59,10 +59,14 @@ class LossTable:
     """A mesh of a case, made ready for points of operation."""
 
     def __init__(self, tabulated: Tabulated, pair: LubricatedCase) -> None:
-        whole = tabulated.split()
-        self.cycle = thinned(whole, CELLS_OF_SLICES if whole.slices > 1 else CELLS)
-        self.pair = pair
+        self.tabulated, self.pair = tabulated, pair
         self.nominal = abs(float(pair.operating.gear_torque)) or 1.0  # N m
+
+    @cached_property
+    def cycle(self) -> MeshCycle:
+        """The table of driving flanks, thinned out."""
+        whole = self.tabulated.split()
+        return thinned(whole, CELLS_OF_SLICES if whole.slices > 1 else CELLS)
 
     @cached_property
     def weight(self) -> Float[Array, "segment node slot"]:

@@ -39,9 +39,12 @@ def losses_of_run(
 ) -> dict[str, Any]:
     """Losses by the motion of the meshes, W, and beside them those that it does not have, at nominal speed.
 
-    `whole` has the mean power that is put in, of the motion alone.
+    `whole` has the mean power that is put in, of the motion alone. Nothing of runs by time, whose speed is
+    what it becomes, and of gears that stand.
     """
     gearbox, case = GearboxLoss(prepared.case, prepared.tables), prepared.case
+    if case.in_time or not np.all(np.isfinite([*friction, whole["power_in_mean"]])):
+        return {}
     speed, oil = np.array([case.source.speed]), np.array([_oil_temperature(prepared)])
     losses = _of_meshes(gearbox, friction, OperatingPoints(np.ones(1), speed, oil))
     drags = gearbox.drags_at(speed, oil, np.ones(1))
