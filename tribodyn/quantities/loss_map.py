@@ -14,7 +14,7 @@ GRID = (
         "over the torque counts as that."
     ),
     Quantity("map_error_mean", "Interpolation misses by, mean", "%", ".2g").defined_as(
-        "Mean of the same over those points."
+        "Mean of the same over points that lie evenly between the ends of all axes."
     ),
 )
 OWN_POINT = (

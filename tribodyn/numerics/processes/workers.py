@@ -43,6 +43,11 @@ class Workers:
         for process in self._processes.values():
             child.end(process)
 
+    @property
+    def processes(self) -> "tuple[subprocess.Popen[bytes], ...]":
+        """Those that were started."""
+        return tuple(self._processes.values())
+
     def submit(self, question: Any) -> "Future[Any]":
         """Ask what can be written as JSON; so can the answer.
 

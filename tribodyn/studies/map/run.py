@@ -234,9 +234,6 @@ def check(case: MapCase) -> CheckResult:
         "points": case.nodes,
         "accuracy": case.accuracy,
         "most_points": case.most_points,
-        "seconds_per_point": each,
-        "seconds": seconds,
-        "cores": cores,
         "sources": [f"{term} {element}: {method}" for term, element, _, method in first["sources"]],
         "ratio": nominal.ratio,
     }

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import tribodyn as td
 from tribodyn.cases.loss_part import OperatingPoints
 from tribodyn.record.loss_map import loss_map
 from tribodyn.record.reader import Record
@@ -140,3 +141,23 @@ def test_a_comparison_names_what_differs_in_the_gearboxes(tmp_path: Path):
         assert found.conditions == {"friction.coefficient": ("0.05", "0.06")}
         rows = {row.quantity.name: row.values for rows in found.groups.values() for row in rows}
         assert rows["own_power_loss"][1] / rows["own_power_loss"][0] == pytest.approx(1.2, rel=0.01)
+
+
+def test_a_node_has_what_check_says_of_the_gearbox_by_term_and_element(tmp_path: Path):
+    """Of the shipped reducer: meshes, bearings with and without load, seals, churning, windage."""
+    own: dict[str, Any] = {"torque": ["1770 N*m"], "speed": ["1480 rpm"], "oil_temperature": ["70 degC"]}
+    with mapped(tmp_path, "map-two-stage-reducer", **own, directions="forward") as record:
+        power = record["drag"][:, 0, 0, 0] * record["speed"][0]
+        by_term = record.summary["own_losses"]
+        gearbox = dict(record.scenario["scenario"])
+        texts = (record[f"source_{part}"] for part in ("term", "element", "method"))
+        elements = [tuple(map(str, names)) for names in zip(*texts, strict=True)]
+        said = td.check(gearbox)["losses"]
+    assert sum(power) == pytest.approx(said["power_lost"], rel=1e-9)
+    for term, watts in said["terms"].items():
+        assert by_term[term] == pytest.approx(watts, rel=1e-9), term
+    found = dict(zip(elements, power, strict=True))
+    assert len(found) > 10
+    for element in said["elements"]:
+        key = element["term"], element["element"], element["method"]
+        assert found[key] == pytest.approx(element["power"], rel=1e-9), key
