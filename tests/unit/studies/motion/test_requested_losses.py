@@ -114,6 +114,15 @@ def test_bearings_that_are_not_drawn_share_the_forces_of_the_meshes():
         assert 2.0 * found[name].axial == pytest.approx(abs(z), rel=2e-3)
 
 
+def test_drawn_shafts_of_several_gears_go_by_their_own_names():
+    keys = {"losses.seals": "iso-14179-2", "losses.shaft_seals.middle.diameter": "60 mm"}
+    case = load_scenario("industrial-reducer", keys)
+    (sealed,) = case.pair.losses.shafts
+    assert sealed.speed == pytest.approx(case.source.speed * 19.0 / 83.0)
+    with pytest.raises(InputError, match=r"(?s)no such gear, shaft or body.*high-speed"):
+        load_scenario("industrial-reducer", {**keys, "losses.shaft_seals.slow.diameter": "60 mm"})
+
+
 def test_a_pair_and_its_train_share_the_same_forces():
     held = DRAG | {"load": "meshes"}
     pair = GEARBOXES["pair"] | {"losses": {"bearings": "palmgren", "pinion_bearings": held}}

@@ -128,7 +128,9 @@ def losses_of_meshes(
         return [None] * len(motion.meshes)
     places = {body.name: number for number, body in enumerate(parts.bodies)}
     places |= {name: ends[0] for name, ends in parts.places.items()}
-    shafts = [replace(shaft, body=train.numbers[places[name]]) for name, shaft in table.shafts().items()]
+    numbers = {name: body for body, name in drawn.items()}
+    numbers |= {name: train.numbers[place] for name, place in places.items()}
+    shafts = [replace(shaft, body=numbers[name]) for name, shaft in table.shafts().items()]
     if table.bearings is not None:
         shafts += [
             ShaftLosses(name, body=body, bearings=loaded_bearings(name, support.bearings))
@@ -171,7 +173,8 @@ def broken_train_losses(
     """Go through the rules that a train's losses break; `shafts` is its table of them."""
     parts = train.parts
     gears = [gear.name for gear in parts.gears]
-    bodies = [*gears, *(body.name for body in parts.bodies)]
+    of_drawn = [shaft.name for shaft in listed(shafts) if shaft.drawn is not None]
+    bodies = list(dict.fromkeys([*gears, *(body.name for body in parts.bodies), *of_drawn]))
     carriers = [
         parts.bodies[train.motion.bodies[body]].name
         for body in dict.fromkeys(train.motion.carrier)
