@@ -139,7 +139,7 @@ class LossTable:
                 "that it holds for"
             )
         sliding = np.abs(seen.pinion_speed - seen.gear_speed)
-        rate = load * (seen.pinion_speed - seen.gear_speed) * way[:, None, None, None] * cycle.pinion_sense
+        rate = load * (seen.pinion_speed - seen.gear_speed) * way[:, None, None, None]
         drag = np.einsum("psnq,snq->p", coefficient * rate, self.weight) / speed
         drag = np.maximum(drag, 0.0) * np.minimum(np.abs(points.torque) / least, 1.0)
         loaded = (load > 0.0) & (seen.carrying > 0.0)

@@ -74,6 +74,22 @@ def test_a_planetary_set_loses_what_willis_says(name):
     assert power == pytest.approx(list(flow.loss), rel=2e-4)
 
 
+def test_a_ring_that_drives_planets_loses_as_much_as_in_one_equilibrium():
+    """The carrier is the input and the ring stands: against the carrier the ring drives."""
+    duty = {"input": "carrier", "output": "sun", "input_speed": "300 rpm", "output_torque": "100 N*m"}
+    case = load_data(
+        GEARBOXES["planetary"] | {"operating": duty | {"oil_temperature": "70 degC"}}, "set"
+    ).case
+    found = LOSSES.at(case, points(case, [1.0, -1.0], 1.0))
+    rings = [m for m, mesh in enumerate(case.meshes) if mesh.pair.drive.pinion.teeth < 0]
+    assert rings
+    for m in rings:
+        pair = case.meshes[m].pair
+        alone = quasi_static_loss(prepare(case).tables[m])(pair)
+        assert found.drag[0, m] * case.source.speed == pytest.approx(alone, rel=0.02)
+        assert found.drag[1, m] == pytest.approx(found.drag[0, m], rel=0.03)
+
+
 def test_power_that_flows_back_has_the_efficiency_of_a_constant_friction():
     case = load_scenario("two-pinions-bull-gear", COULOMB)
     nominal = LOSSES.nominal(case)
