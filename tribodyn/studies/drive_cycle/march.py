@@ -16,7 +16,7 @@ from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS
 
 #: Difference between the losses at the temperatures of the rows and those interpolated, as a share of the
 #: largest loss, that is not worth another pass; passes at most.
-CLOSE, PASSES = 1e-5, 5
+CLOSE, PASSES = 1e-4, 5
 
 
 class CycleHistory(NamedTuple):

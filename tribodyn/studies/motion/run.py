@@ -82,6 +82,8 @@ def _run(case: Gearbox, path: Path, force: bool, *, progress: Progress | None) -
         "lubricant": oil_data(oil),
         **of_meshes(case, rests),
     }
+    if prepared.case.heat is not None and prepared.case.heat.settled is not None:
+        summary["part_temperatures"] = dict(prepared.case.heat.settled.parts)
     kept = record_of(prepared, meshes)
     more = {"groups": kept.groups, "scales": kept.scales}
     with writer(case, path, kept.layout, len(case.output.kept(cycles)), force=force, **more) as record:

@@ -64,18 +64,16 @@ class OilHeat(NamedTuple):
 
     sheet: OilSheet
 
-    def viscosity(self, temperature: Any) -> Any:
-        """Kinematic, m²/s."""
-        return kinematic_viscosity(self.sheet.viscosity_40, self.sheet.viscosity_100, _known(temperature))
-
     def volumetric_heat(self, temperature: Any) -> Any:
         """ρ c, J/(m³ K)."""
         known, density = _known(temperature), self.sheet.density_15
         return density_at(density, known) * specific_heat(density, known)
 
-    def prandtl(self, temperature: Any) -> Any:
-        """Ν ρ c/λ."""
-        return self.viscosity(temperature) * self.volumetric_heat(temperature) / OIL_CONDUCTIVITY
+    def film(self, temperature: Any) -> tuple[Any, Any]:
+        """Kinematic viscosity ν, m²/s, and Prandtl number ν ρ c/λ."""
+        known = _known(temperature)
+        viscosity = kinematic_viscosity(self.sheet.viscosity_40, self.sheet.viscosity_100, known)
+        return viscosity, viscosity * self.volumetric_heat(known) / OIL_CONDUCTIVITY
 
 
 def _known(temperature: Any) -> Any:
@@ -111,8 +109,7 @@ def gear_to_oil(surface: float, ratio: float, oil: OilHeat) -> ConductanceLaw:
     """From a gear that turns `ratio` times as fast as the input to the oil that wets all of it (Levich)."""
 
     def law(one: Any, two: Any, speed: float) -> Any:
-        film = 0.5 * (one + two)
-        turning = rotating_disc(abs(speed * ratio), oil.viscosity(film), oil.prandtl(film))
+        turning = rotating_disc(abs(speed * ratio), *oil.film(0.5 * (one + two)))
         return surface * np.hypot(turning, STILL_OIL)
 
     return law
@@ -150,8 +147,8 @@ class BearingRing(NamedTuple):
         surface = 2.0 * math.pi * self.mean_diameter * self.width
 
         def law(one: Any, two: Any, speed: float) -> Any:
-            film, along = 0.5 * (one + two), abs(speed * ratio) * self.bore / 2.0 / 3.0
-            flowing = plate_in_oil(along, self.mean_diameter, oil.viscosity(film), oil.prandtl(film))
+            along = abs(speed * ratio) * self.bore / 2.0 / 3.0
+            flowing = plate_in_oil(along, self.mean_diameter, *oil.film(0.5 * (one + two)))
             return surface * np.hypot(flowing, STILL_OIL)
 
         return law

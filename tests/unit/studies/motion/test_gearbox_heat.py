@@ -139,6 +139,16 @@ def test_check_prints_parts_paths_and_rating():
     assert {"Temperatures of the parts", "Paths of heat"} <= set(titles)
 
 
+def test_at_a_given_oil_temperature_meshes_are_as_much_warmer_as_in_the_balance(settled):
+    heat, speed = settled.heat.settled, settled.source.speed
+    oil = np.array([heat.oil, heat.oil, heat.oil])
+    found = LOSSES.at(settled, OperatingPoints(np.array([1.0, 0.0, 1.0]), speed * np.array([1, 1, 0]), oil))
+    bulk = found.meshes["bulk_temperature"]
+    assert bulk[0] == pytest.approx([0.5 * sum(gears) for gears in heat.gears], abs=0.1)
+    assert bulk[1] == pytest.approx(heat.oil, abs=0.1)  # only the drag of the wheels loads the teeth
+    assert bulk[2] == pytest.approx(heat.oil, abs=0.1)
+
+
 def test_bearings_that_are_not_drawn_are_parts_too():
     bearings = {"type": "deep-groove-ball", "mean_diameter": "60 mm"}
     losses = {"bearings": "palmgren", "shaft_bearings": {"pinion-1": bearings, "middle": bearings}}
@@ -168,6 +178,8 @@ def test_a_run_and_a_mesh_taken_alone_have_the_temperatures_of_the_balance(settl
         mesh, (one, two) = summary["meshes"][name], heat.gears[number]
         assert mesh["bulk_temperature"] == pytest.approx(0.5 * (one + two), abs=1.0)
         assert mesh["heat_generated"] == pytest.approx(mesh["heat_given_off"], rel=1e-6)
+    assert summary["part_temperatures"].keys() == heat.parts.keys()
+    assert summary["part_temperatures"]["oil"] == pytest.approx(heat.oil, abs=3.0)
     (tmp_path / "train.toml").write_text(tomli_w.dumps(data), encoding="utf-8")
     alone = {"title": "first", "kind": "efficiency", "gearbox": {"scenario": "train.toml", "mesh": "first"}}
     (tmp_path / "mesh.toml").write_text(tomli_w.dumps(alone), encoding="utf-8")

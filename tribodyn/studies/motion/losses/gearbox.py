@@ -17,6 +17,8 @@ from tribodyn.gears.rating.mesh_loss import loss_by_formula
 from tribodyn.gears.tabulated import Tabulated
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.heat.meshes import bulk_in_oil
+from tribodyn.studies.motion.heat.nodes import heat_of
 from tribodyn.studies.motion.losses.elements import Drag, drags_of, torques_at
 from tribodyn.studies.motion.losses.temperatures import Warmth, warmth
 from tribodyn.studies.motion.planetary.powers import loads_of, rows_of, speeds_of
@@ -63,7 +65,8 @@ class GearboxLoss:
         self.turning = (
             np.array([mesh.pair.operating.pinion_speed for mesh in case.meshes]) / case.source.speed
         )
-        self.warms = any(pair.temperature is not None for pair in case.pairs)
+        self.heat = heat_of(case)
+        self.warms = self.heat is not None or any(pair.temperature is not None for pair in case.pairs)
         self.braked = [(drag.body, drag.turn) for drag in self.drags for _ in drag.sources]
         self.of_bodies = np.array([turn for _, turn in self.braked]) / case.source.speed
 
@@ -133,14 +136,16 @@ class GearboxLoss:
         speed: Float[Array, " point"],
         supplied: Float[Array, " point"],
     ) -> Warmth:
-        """Temperatures that these losses give."""
+        """Temperatures that these losses give; a gearbox in balance has its oil as it is supplied."""
+        friction = drag * self.turning[:, None] * speed
+        if self.heat is not None:
+            return Warmth(bulk_in_oil(self.heat, friction, speed, supplied), supplied)
         power = {"bearing": 0.0 * speed, "gear": 0.0 * speed}
         sources = self.sources[len(self.tables) :]
         for source, (torque, _), ratio in zip(sources, idle, self.of_bodies, strict=True):
             place = "bearing" if source.sort in ("bearing", "seal") else "gear"
             power[place] = power[place] + torque * ratio * speed
-        friction = list(drag * self.turning[:, None] * speed)
-        return warmth(self.case, self.tabulated, friction, power["gear"], power["bearing"], supplied)
+        return warmth(self.case, self.tabulated, list(friction), power["gear"], power["bearing"], supplied)
 
     def _of_meshes(
         self,
