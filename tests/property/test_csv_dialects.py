@@ -24,7 +24,7 @@ DIALECTS = st.fixed_dictionaries(
     {
         "separator": st.sampled_from(";\t,"),
         "comma": st.booleans(),
-        "mark": st.booleans(),
+        "encoding": st.sampled_from(["utf-8", "utf-8-sig", "utf-16"]),
         "end": st.sampled_from(["\n", "\r\n", "\r"]),
         "quotes": st.booleans(),
         "units_below": st.booleans(),
@@ -48,7 +48,7 @@ def written(table: list[list[float]], dialect: dict) -> bytes:
     if dialect["told"]:
         lines.insert(0, f"sep={separator}")
     text = dialect["end"].join(lines) + dialect["end"]
-    return text.encode("utf-8-sig" if dialect["mark"] else "utf-8")
+    return text.encode(dialect["encoding"])
 
 
 def read_or_refused(path: Path, names: tuple[str, ...]) -> tuple[dict[str, Any] | None, str]:

@@ -89,7 +89,7 @@ def read_curve(
     file = _File(path, key)
     lines = [
         (number, line)
-        for number, line in enumerate(read_text(path, MOST_CSV).split("\n"), start=1)
+        for number, line in enumerate(read_text(path, MOST_CSV, of_spreadsheet=True).split("\n"), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
     if lines and (told := _TOLD.fullmatch(lines[0][1].strip("\n"))):

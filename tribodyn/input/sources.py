@@ -3,6 +3,7 @@
 A scenario may come from a stranger: files and tables have bounds, and so has what stands in them (`bounds`).
 """
 
+import codecs
 import os
 import re
 import tomllib
@@ -128,14 +129,18 @@ def _named(key: str, name: str, what: str, folders: Iterable[Path]) -> Path:
     raise InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")
 
 
-def read_text(path: Path, most: int) -> str:
-    """Return the text of a file; one that is unreadable, or of more than `most` bytes, is bad input."""
+def read_text(path: Path, most: int, *, of_spreadsheet: bool = False) -> str:
+    """Return the text of a file; one that is unreadable, or of more than `most` bytes, is bad input.
+
+    That `of_spreadsheet` may be in UTF-16 too, which its byte-order mark tells.
+    """
     try:
         with path.open("rb") as file:
             content = file.read(most + 1)
         if len(content) > most:
             raise InputError("file", None, f"larger than {most >> 20} MiB", "shorten it", str(path))
-        return content.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        wide = of_spreadsheet and content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+        return content.decode("utf-16" if wide else "utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         place = f"byte {error.start}"
         raise InputError(place, None, "not UTF-8 text", "save it as UTF-8", str(path)) from None
