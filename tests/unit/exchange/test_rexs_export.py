@@ -19,6 +19,7 @@ from tribodyn.exchange.rexs.file.files import read_model
 from tribodyn.exchange.rexs.file.units import unit_named
 from tribodyn.exchange.rexs.rexs_format import read
 from tribodyn.exchange.rexs.writing.export import write
+from tribodyn.input.sources import shipped
 from tribodyn.input.tables.drawn_bearings import BearingOfShaft
 from tribodyn.studies.protocol.load import load
 
@@ -219,3 +220,22 @@ def test_a_zip_that_is_not_written_is_refused(tmp_path: Path):
     (line,) = complaints("export", PLANETS, "--to", "rexs", "-o", tmp_path / "set.rexsz")
     assert "rexs writes .rexs alone" in line
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.slow
+def test_every_shipped_scenario_goes_and_comes_back_or_is_refused(tmp_path: Path):
+    went = []
+    for file in sorted(shipped("scenarios").glob("*.toml")):
+        path = tmp_path / file.name
+        try:
+            tables = tomllib.loads(load(file.stem, {}).case.toml)
+            text = str(write(Exported(file, tables), file.stem, {}).files[".rexs"])
+        except td.InputError:
+            continue
+        assert schema().faults(text) == []
+        path.with_suffix(".rexs").write_text(text, encoding="utf-8")
+        path.write_text(read(path.with_suffix(".rexs")).toml, encoding="utf-8")
+        assert load(path, {}).case.kind == "gear-train"
+        went.append(file.stem)
+    assert {"dtu-10mw-gearbox", "idler-train", "spur-25-51", REDUCER, PLANETS, TURBINE} < set(went)
+    assert len(went) > 30

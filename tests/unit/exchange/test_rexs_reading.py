@@ -173,3 +173,34 @@ def test_a_load_that_drives_is_the_input(tmp_path: Path):
     assert (found["input"], found["output"]) == ("wheel", "pinion")
     assert (found["output_torque"], found["output_speed"]) == ("80 N*m", "1500 rpm")
     assert found["sense"] == "counter-clockwise"
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+def test_a_shaft_without_gears_is_a_body_that_a_coupling_joins(tmp_path: Path, rigid: bool):
+    """A motor's shaft of 100 mm and 40 mm of steel before the pinion's; its mass by hand."""
+    stiffness = "1e18" if rigid else "2e8"
+    parts = {
+        30: part(30, "shaft", "motor shaft", at=(-120, 0, 0)),
+        31: part(31, "shaft_section", length="100 mm", outer_diameter_begin="40 mm"),
+        32: part(32, "coupling", "coupling", rotational_stiffness=f"{stiffness} N mm / rad"),
+    }
+    more = relation(50, "assembly", assembly=30, part=31) + relation(
+        51, "side", assembly=32, inner_part=30, outer_part=3
+    )
+    path = tmp_path / "gearbox.rexs"
+    on_shaft = '<ref role="assembly" id="{}"/><ref role="part" id="12"/>'
+    text = one_stage("2.0.0", parts, more).replace(on_shaft.format(3), on_shaft.format(30))
+    path.write_text(text, encoding="utf-8")
+    found = read(path).scenario
+    mass = 7850 * math.pi / 4 * 0.04**2 * 0.1
+    assert float(found["body"][0]["mass"].split()[0]) == pytest.approx(mass, rel=1e-8)
+    assert float(found["body"][0]["inertia"].split()[0]) == pytest.approx(mass * 0.04**2 / 8, rel=1e-8)
+    (link,) = found["link"]
+    assert (link["ends"], found["operating"]["input"]) == (["motor-shaft", "pinion"], "motor-shaft")
+    assert link["stiffness"] == ("1e+09 N*m/rad" if rigid else "200000 N*m/rad")
+
+
+def test_modified_spur_gears_are_given_to_finite_elements(tmp_path: Path):
+    spur = {number: with_values(number, helix_angle_reference_diameter="0 deg") for number in (7, 8)}
+    assert "compliance" not in imported(tmp_path, spur).scenario["mesh"]
+    assert imported(tmp_path, RELIEFS | spur, ON_FLANK).scenario["mesh"]["compliance"] == "fem"

@@ -30,7 +30,7 @@ from tribodyn.exchange.rexs.file.attributes import (
 )
 from tribodyn.exchange.rexs.file.model import Component
 from tribodyn.exchange.rexs.file.sheet import Sheet
-from tribodyn.exchange.rexs.reading.draft import Draft, text
+from tribodyn.exchange.rexs.reading.draft import UNKNOWN, Draft, text
 
 BEARINGS = (
     "rolling_bearing_with_catalog_geometry",
@@ -226,37 +226,41 @@ def _put_spring(draft: Draft, bearing: Component, key: str, value: float | None)
 
 def put_springs_of(draft: Draft, name: str, supports: list[Support]) -> None:
     """Write [bearings.NAME], what holds a shaft that is not drawn: the sum of its bearings."""
-    sheet = draft.sheet
-    draft.table(f"[bearings.{name}]", ", ".join(each.bearing.name for each in supports))
-    stiffness = [sheet.si(each.bearing, RADIAL_STIFFNESS) for each in supports]
-    total = sum(value or TYPICAL for value in stiffness)
-    for each in supports:
-        sheet.truth(each.bearing, RADIAL_ABSORPTION)
-    for key in ("stiffness_x", "stiffness_y"):
-        if not all(stiffness):
-            draft.assume(key, f'"{total:g} N/m"')
-        elif total >= RIGID:
-            draft.put(key, f'"{STIFF:g} N/m"', "rigid in the file")
-        else:
-            draft.put(key, f'"{total:.9g} N/m"')
-    held = [
-        each for each in supports if sheet.text(each.bearing, AXIAL_ABSORPTION) not in (None, "no_direction")
+    sheet, parts = draft.sheet, [each.bearing for each in supports]
+    draft.table(f"[bearings.{name}]", ", ".join(part.name for part in parts))
+    across = [part for part in parts if sheet.truth(part, RADIAL_ABSORPTION) is not False]
+    stiffness = [sheet.si(part, RADIAL_STIFFNESS) for part in across]
+    along = [
+        sheet.si(part, AXIAL_STIFFNESS) or 0.0
+        for part in parts
+        if sheet.text(part, AXIAL_ABSORPTION) not in (None, "no_direction")
     ]
-    along = sum(sheet.si(each.bearing, AXIAL_STIFFNESS) or 0.0 for each in held)
-    for key, value, most in (
-        ("stiffness_axial", along, STIFF),
-        (
-            "stiffness_tilt",
-            sum(sheet.si(each.bearing, TILT_STIFFNESS) or 0.0 for each in supports),
-            STIFF_TILT,
-        ),
-    ):
-        unit = "N/m" if key == "stiffness_axial" else "N*m/rad"
-        draft.put(
-            key,
-            f'"{min(value, most):.9g} {unit}"' if value else None,
-            "rigid in the file" if value > most else "",
-        )
-    if all(stiffness) and total >= RIGID:
-        draft.change(supports[0].bearing, f"is rigid, as others of {name}; here {STIFF:g} N/m")
+    tilt = [sheet.si(part, TILT_STIFFNESS) or 0.0 for part in parts]
+    if across and all(stiffness):
+        total = sum(value or 0.0 for value in stiffness)
+        if total >= RIGID:
+            draft.change(across[0], f"is rigid, as others of {name}; here {STIFF:g} N/m")
+        put_stiffness(draft, total, sum(along), sum(tilt))
+    else:
+        for key in ("stiffness_x", "stiffness_y"):
+            draft.assume(key, f'"{TYPICAL:g} N/m"', "floats: does not count" if not across else UNKNOWN)
+        put_stiffness(draft, 0.0, sum(along), sum(tilt))
     draft.assume("damping_ratio", "0.05")
+
+
+def put_stiffness(draft: Draft, across: float, along: float, tilt: float) -> None:
+    """Write the stiffness of springs, SI; 0: nothing."""
+    for key, value, rigid, most, unit in (
+        ("stiffness_x", across, RIGID, STIFF, "N/m"),
+        ("stiffness_y", across, RIGID, STIFF, "N/m"),
+        ("stiffness_axial", along, RIGID, STIFF, "N/m"),
+        ("stiffness_tilt", tilt, RIGID_TILT, STIFF_TILT, "N*m/rad"),
+    ):
+        shown = most if value >= rigid else value
+        if value:
+            draft.put(key, f'"{shown:.9g} {unit}"', "rigid in the file" if value >= rigid else "")
+
+
+def hold_across(sheet: Sheet, supports: list[Support]) -> bool:
+    """Whether bearings hold what they carry in x and y."""
+    return any(sheet.truth(each.bearing, RADIAL_ABSORPTION) is not False for each in supports)

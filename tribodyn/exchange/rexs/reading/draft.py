@@ -11,7 +11,7 @@ from tribodyn.exchange.rexs.file.sheet import Sheet
 
 #: Characters of a name.
 _LONGEST = 48
-_TYPICAL = "not in the file: a typical value"
+UNKNOWN = "not in the file: a typical value"
 
 
 def text(value: str) -> str:
@@ -34,6 +34,7 @@ class Draft:
         self.assumed: list[str] = []
         self.changed: list[str] = []
         self.bodies: set[int] = set()  # ids of masses that are a [[body]]
+        self.modified_spur = False  # flanks whose contact finite elements alone follow
         self._names: dict[int, str] = {}
         self._table = ""
 
@@ -46,6 +47,10 @@ class Draft:
             self._names[part.number] = next(each for each in tries if each not in taken)
         return self._names[part.number]
 
+    def named(self, part: Component) -> str | None:
+        """The name of a part, if it has one."""
+        return self._names.get(part.number)
+
     def table(self, header: str, comment: str = "") -> None:
         """Begin a table, "[gear.pinion]" or "[[stage]]"."""
         self._table = header.strip("[]")
@@ -56,12 +61,12 @@ class Draft:
         if value is not None:
             self.lines.append(_line(f"{key} = {value}", comment))
 
-    def assume(self, key: str, value: str, comment: str = _TYPICAL) -> None:
+    def assume(self, key: str, value: str, comment: str = UNKNOWN) -> None:
         """Write a key that a scenario needs and the file does not say."""
         self.put(key, value, comment)
         self.assumed.append(f"{self._table}{'.' if self._table else ''}{key} = {value}: {comment}")
 
-    def suggest(self, key: str, value: str, comment: str = _TYPICAL) -> None:
+    def suggest(self, key: str, value: str, comment: str = UNKNOWN) -> None:
         """Leave a key that the file does not say as a comment."""
         self.lines.append(_line(f"# {key} = {value}", comment))
 

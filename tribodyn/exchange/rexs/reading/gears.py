@@ -121,11 +121,14 @@ def put_gear(draft: Draft, gear: Component, called: str = "gear") -> None:
     draft.put("hand", text("right" if hand > 0 else "left") if hand else None)
     _put_shift(draft, gear)
     _put_tip(draft, gear, abs(teeth or 0), internal)
-    for key in GEAR:
-        draft.put(key.key, sheet.toml(gear, key))
+    tip = draft.lines[-1].startswith("tip_diameter")
     for key in FLANK:
         flank = of_both_flanks(sheet, gear, key)
-        draft.put(key.key, sheet.toml(flank, key) if flank is not None else None)
+        draft.put(key.key, sheet.toml(flank, key) if flank is not None and not tip else None)
+        for each in flanks_of(sheet, gear) if tip else ():
+            sheet.leave(each, key, f"{TIP_DIAMETER.name} goes before")
+    for key in GEAR:
+        draft.put(key.key, sheet.toml(gear, key))
     _put_tool(draft, gear)
     _put_thickness(draft, gear)
     quality = sheet.whole(gear, QUALITY)
@@ -212,6 +215,7 @@ def _put_modification(draft: Draft, gear: Component) -> None:
         if number and found != written:
             draft.change(gear, "the modification of the left flank stands for that of both")
         written = written or found
+    draft.modified_spur |= bool(written) and hand_of(sheet, gear) == 0
     if written:
         draft.lines.append(
             "modification = { " + ", ".join(f"{key} = {value}" for key, value in written.items()) + " }"

@@ -91,17 +91,15 @@ def ends_of(sheet: Sheet, speeds: Mapping[int, float]) -> Ends:
     drives = torque * speed * speeds[loaded.number] / speeds[quick.number] > 0
     drives = torque > 0 if _torque_key(sheet, case, load) is POWER else drives
     into, out = (loaded, other) if drives else (other, loaded)
-    if quick.number not in (into.number, out.number):
-        raise sheet.refused(
-            quick,
-            "its speed is known, but power neither enters nor leaves there",
-            "give that of an end",
-            SPEED.name,
-        )
-    if out.number not in speeds:
+    if out.number not in speeds or into.number not in speeds:
         raise sheet.refused(out, "no gear links it with the input", "check the relations")
+    # an end, or a shaft that turns as fast as one
+    fast_ends = [abs(speeds[each.number] / speeds[quick.number]) for each in (into, out)]
+    if 1.0 not in fast_ends:
+        rule = "its speed is known, but power neither enters nor leaves there"
+        raise sheet.refused(quick, rule, "give that of an end", SPEED.name)
     sense = speed * speeds[into.number] / speeds[quick.number]
-    return Ends(load, quick, into, out, drives, quick is into, 1 if sense > 0 else -1)
+    return Ends(load, quick, into, out, drives, fast_ends[0] == 1.0, 1 if sense > 0 else -1)
 
 
 def _torque_key(sheet: Sheet, case: LoadCase | None, load: Component) -> RexsKey:

@@ -4,6 +4,7 @@ import math
 from typing import NamedTuple
 
 from tribodyn.exchange.rexs.file.attributes import (
+    AXIAL_STIFFNESS,
     CENTRE_DISTANCE,
     INERTIA,
     INNER,
@@ -11,6 +12,7 @@ from tribodyn.exchange.rexs.file.attributes import (
     MASS,
     OUTER,
     RADIAL_STIFFNESS,
+    TILT_STIFFNESS,
     TORSIONAL_STIFFNESS,
     U_INNER,
     U_ON_SHAFT,
@@ -19,11 +21,11 @@ from tribodyn.exchange.rexs.file.attributes import (
 from tribodyn.exchange.rexs.file.model import Component
 from tribodyn.exchange.rexs.file.sheet import Sheet
 from tribodyn.exchange.rexs.reading.bearings import (
-    RIGID,
     RIGID_TILT,
-    STIFF,
     TYPICAL,
+    hold_across,
     put_springs_of,
+    put_stiffness,
     supports_of,
 )
 from tribodyn.exchange.rexs.reading.draft import Draft, text, texts
@@ -211,7 +213,7 @@ def put_set(draft: Draft, found: PlanetarySet) -> None:
         for name, shafts in found.members.items()
         if name != "carrier"
         and shafts
-        and not any(supports_of(sheet, each) for each in shafts)
+        and not any(hold_across(sheet, supports_of(sheet, each)) for each in shafts)
         and name != held
     ]
     draft.put("floating", texts(floating) if floating else None)
@@ -311,12 +313,13 @@ def put_bearings_of_set(draft: Draft, found: PlanetarySet) -> None:
 
 
 def _put_coupled(draft: Draft, name: str, coupling: Component) -> None:
-    value = draft.sheet.si(coupling, RADIAL_STIFFNESS)
+    sheet = draft.sheet
+    across, along, tilt = (
+        sheet.si(coupling, key) or 0.0 for key in (RADIAL_STIFFNESS, AXIAL_STIFFNESS, TILT_STIFFNESS)
+    )
     draft.table(f"[bearings.{name}]", coupling.name)
-    for key in ("stiffness_x", "stiffness_y"):
-        if not value:
+    if not across:
+        for key in ("stiffness_x", "stiffness_y"):
             draft.assume(key, f'"{TYPICAL:g} N/m"')
-        else:
-            stiff = value >= RIGID
-            draft.put(key, f'"{STIFF if stiff else value:.9g} N/m"', "rigid in the file" if stiff else "")
+    put_stiffness(draft, across, along, tilt)
     draft.assume("damping_ratio", "0.05")

@@ -27,7 +27,7 @@ from tribodyn.exchange.rexs.reading.planetary import (
     set_of,
     shaft_of,
 )
-from tribodyn.exchange.rexs.reading.shafts import gears_on, put_masses, put_shaft
+from tribodyn.exchange.rexs.reading.shafts import gears_on, masses_on, put_masses, put_shaft, sections_of
 
 #: What no scenario can hold: gears on axes that are not parallel.
 _FOREIGN = re.compile(r"(worm|bevel|hypoid|crown|face_gear|crossed|beveloid)\w*")
@@ -81,9 +81,10 @@ def _scenario(sheet: Sheet, path: Path) -> RexsScenario:
     draft.lines.append('kind = "gear-train"')
     _put_common(draft)
     put_lubricant(draft)
-    _put_parts(draft, pairs, sets)
+    _put_parts(draft, pairs, sets, names)
     put_operating(draft, ends, names)
     draft.table("[mesh]")
+    draft.put("compliance", text("fem") if draft.modified_spur else None, "spur gears with modified flanks")
     draft.assume("damping_ratio", "0.05", "REXS has none: a usual value")
     draft.table("[friction]")
     draft.put("law", text("auto"))
@@ -117,18 +118,25 @@ def _name_ends(draft: Draft, sets: list[PlanetarySet]) -> dict[int, str]:
         draft.name(each.planets[0])
     for gear in sheet.model.of_type(*GEARS):
         draft.name(gear)
-    names: dict[int, str] = {}
+    names = {shaft.number: draft.name(each.carrier) for each in sets for shaft in each.carrier_shafts}
     for shaft in sheet.model.of_type("shaft"):
-        gears = gears_on(sheet, shaft)
+        gears, masses = gears_on(sheet, shaft), masses_on(sheet, shaft)
+        if shaft.number in names:
+            continue
         if gears:
             names[shaft.number] = draft.name(gears[0] if len(gears) == 1 else shaft)
-    for each in sets:
-        names |= {shaft.number: draft.name(each.carrier) for shaft in each.carrier_shafts}
+        elif masses:
+            names[shaft.number] = draft.name(masses[0])
+        elif any(each is shaft for _, each in transmitting(sheet)) and sections_of(draft, shaft):
+            names[shaft.number] = draft.name(shaft)
     return names
 
 
 def _put_parts(
-    draft: Draft, pairs: list[tuple[Component, Component, Component]], sets: list[PlanetarySet]
+    draft: Draft,
+    pairs: list[tuple[Component, Component, Component]],
+    sets: list[PlanetarySet],
+    names: Mapping[int, str],
 ) -> None:
     sheet = draft.sheet
     alike = {planet.number for each in sets for planet in each.planets[1:]}
@@ -144,11 +152,11 @@ def _put_parts(
     carriers = {shaft.number for each in sets for shaft in each.carrier_shafts}
     for shaft in shafts:
         if shaft.number not in carriers:
-            put_masses(draft, shaft)
+            put_masses(draft, shaft, bare=shaft.number in names and names[shaft.number] == draft.named(shaft))
     for each in sets:
         put_carrier(draft, each)
     for shaft in shafts:
-        if shaft.number not in members:
+        if shaft.number not in members and (gears_on(sheet, shaft) or shaft.number not in names):
             put_shaft(draft, shaft)
         elif len(gears_on(sheet, shaft)) > 1:
             draft.table("[[shaft]]", shaft.name)

@@ -85,8 +85,16 @@ def masses_on(sheet: Sheet, shaft: Component) -> list[Component]:
     return sheet.model.related("assembly", "assembly", shaft.number, "part", "additional_mass")
 
 
-def put_masses(draft: Draft, shaft: Component) -> None:
-    """Write [[body]] of every additional mass of a shaft."""
+def put_masses(draft: Draft, shaft: Component, *, bare: bool = False) -> None:
+    """Write [[body]] of every additional mass of a shaft, of a bare one of the shaft itself."""
+    sheet = draft.sheet
+    if bare and not gears_on(sheet, shaft):
+        stretches = sections_of(draft, shaft)
+        mass, inertia, known = mass_of(sheet, stretches, shaft)
+        draft.table("[[body]]", shaft.name)
+        draft.put("name", text(draft.name(shaft)))
+        draft.put("mass", f'"{mass:.9g} kg"', "of its sections" + ("" if known else ", as of steel"))
+        draft.put("inertia", f'"{inertia:.9g} kg*m**2"')
     for part in masses_on(draft.sheet, shaft):
         draft.table("[[body]]", part.name if part.name != draft.name(part) else "")
         draft.put("name", text(draft.name(part)))

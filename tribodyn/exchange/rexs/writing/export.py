@@ -72,6 +72,8 @@ def as_train(scenario: Mapping[str, Any], exported: Exported) -> dict[str, Any]:
     """The tables of a scenario, those of a pair of gears as those of a train of one stage."""
     tables = dict(scenario)
     drive = tables.pop("drive", None)
+    if drive is not None and not all(isinstance(drive.get(side), Mapping) for side in ("pinion", "gear")):
+        raise exported.refused("is no scenario of gears", "export a train or a pair of gears")
     if drive is not None:
         gears = {side: dict(drive[side]) for side in ("pinion", "gear")}
         shared = ("material", "mean_roughness", "quality")

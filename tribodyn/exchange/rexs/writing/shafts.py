@@ -144,23 +144,33 @@ class Shafts:
         casing = self.casing if outer is None else outer
         self.model.relate("side", assembly=bearing, inner_part=shaft, outer_part=casing)
 
-    def springs(self, name: str, shaft: int, place: float, outer: int | None = None) -> None:
-        """The bearings of something that no drawn shaft carries, as one concept bearing."""
+    def stiffness(self, name: str) -> dict[RexsKey, Any]:
+        """The stiffness of [bearings.NAME]; nothing where there is none."""
         bearings = self.tables.get("bearings") or {}
         table = bearings.get(name) or bearings.get("default") or bearings.get("gear")
         if not table:
+            return {}
+        for what in ("rolling", "matrix"):
+            if table.get(what):
+                rule = "REXS has no such bearing"
+                raise InputError(f"bearings.{name}.{what}", None, rule, "write stiffness_x and stiffness_y")
+        both = [table.get(key) for key in ("stiffness_x", "stiffness_y")]
+        values = _springs(both, table, self.remarks, name)
+        if table.get("span") is not None and TILT_STIFFNESS not in values and RADIAL_STIFFNESS in values:
+            tilt = values[RADIAL_STIFFNESS] * (si(table["span"]) / 2) ** 2  # of two bearings at this distance
+            values[TILT_STIFFNESS] = float(f"{1e3 * tilt:.12g}")
+        return values
+
+    def springs(
+        self, name: str, shaft: int, place: float, outer: int | None = None, *, floating: bool = False
+    ) -> None:
+        """The bearings of something that no drawn shaft carries, as one concept bearing."""
+        values = self.stiffness(name)
+        if floating:  # no bearing holds it in x and y
+            values = {key: value for key, value in values.items() if key is not RADIAL_STIFFNESS}
+            values[RADIAL_ABSORPTION] = False
+        if not values or (floating and AXIAL_STIFFNESS not in values):
             return
-        if table.get("rolling") or table.get("matrix"):
-            what = "rolling" if table.get("rolling") else "matrix"
-            raise InputError(
-                f"bearings.{name}.{what}",
-                None,
-                "REXS has no such bearing",
-                "write stiffness_x and stiffness_y",
-            )
-        values = _springs(
-            [table.get(key) for key in ("stiffness_x", "stiffness_y")], table, self.remarks, name
-        )
         here = float(f"{1e3 * place:.12g}")
         self._held(self.model.add(_CONCEPT, f"bearing of {name}", values), shaft, here, outer)
 

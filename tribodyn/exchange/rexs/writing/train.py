@@ -6,6 +6,7 @@ from typing import Any
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.exchange.rexs.file.attributes import (
+    AXIAL_STIFFNESS,
     CENTRE_DISTANCE,
     DEFINES_SPEED,
     DEFINES_TORQUE,
@@ -20,6 +21,7 @@ from tribodyn.exchange.rexs.file.attributes import (
     ROTATING_ANGLE,
     SHARE,
     SPEED,
+    TILT_STIFFNESS,
     TORQUE,
     TORSIONAL_STIFFNESS,
     TRANSMITS,
@@ -63,18 +65,16 @@ class TrainText:
             self.shafts.body(body)
         self.shafts.links()
         drawn = {each["name"] for each in tables.get("shaft", ()) if each.get("drawn")}
-        floating = {
-            stage[member] for stage in self._sets for member in (*stage.get("floating", ()), stage["held"])
-        }
+        floating = {stage[member] for stage in self._sets for member in stage.get("floating", ())}
+        held = {stage[stage["held"]] for stage in self._sets}
         for name, shaft in self.layout.shaft_of.items():
-            single = (
-                name in tables["gear"] or name in carriers or (name == shaft and name not in tables["gear"])
-            )
-            if shaft in self.shafts.numbers and shaft not in drawn and single and name not in floating:
-                if name in carriers or (name in tables["gear"] and not self._grouped(name)):
-                    self.shafts.springs(name, self.shafts.numbers[shaft], self.layout.position.get(name, 0.0))
-                elif name == shaft and self._shaft_table(shaft):
-                    self.shafts.springs(name, self.shafts.numbers[shaft], 0.0)
+            if shaft not in self.shafts.numbers or shaft in drawn or name in held:
+                continue
+            number, place = self.shafts.numbers[shaft], self.layout.position.get(name, 0.0)
+            if name in carriers or (name in tables["gear"] and not self._grouped(name)):
+                self.shafts.springs(name, number, place, floating=name in floating)
+            elif name == shaft and self._shaft_table(shaft):
+                self.shafts.springs(name, number, 0.0)
         self._oil()
         self._loads()
 
@@ -184,15 +184,14 @@ class TrainText:
                 model.relate("assembly", assembly=number, part=mesh)
 
     def _support(self, stage: Mapping[str, Any]) -> dict[RexsKey, Any]:
-        """How stiff the held member is in the casing, as far as one radial stiffness says it."""
-        bearings = self.tables.get("bearings") or {}
-        table = bearings.get(stage[stage["held"]]) or bearings.get("default") or bearings.get("gear") or {}
-        values: dict[RexsKey, Any] = {}
-        if table.get("stiffness_x") is not None and table.get("stiffness_x") == table.get("stiffness_y"):
-            values[RADIAL_STIFFNESS] = value_in(table["stiffness_x"], RADIAL_STIFFNESS)
+        """How stiff the held member is in the casing."""
+        values = self.shafts.stiffness(stage[stage["held"]])
+        found = {
+            key: values[key] for key in (RADIAL_STIFFNESS, AXIAL_STIFFNESS, TILT_STIFFNESS) if key in values
+        }
         if stage.get("support_stiffness") is not None:
-            values[TORSIONAL_STIFFNESS] = value_in(stage["support_stiffness"], TORSIONAL_STIFFNESS)
-        return values
+            found[TORSIONAL_STIFFNESS] = value_in(stage["support_stiffness"], TORSIONAL_STIFFNESS)
+        return found
 
     def _oil(self) -> None:
         oil = self.tables["lubricant"]
