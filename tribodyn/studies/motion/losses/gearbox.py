@@ -82,6 +82,7 @@ class GearboxLoss:
         )
         drag, losses = np.zeros((len(self.tables), len(load))), list[MeshLoss]()
         idle = self.drags_at(speed, supplied, load)
+        change = moved = 0.0
         for _ in range(PASSES):
             outside = self.flow.load[:, None] * load + self.flow.body @ self._on_bodies(idle)
             losses, torque = self._of_meshes(outside, drag, speed, warm)
@@ -96,7 +97,8 @@ class GearboxLoss:
                 break
         else:
             raise SimulationError(
-                f"the temperature of the teeth does not settle: still moving by {change:.2g} K"
+                "torques and temperatures of the meshes do not settle with their losses: still moving by "
+                f"{moved:.2g} N m and {change:.2g} K"
             )
         of_meshes = [each.drag * ratio for each, ratio in zip(losses, self.turning, strict=True)]
         others = [torque * ratio for (torque, _), ratio in zip(idle, self.of_bodies, strict=True)]

@@ -33,9 +33,9 @@ def statics_of(prepared: PreparedGearbox, gearbox: GearboxLoss, loads: Any) -> S
     reflected = _at_output(prepared, gearbox)
     teeth = np.array([abs(case.gears[mesh.gears[0]].teeth) for mesh in case.meshes])
     return Statics(
-        stiffness[:, :, 0].real,
+        np.real(stiffness[:, :, 0]),
         np.abs(stiffness[:, :, 1:]),
-        error[:, :, 0].real,
+        np.real(error[:, :, 0]),
         np.abs(error[:, :, 1:]),
         np.angle(error[:, :, 1:] * np.exp(2j * math.pi * entry)),
         teeth * gearbox.turning,
