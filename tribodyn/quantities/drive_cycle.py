@@ -6,13 +6,13 @@ QUANTITIES = (
     Quantity("cycle_duration", "Duration of the cycle", "s", ".5g").defined_as(
         "From the first row to the last one, all repetitions."
     ),
-    Quantity("cycle_energy_in", "Energy in", "kJ", ",.5g").defined_as(
+    Quantity("cycle_energy_in", "Energy in", "kJ", ",.1f").defined_as(
         "Energy that the input has taken at the end: that of the loads and that lost."
     ),
-    Quantity("cycle_energy_out", "Energy out", "kJ", ",.5g").defined_as(
+    Quantity("cycle_energy_out", "Energy out", "kJ", ",.1f").defined_as(
         "Integral of the loads' torque times their speed; negative where loads drive more than they take."
     ),
-    Quantity("cycle_energy_lost", "Energy lost", "kJ", ",.5g").defined_as(
+    Quantity("cycle_energy_lost", "Energy lost", "kJ", ",.1f").defined_as(
         "Integral of all losses at the temperatures that they make."
     ),
     Quantity("cycle_efficiency", "Efficiency of the cycle", "%", ".3f").defined_as(
@@ -20,10 +20,10 @@ QUANTITIES = (
     ),
     Quantity("cycle_loss_mean", "Loss, mean", "W", ".4g").defined_as("Energy lost over the duration."),
     Quantity("cycle_loss_max", "Loss, maximum", "W", ".4g").defined_as("Maximum over the rows."),
-    Quantity("cycle_heat_stored", "Heat stored at the end", "kJ", ",.4g").defined_as(
+    Quantity("cycle_heat_stored", "Heat stored at the end", "kJ", ",.1f").defined_as(
         "Heat capacities of all parts times what they have warmed since the start."
     ),
-    Quantity("cycle_heat_gone", "Heat given off", "kJ", ",.4g").defined_as(
+    Quantity("cycle_heat_gone", "Heat given off", "kJ", ",.1f").defined_as(
         "Heat that has left to the surroundings, the coolant and the oil that flows through."
     ),
     Quantity("cycle_oil_temperature_max", "Temperature of the oil, maximum", "°C", ".1f").defined_as(

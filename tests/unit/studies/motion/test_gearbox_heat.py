@@ -13,6 +13,7 @@ import tribodyn
 from tribodyn.cases.loss_part import OperatingPoints
 from tribodyn.errors import InputError, InputErrors
 from tribodyn.interface.scenario import scenario
+from tribodyn.standards.micropitting import bulk_rise
 from tribodyn.studies import STUDIES
 from tribodyn.studies.motion.heat.nodes import heat_of
 from tribodyn.studies.motion.heat.rating import rating_of
@@ -77,6 +78,17 @@ def test_every_mesh_has_a_temperature_of_its_own(settled):
     assert min(oils) > settled.heat.settled.oil
     assert all(pair.lubricant.supply == settled.heat.settled.oil for pair in prepared.warm_pairs)
     assert prepared.case.pair.lubricant.temperature == settled.heat.settled.oil
+
+
+def test_teeth_are_as_much_warmer_as_the_estimate_of_the_standard_within_a_factor_of_two(settled):
+    """ISO/TR 15144-1, dip lubrication, with the same loss: another method from tests of other gears."""
+    heat = settled.heat.settled
+    for number, mesh in enumerate(settled.meshes):
+        drive = mesh.pair.drive
+        centre = 0.5 * float(drive.module * (drive.pinion.teeth + drive.gear.teeth))
+        width = float(min(drive.pinion.face_width, drive.gear.face_width))
+        estimate = bulk_rise(heat.losses[number], 1.0, 1.0, centre, width, 1.0)
+        assert 0.5 < (0.5 * sum(heat.gears[number]) - heat.oil) / estimate < 2.0
 
 
 def test_a_strong_cooler_and_a_large_flow_hold_the_oil():
