@@ -58,10 +58,13 @@ class CoolerTable(Table):
     coolant_temperature: WarmOrCold = written("20 degC")
 
 
+GearboxModel = Literal["oil", "iso", "network", "gearbox"]
+
+
 class GearboxTemperatureTable(TemperatureTable):
     """Where temperatures of a gearbox come from: of its teeth, or of all of its parts."""
 
-    model: Literal["oil", "iso", "network", "gearbox"] = "oil"
+    model: GearboxModel = "oil"  # pyright: ignore[reportIncompatibleVariableOverride]
     housing: HousingHeatTable | None = None
     cooler: CoolerTable | None = None
     oil_volume: Volume | None = None
