@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.drawing.shapes import PlacedPart
 from tribodyn.errors import InputError
 from tribodyn.record.loss_map import LossMap
 
@@ -23,6 +24,8 @@ class Exported(NamedTuple):
     scenario: Mapping[str, Any]  # resolved: what it refers to is put in
     summary: Mapping[str, Any] | None = None  # of a run, SI
     map: LossMap | None = None
+    #: distance of chords from exact surfaces at most, m -> gears and shafts in their places
+    parts: Callable[[float], list[PlacedPart]] | None = None
 
     @property
     def sort(self) -> str:
@@ -98,10 +101,14 @@ class Imported(NamedTuple):
         return tomllib.loads(self.toml)
 
 
-class FormatChoice(NamedTuple):
-    """A number that a format lets its user choose."""
+#: Kind of a choice that is no number.
+TEXT = "text"
 
-    kind: str  # kind of quantity: "temperature", "angular speed", "torque", "number"
+
+class FormatChoice(NamedTuple):
+    """What a format lets its user choose."""
+
+    kind: str  # kind of quantity: "temperature", "angular speed", "torque", "length", "number"; or `TEXT`
     about: str
 
 
@@ -118,6 +125,6 @@ class ExchangeFormat:
     about: str  # one line
     endings: tuple[str, ...]  # of its files, the one it is written with first: (".csv",)
     takes: tuple[str, ...] = ()  # of `MAP`, `RECORD`, `SCENARIO`, what it can write
-    write: Callable[[Exported, str, Mapping[str, float]], Written] | None = None
+    write: Callable[[Exported, str, Mapping[str, Any]], Written] | None = None
     read: Callable[[Path], Imported] | None = None
     choices: Mapping[str, FormatChoice] = field(default_factory=lambda: MappingProxyType({}))

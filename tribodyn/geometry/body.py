@@ -95,18 +95,20 @@ def gear_polygon(assembly: Assembly, side: Side, flank_points: int = 40) -> Floa
     return xp.concatenate([points, points[:1]])
 
 
-def half_profile(shape: ToothOutline, teeth: Any) -> tuple[Float[Array, " point"], Float[Array, " point"]]:
+def half_profile(
+    shape: ToothOutline, teeth: Any, root_points: int = ROOT_POINTS, tip_points: int = TIP_POINTS
+) -> tuple[Float[Array, " point"], Float[Array, " point"]]:
     """Polar coordinates (m, rad) of half a tooth, from the middle of the gap towards the middle of the tip.
 
-    First `ROOT_POINTS` points of the root circle, then the outline's, then `TIP_POINTS` of the tip circle.
+    First `root_points` points of the root circle, then the outline's, then `tip_points` of the tip circle.
     """
     xp = namespace(shape, teeth)
     x = xp.concatenate([shape.fillet_x, shape.flank_x[1:]])
     y = xp.concatenate([shape.fillet_y, shape.flank_y[1:]])
     radius, angle = x * sqrt(1 + (y / x) ** 2), arctan2(y / x, 1.0)
-    along = np.linspace(0.0, 1.0, ROOT_POINTS + 1)[:-1]
+    along = np.linspace(0.0, 1.0, root_points + 1)[:-1]
     root = np.pi / teeth + along * (shape.root_half_angle - np.pi / teeth)
-    tip = angle[-1] * (1 - np.linspace(0.0, 1.0, TIP_POINTS + 2)[1:-1])
+    tip = angle[-1] * (1 - np.linspace(0.0, 1.0, tip_points + 2)[1:-1])
     return (
         xp.concatenate([shape.root_radius + 0 * root, radius, shape.tip_radius + 0 * tip]),
         xp.concatenate([root, angle, tip]),

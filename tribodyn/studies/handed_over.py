@@ -2,22 +2,34 @@
 
 import tomllib
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tribodyn.drawing.shapes import PlacedPart, parts_of_pair
 from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.exchange import FORMATS
-from tribodyn.exchange.format import SCENARIO, Deviation, ExchangeFormat, Exported, FormatChoice, Imported
+from tribodyn.exchange.format import (
+    SCENARIO,
+    TEXT,
+    Deviation,
+    ExchangeFormat,
+    Exported,
+    FormatChoice,
+    Imported,
+)
+from tribodyn.gears.prepare import assembled
 from tribodyn.input import units
 from tribodyn.input.sources import is_file
 from tribodyn.input.units import to_si_at
 from tribodyn.numerics.files.output_files import check_output, write_output
 from tribodyn.record.loss_map import is_map, loss_map
 from tribodyn.record.sweep_reader import SweepRecord, open_any
-from tribodyn.studies.protocol.load import load
+from tribodyn.studies.protocol.load import Loaded, load, load_data
 
 _KINDS = {
-    kind.name: kind for kind in (units.TEMPERATURE_KIND, units.ANGULAR_SPEED, units.TORQUE, units.INERTIA)
+    kind.name: kind
+    for kind in (units.TEMPERATURE_KIND, units.ANGULAR_SPEED, units.TORQUE, units.INERTIA, units.LENGTH)
 }
 
 
@@ -118,7 +130,9 @@ def _named(name: str, verb: str, known: Mapping[str, ExchangeFormat]) -> Exchang
     raise InputError("format", quoted(name), what, f'did you mean "{near}"? {listed}' if near else listed)
 
 
-def _chosen(key: str, value: Any, choice: FormatChoice) -> float:
+def _chosen(key: str, value: Any, choice: FormatChoice) -> float | str:
+    if choice.kind == TEXT:
+        return str(value)
     if choice.kind in _KINDS:
         return to_si_at(key, value, _KINDS[choice.kind])
     try:
@@ -131,7 +145,7 @@ def _source(source: str | Path, overrides: Mapping[str, Any], form: ExchangeForm
     path = Path(source)
     if str(source).endswith(".toml") or not (is_file(path) or path.suffix in (".h5", ".hdf5")):
         loaded = load(source, overrides)
-        return Exported(loaded.path, tomllib.loads(loaded.case.toml))
+        return Exported(loaded.path, tomllib.loads(loaded.case.toml), parts=partial(placed_parts, loaded))
     for key in overrides:
         remedy = f"one of {', '.join(form.choices)}" if form.choices else "omit it"
         raise InputError(
@@ -146,4 +160,23 @@ def _source(source: str | Path, overrides: Mapping[str, Any], form: ExchangeForm
             losses = loss_map(record) if is_map(record) else None
         except (KeyError, ValueError) as error:
             raise record.refused(f"holds a map that cannot be used: {error}", "make it anew") from None
-        return Exported(path, record.scenario, record.summary, losses)
+        scenario = record.scenario
+        summary = record.summary
+    return Exported(
+        path,
+        scenario,
+        summary,
+        losses,
+        lambda tolerance: placed_parts(load_data(scenario, path.stem), tolerance),
+    )
+
+
+def placed_parts(loaded: Loaded, tolerance: float) -> list[PlacedPart]:
+    """Gears and shafts of a scenario in space, by its study or of its pair of gears; none: it has none.
+
+    Chords leave the exact surfaces by `tolerance` (m) at most.
+    """
+    with loaded.naming():
+        if (placed := loaded.study.placed_parts()) is not None:
+            return placed(loaded.case, tolerance)
+        return parts_of_pair(assembled(loaded.case.pair), tolerance) if loaded.study.has_gears else []

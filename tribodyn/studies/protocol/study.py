@@ -44,6 +44,7 @@ _ALSO_IN = {
     "estimate": ("case", "scenario"),
     "losses": ("losses.part",),
     "heat": ("heat.part",),
+    "placed_parts": ("drivetrain.placed_parts",),
     "sweep_figures": ("figures",),
     "page": ("figures",),
 }
@@ -71,8 +72,7 @@ class Study:
                   optional); ``SHORT``, short names of quantities, ``PANELS``, datasets that a page shows at
                   first, ``TOP``, quantities at the top of what is printed as JSON (all optional); of a
                   record ``tables`` of its parts, ``maps`` over the face, ``profiles`` at the cursor, and its
-                  ``mechanism``, bodies in motion that are no pair of gears, ``solid``, what bends and
-                  turns in space (all optional)
+                  ``mechanism``, bodies in motion, ``solid``, what bends and turns in space (all optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `protocol.batch.Batch`
@@ -82,10 +82,10 @@ class Study:
     losses        ``LOSSES``, losses at any point of operation (optional; losses.part): `cases.loss_part`
     heat          ``HEAT``, case -> its thermal network, or None (optional; heat.part): `cases.heat_part`
     derivatives   ``DIFFERENTIABLE``, called as `derivatives.differentiable.Differentiable` (its default)
+    placed_parts  ``placed_parts(case, tolerance)``, as `drawing.shapes` (optional; drivetrain.placed_parts)
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional; figures)
-    verbs         ``VERBS``, verbs and Python functions that it offers (optional), see `protocol.verb`;
-                  ``RUN_PROPERTIES``, a class of properties that its runs have in Python beside those of a
-                  `Run` (optional): ``tribodyn`` has that class by its name
+    verbs         ``VERBS``, verbs and Python functions (optional), see `protocol.verb`; ``RUN_PROPERTIES``,
+                  a class, of ``tribodyn`` too, of what its runs have beside those of a `Run` (optional)
     template      ``template.toml``, or the kind's name: a commented scenario in which TITLE stands for its
                   title, see `protocol.load.filled`; of a study in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
@@ -194,11 +194,7 @@ class Study:
         return result._replace(summary=withheld(result.summary))
 
     def quantities_of(self, case: Any) -> dict[str, Any]:
-        """Work out the quantities of a case without a record, those of `swept` among them.
-
-        An efficiency that cannot be is None, see `record.withheld_efficiency`. Raises InputError or
-        SimulationError.
-        """
+        """Quantities of a case without a record, `swept` among them, as of `run`; raises as a run does."""
         from tribodyn.record.withheld_efficiency import withheld
 
         return withheld(self._part("run", "quantities_of")(case))
@@ -283,6 +279,10 @@ class Study:
     def heat(self) -> "Callable[[Any], GearboxHeat | None] | None":
         """What makes the thermal network of one of its cases, or None where that asks for none."""
         return self._part("heat", "HEAT", optional=True)
+
+    def placed_parts(self) -> "Callable[[Any, float], list[Any]] | None":
+        """(case, tolerance) -> its gears and shafts in space; None: those of its pair, if it has one."""
+        return self._part("placed_parts", "placed_parts", optional=True)
 
     def differentiable(self, case: Any, of: Sequence[str], wrt: Sequence[str]) -> Any:
         """Quantities of a case as a function of its numbers: a `Differentiable`, or what serves as one."""

@@ -1,0 +1,112 @@
+"""Gears and shafts as bodies in space: the outline of a tooth, what it is swept along, where each stands.
+
+Along z, in the right-handed axes of a train; the middle of a gear's face is at z = 0 of its own frame.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.geometry.assembly import Assembly, half_angles
+from tribodyn.geometry.body import half_profile, tooth_outline
+from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius
+from tribodyn.numerics.elementary import tan
+from tribodyn.numerics.shapes import Array, Float
+
+#: Points along a flank from which their number is found, and the least.
+_TRIAL, _LEAST = 40, 8
+
+
+class GearShape(NamedTuple):
+    """A gear without hub and web: one tooth, repeated about the axis and swept along it."""
+
+    #: points of one tooth on the exact curve, from the middle of a gap counter-clockwise to the middle of the
+    #: next, m; its axis of symmetry is x
+    tooth: Float[Array, "point 2"]
+    corners: tuple[int, ...]  # numbers of its points in which the outline has an edge
+    teeth: int
+    internal: bool  # whether the material is outside the outline
+    radius: float  # of the bore, of an internal gear of its outside, m; 0: a solid gear
+    width: float  # m
+    twist: float  # of the outline along z, counter-clockwise seen from +z, rad/m: right-hand where > 0
+    tolerance: float  # distance of chords from the curve, m
+
+
+class ShaftShape(NamedTuple):
+    """A shaft of cylinders from z = 0 on."""
+
+    length: tuple[float, ...]  # this and the next two: of every section, m
+    radius: tuple[float, ...]
+    bore: tuple[float, ...]
+    tolerance: float
+
+
+class PlacedPart(NamedTuple):
+    """A part where it stands."""
+
+    name: str
+    shape: GearShape | ShaftShape  # one object for equal parts
+    centre: tuple[float, float, float]  # of its own frame, m
+    angle: float  # of its own x axis, counter-clockwise, rad
+    fill: str  # "pinion", "gear", "ring" or "shaft"
+
+
+def gear_shape(assembly: Assembly, side: Side, tolerance: float) -> GearShape:
+    """A gear of a pair of plain numbers; chords leave the outline by half the tolerance (m) at most.
+
+    The other half is left to what the helix adds.
+    """
+    body, tooth = body_of(assembly.drive, side), assembly.tooth(side)
+    allowed = tolerance / 2.0
+    trial = tooth_outline(tooth, 2 * _TRIAL + 1, 2 * _TRIAL + 1)
+    flank, fillet = (
+        _points(np.stack(curve, axis=-1), allowed)
+        for curve in ((trial.flank_x, trial.flank_y), (trial.fillet_x, trial.fillet_y))
+    )
+    shape = tooth_outline(tooth, flank, fillet)
+    land = abs(float(np.pi / body.teeth - shape.root_half_angle)), abs(float(shape.root_radius))
+    # the two chords beside the tooth's axis are one
+    top = 2.0 * float(np.arcsin(shape.flank_y[-1] / abs(shape.tip_radius))), abs(float(shape.tip_radius))
+    root, tip = (pieces_of_arc(*arc, allowed) for arc in (land, top))
+    radius, angle = half_profile(shape, body.teeth, root, tip - 1)
+    radius, angle = np.abs(radius), np.abs(angle)
+    radius, angle = np.append(radius, radius[::-1]), np.append(-angle, angle[::-1])
+    ends = [root + fillet + flank - 2] + ([root + fillet - 1] if tooth.overrun > 0.0 else [])
+    pinion_twist = float(tan(assembly.drive.helix_angle) / reference_radius(assembly.drive, "pinion"))
+    ratio = float(assembly.drive.pinion.teeth / assembly.drive.gear.teeth)
+    return GearShape(
+        tooth=np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=-1),
+        corners=tuple(sorted(ends + [len(radius) - 1 - end for end in ends])),
+        teeth=abs(round(float(body.teeth))),
+        internal=bool(body.teeth < 0),
+        radius=abs(float(body.bore_radius)),
+        width=float(body.face_width),
+        twist=pinion_twist if side == "pinion" else -pinion_twist * ratio,
+        tolerance=tolerance,
+    )
+
+
+def pieces_of_arc(angle: float, radius: float, allowed: float) -> int:
+    """Number of chords of an arc (rad, m) that leave it by so much at most, m."""
+    return max(1, int(np.ceil(angle / (2.0 * np.arccos(max(1.0 - allowed / radius, 0.0))))))
+
+
+def _points(curve: Float[Array, "point 2"], allowed: float) -> int:
+    """Number of points of a curve whose chords leave it by so much at most; the trial has an odd number."""
+    start, middle, end = curve[:-1:2], curve[1::2], curve[2::2]
+    (x, y), (u, v) = (end - start).T, (middle - start).T
+    across = np.abs(x * v - y * u) / np.maximum(np.hypot(x, y), 1e-30)
+    return max(_LEAST, 1 + int(np.ceil(_TRIAL * np.sqrt(float(across.max()) / allowed))))
+
+
+def parts_of_pair(assembly: Assembly, tolerance: float) -> list[PlacedPart]:
+    """The gears of a pair while teeth touch at the pitch point; y from the pinion's axis to the gear's."""
+    apart = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
+    ring = {side for side in SIDES if body_of(assembly.drive, side).teeth < 0}
+    parts = []
+    for side, half, upwards in zip(SIDES, half_angles(assembly), (1.0, -1.0), strict=True):
+        direction = np.pi / 2.0 * (-upwards if side in ring else upwards) + half
+        shape = gear_shape(assembly, side, tolerance)
+        centre = (0.0, 0.0 if side == "pinion" else apart, 0.0)
+        parts.append(PlacedPart(side, shape, centre, float(direction), "ring" if side in ring else side))
+    return parts

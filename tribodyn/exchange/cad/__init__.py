@@ -1,0 +1,1 @@
+"""Bodies of gears and shafts for CAD and viewers."""

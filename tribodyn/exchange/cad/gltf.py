@@ -1,0 +1,122 @@
+"""Gears, shafts and trains in space as glTF 2.0 in one binary file (Khronos, glTF 2.0; ISO/IEC 12113).
+
+A header of 12 bytes, then the chunks JSON and BIN, each with its length and name in front, little-endian and
+filled up to four bytes. A node for every part, by its name; equal parts share a mesh. Metres, y upwards, z
+along the shafts: the axes of a train as they are.
+"""
+
+import json
+import struct
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from tribodyn import __version__
+from tribodyn.drawing.shapes import PlacedPart
+from tribodyn.drawing.surface import Surface, surface_of
+from tribodyn.exchange.cad.chosen import CHOICES, chosen_parts
+from tribodyn.exchange.format import SCENARIO, ExchangeFormat, Exported, Written
+from tribodyn.numerics.shapes import Array
+
+_MAGIC, _VERSION, _JSON, _BIN = b"glTF", 2, b"JSON", b"BIN\0"
+_ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
+_FLOAT, _UNSIGNED_INT = 5126, 5125
+#: Colours of parts as drawings have them, linear.
+_COLORS = {
+    "pinion": (0.19, 0.46, 0.73),
+    "gear": (0.81, 0.4, 0.19),
+    "ring": (0.39, 0.43, 0.49),
+    "shaft": (0.6, 0.62, 0.65),
+}
+
+
+def write(exported: Exported, name: str, choices: Mapping[str, Any]) -> Written:
+    """The parts of a scenario."""
+    parts, remarks = chosen_parts(exported, choices)
+    content, triangles = binary(parts, exported.path.stem)
+    return Written({".glb": content}, remarks=(*remarks, f"{triangles} triangles"))
+
+
+def binary(parts: list[PlacedPart], title: str) -> tuple[bytes, int]:
+    """A file of parts, and the number of its triangles."""
+    data: dict[str, list[Any]] = {name: [] for name in ("bufferViews", "accessors", "meshes")}
+    blocks, fills, meshes, nodes, count = list[bytes](), list[str](), dict[tuple[int, str], int](), [], 0
+
+    def accessor(values: Array, kind: str, target: int) -> int:
+        component = _UNSIGNED_INT if kind == "SCALAR" else _FLOAT
+        view = {"buffer": 0, "byteOffset": sum(map(len, blocks)), "byteLength": values.nbytes}
+        data["bufferViews"].append(view | {"target": target})
+        blocks.append(values.tobytes())
+        read = {"bufferView": len(blocks) - 1, "componentType": component, "count": len(values), "type": kind}
+        rows = values.reshape(len(values), -1)
+        limits = {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
+        data["accessors"].append(read | limits)
+        return len(blocks) - 1
+
+    def mesh_of(part: PlacedPart, surface: Surface) -> int:
+        triangles = accessor(surface.triangle.astype("<u4").ravel(), "SCALAR", _ELEMENT_ARRAY_BUFFER)
+        attributes = {
+            which: accessor(values.astype("<f4"), "VEC3", _ARRAY_BUFFER)
+            for which, values in (("POSITION", surface.point), ("NORMAL", surface.normal))
+        }
+        if part.fill not in fills:
+            fills.append(part.fill)
+        primitive = {"attributes": attributes, "indices": triangles, "material": fills.index(part.fill)}
+        data["meshes"].append({"name": part.name, "primitives": [primitive]})
+        return len(data["meshes"]) - 1
+
+    for part in parts:
+        key = id(part.shape), part.fill
+        if key not in meshes:
+            meshes[key] = mesh_of(part, surface_of(part.shape))
+        primitive = data["meshes"][meshes[key]]["primitives"][0]
+        count += data["accessors"][primitive["indices"]]["count"] // 3
+        half = part.angle / 2.0
+        nodes.append(
+            {
+                "name": part.name,
+                "mesh": meshes[key],
+                "translation": list(map(float, part.centre)),
+                "rotation": [0.0, 0.0, float(np.sin(half)), float(np.cos(half))],
+            }
+        )
+    asset = {"version": "2.0", "generator": f"written by tribodyn {__version__}"}
+    materials = [
+        {
+            "name": fill,
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [*_COLORS[fill], 1.0],
+                "metallicFactor": 0.3,
+                "roughnessFactor": 0.5,
+            },
+        }
+        for fill in fills
+    ]
+    whole = {
+        "asset": asset,
+        "scene": 0,
+        "scenes": [{"name": title, "nodes": list(range(len(nodes)))}],
+        "nodes": nodes,
+        "materials": materials,
+        **data,
+        "buffers": [{"byteLength": sum(map(len, blocks))}],
+    }
+    text = json.dumps(whole, ensure_ascii=False, separators=(",", ":")).encode()
+    chunks = _chunk(_JSON, text, b" ") + _chunk(_BIN, b"".join(blocks), b"\0")
+    return struct.pack("<4sII", _MAGIC, _VERSION, 12 + len(chunks)) + chunks, count
+
+
+def _chunk(name: bytes, content: bytes, fill: bytes) -> bytes:
+    content += fill * (-len(content) % 4)
+    return struct.pack("<I4s", len(content), name) + content
+
+
+FORMAT = ExchangeFormat(
+    "gltf",
+    "gears, shafts and trains in space, triangles for viewers and printers (glTF 2.0, binary)",
+    (".glb",),
+    (SCENARIO,),
+    write=write,
+    choices=CHOICES,
+)

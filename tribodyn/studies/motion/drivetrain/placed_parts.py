@@ -1,0 +1,90 @@
+"""The gears and shafts of a gearbox in their places, unloaded, while its first mesh begins a cycle."""
+
+from collections.abc import Sequence
+
+from tribodyn.drawing.shapes import GearShape, PlacedPart, ShaftShape, gear_shape
+from tribodyn.geometry.drive import Side
+from tribodyn.studies.motion.assembly import assemblies, phases
+from tribodyn.studies.motion.case import Gearbox
+from tribodyn.train.planetary import RAVIGNEAUX, SUN
+
+#: Room between planes of gears of which no drawing says how far apart they are, over the wider one's width.
+_ROOM = 0.15
+
+
+def placed_parts(case: Gearbox, tolerance: float) -> list[PlacedPart]:
+    """Gears and drawn shafts with the names of the scenario.
+
+    Chords leave the exact surfaces by `tolerance` (m) at most. InputError as of `assemblies`.
+    """
+    pairs = assemblies(case)
+    teeth, heights = phases(case, pairs).teeth, _heights(case)
+    path = pairs[0].path
+    shapes: dict[tuple[int, Side, float], GearShape] = {}
+    found = []
+    for number, gear in enumerate(case.gears):
+        mesh, side = gear.meshes[0]
+        key = pairs.index(pairs[mesh]), side, gear.face_width
+        if key not in shapes:
+            shapes[key] = gear_shape(pairs[mesh], side, tolerance)
+        x, y = case.bodies[gear.body].centre
+        if y != y:  # of a pair they are as far apart as its path of contact says
+            y = float(path.pinion_pitch_radius + path.gear_pitch_radius)
+        first = case.bodies[gear.body].sense == case.bodies[0].sense
+        fill = "ring" if gear.teeth < 0 else "pinion" if first else "gear"
+        found.append(PlacedPart(gear.name, shapes[key], (x, y, heights[number]), teeth[number], fill))
+    for shaft in case.system.shafts if case.system is not None else ():
+        sections = shaft.drawing.section
+        shape = ShaftShape(
+            tuple(section.length for section in sections),
+            tuple(section.diameter / 2.0 for section in sections),
+            tuple(section.bore for section in sections),
+            tolerance,
+        )
+        found.append(PlacedPart(_other(shaft.name, found), shape, (*shaft.centre, shaft.start), 0.0, "shaft"))
+    return found
+
+
+def _other(name: str, parts: Sequence[PlacedPart]) -> str:
+    """A name of a shaft that no gear has."""
+    return f"shaft {name}" if name in {part.name for part in parts} else name
+
+
+def _heights(case: Gearbox) -> list[float]:
+    """Middle of every gear along z, m: where drawn shafts say it, else the planes one after the other."""
+    drawn = {
+        body: shaft.start + place
+        for shaft in (case.system.shafts if case.system is not None else ())
+        for body, place in shaft.points
+    }
+    along = [gear.axial_position + beside for gear, beside in zip(case.gears, _beside(case), strict=True)]
+    middle: dict[int, float] = {}
+    top = None
+    for plane in sorted({gear.plane for gear in case.gears}):
+        own = [n for n, gear in enumerate(case.gears) if gear.plane == plane]
+        known = [drawn[case.gears[n].body] for n in own if case.gears[n].body in drawn]
+        low = min(along[n] - case.gears[n].face_width / 2.0 for n in own)
+        high = max(along[n] + case.gears[n].face_width / 2.0 for n in own)
+        if known:
+            middle[plane] = known[0]
+        else:
+            room = _ROOM * (high - low)
+            middle[plane] = 0.0 if top is None else top + room - low
+        top = middle[plane] + high if top is None else max(top, middle[plane] + high)
+    return [drawn.get(gear.body, middle[gear.plane]) + along[n] for n, gear in enumerate(case.gears)]
+
+
+def _beside(case: Gearbox) -> list[float]:
+    """How far gears of a Ravigneaux set stand beside the middle of the long planets, m."""
+    beside = [0.0] * len(case.gears)
+    for gearset in case.sets:
+        if gearset.teeth.kind != RAVIGNEAUX:
+            continue
+        short = {gearset.members[SUN], *gearset.planets[: gearset.arms]}
+        long = gearset.planets[gearset.arms :]
+        width = max(gear.face_width for gear in case.gears if gear.body in long)
+        for number, gear in enumerate(case.gears):
+            if gear.body in gearset.bodies and gear.body not in long and not gear.axial_position:
+                aside = max(0.0, (width - gear.face_width) / 2.0)
+                beside[number] = -aside if gear.body in short else aside
+    return beside
