@@ -61,7 +61,8 @@ SHORT: dict[str, dict[str, Any]] = {
         "map.torque": ["500 N*m", "1770 N*m"],
         "map.speed": ["0 rpm", "1480 rpm"],
         "map.oil_temperature": ["50 degC", "70 degC"],
-        "map.accuracy": 0.0,
+        "map.accuracy": 0.3,
+        "map.most_points": 40,
     },
 }
 

@@ -117,6 +117,7 @@ LARGE = {
     "train-assessment": [("scenario.output.samples_per_cycle", 10**9)],
     "design": [("scenario.output.positions_per_cycle", 10**9)],
     "drive-cycle": [("cycle.step", "1e-7 s")],
+    "map": [("map.most_points", 2_000_000)],
 }
 #: Kinds that run others, again and again.
 LONG = ("assessment", "design")
