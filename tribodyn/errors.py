@@ -170,7 +170,7 @@ _OBEYED = re.compile(
 
 def unknown_name(key: str, name: str, names: Iterable[str], what: str) -> InputError:
     """Return what to say of a name that is not among the known ones; `what` says what they are names of."""
-    names = list(names)
+    names = list(dict.fromkeys(names))
     near = near_name(name, names)
     mean = f'did you mean "{near}"? ' if near else ""
     return InputError(key, quoted(name), f"no such {what}", f"{mean}there is: {', '.join(names)}")

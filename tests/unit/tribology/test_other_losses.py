@@ -127,7 +127,8 @@ def test_a_stage_in_its_bath_by_hand():
     exact = splash * constant * math.exp((depths / 800 + 0.2) * 0.83)
     found = iso_14179_2(MESH, speed, OIL, SUMP)
     assert found.torque == pytest.approx(exact)
-    assert found.exceeded == ()
+    assert ["10 to 60 m/s" in limit for limit in found.exceeded] == [True]
+    assert iso_14179_2(MESH, 12.0 / 36.6e-3, OIL, SUMP).exceeded == ()
     deep = MESH._replace(driven=GEAR._replace(immersion=65e-3))
     assert len(iso_14179_2(deep, np.array([0.0, 2000.0]), OIL, SUMP).exceeded) == 2
     dry = MESH._replace(driver=PINION._replace(immersion=0.0), driven=GEAR._replace(immersion=0.0))

@@ -27,6 +27,13 @@ class MeshInOil(NamedTuple):
 _SPEED, _DEPTH, _WIDTH = 10.0, 10e-3, 10e-3
 
 
+_TESTED = "pitch line velocity 10 to 60 m/s (its tests)"
+
+
+def _tested(velocity: Float[Array, "..."]) -> bool:
+    return bool(np.all((velocity >= 10.0) & (velocity <= 60.0)))
+
+
 def iso_14179_2(mesh: MeshInOil, speed: Float[Array, "..."], oil: OilState, sump: Sump) -> Torque:
     """Hydraulic losses of a stage in an oil bath, splash and squeezing together, by ISO/TR 14179-2:2001.
 
@@ -49,8 +56,8 @@ def iso_14179_2(mesh: MeshInOil, speed: Float[Array, "..."], oil: OilState, sump
     splash = (4.0 * deepest.immersion / (3.0 * height)) ** 1.5 * 2.0 * height / sump.hydraulic_length
     constant = splash * (0.063 * depths + 0.0128 * width**3)
     exceeded = []
-    if np.any(velocity > 60.0):
-        exceeded.append("pitch line velocity up to 60 m/s")
+    if not _tested(velocity):
+        exceeded.append(_TESTED)
     if deepest.immersion > height:
         exceeded.append("immersed at most to the axis")
     return Torque(constant * np.exp((depths / 80.0 + 0.2) * velocity / _SPEED), tuple(exceeded))
@@ -80,8 +87,7 @@ def mauz(mesh: MeshInOil, speed: Float[Array, "..."], oil: OilState, sump: Sump)
         size = radius * (width * mesh.normal_module) ** 0.25 * depth**0.5
         squeezed = 4.12 * oil.density * mesh.flow**0.75 * velocity**1.25 * size
         torque = torque + squeezed * (oil.kinematic / _VISCOSITY) ** 0.25
-    fast = np.any(velocity > 60.0)
-    return Torque(torque, ("pitch line velocity up to 60 m/s",) if fast else ())
+    return Torque(torque, () if _tested(velocity) else (_TESTED,))
 
 
 #: Methods by the names that a scenario has.
