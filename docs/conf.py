@@ -68,6 +68,7 @@ CONTENTS = {
         "quality",
         "efficiency",
         "map",
+        "drive-cycle",
         "oil",
         "losses",
         "ehl",
