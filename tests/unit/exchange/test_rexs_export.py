@@ -239,3 +239,14 @@ def test_every_shipped_scenario_goes_and_comes_back_or_is_refused(tmp_path: Path
         went.append(file.stem)
     assert {"dtu-10mw-gearbox", "idler-train", "spur-25-51", REDUCER, PLANETS, TURBINE} < set(went)
     assert len(went) > 30
+
+
+def test_hostile_titles_and_names_of_files_stay_text(tmp_path: Path):
+    tables = tomllib.loads(load(PLANETS, {}).case.toml) | {"title": '<!-- & "]]> --> \u202e\x07 <model>'}
+    path = tmp_path / "set---<a>&.toml"
+    written = str(write(Exported(path, tables), "set", {}).files[".rexs"])
+    (tmp_path / "set.rexs").write_text(written, encoding="utf-8")
+    model = read_model(tmp_path / "set.rexs")
+    assert next(model.of_type("gear_unit")).name == '<!-- & "]]> --> \\u202e\\x07 <model>'
+    (tmp_path / "back.toml").write_text(read(tmp_path / "set.rexs").toml, encoding="utf-8")
+    assert load(tmp_path / "back.toml", {}).case.title.startswith('<!-- & "]]> -->')
