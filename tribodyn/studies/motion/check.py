@@ -65,7 +65,7 @@ def check(case: Gearbox) -> CheckResult:
     tables = [_mode_table(prepared, mode_set, kinds), _campbell_table(prepared, mode_set)]
     shafts, oil = shafts_of(case), case.pair.lubricant
     held = bearing_part(shafts, oil)
-    of_heat, heat_tables, heat_details = heat_part(case)
+    of_heat, heat_tables, heat_details = heat_part(prepared)
     held |= of_heat
     tables[:0] = heat_tables
     if "bearings" in held:

@@ -18,7 +18,9 @@ from tribodyn.studies import STUDIES
 from tribodyn.studies.motion.heat.nodes import heat_of
 from tribodyn.studies.motion.heat.rating import rating_of
 from tribodyn.studies.motion.heat.settled import in_balance, prepare_settled, warmer
+from tribodyn.studies.motion.losses.gearbox import GearboxLoss
 from tribodyn.studies.motion.losses.part import LOSSES
+from tribodyn.studies.motion.prepare import tabulated
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
@@ -127,7 +129,7 @@ def test_losses_of_the_motion_take_the_place_of_the_quasi_static_ones(settled):
 
 def test_at_its_thermal_rating_the_sump_is_at_the_limit():
     case = reducer(temperature={"sump_limit": "60 degC"})
-    rating = rating_of(case)
+    rating = rating_of(GearboxLoss(case, tabulated(case)))
     assert rating is not None
     assert rating.coefficient == 15.0
     assert rating.heat_dissipated == pytest.approx(15.0 * 0.7 * 40.0)

@@ -6,9 +6,9 @@ import numpy as np
 
 from tribodyn.cases.loss_part import OperatingPoints
 from tribodyn.cases.results import TextTable
-from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.heat.nodes import heat_of
-from tribodyn.studies.motion.losses.part import LOSSES
+from tribodyn.studies.motion.losses.gearbox import GearboxLoss
 from tribodyn.tribology.heat.thermal_rating import (
     heat_dissipated,
     heat_transfer_coefficient,
@@ -36,18 +36,18 @@ class ThermalRating(NamedTuple):
     thermal_power: float  # P_T, W
 
 
-def rating_of(case: Gearbox) -> ThermalRating | None:
+def rating_of(loss: GearboxLoss) -> ThermalRating | None:
     """The rating of a gearbox; None where its scenario does not ask for its heat."""
-    data = case.heat
+    case, data = loss.case, loss.case.heat
     if data is None:
         return None
-    nominal = LOSSES.nominal(case)
+    speed = abs(case.source.speed)
     known = np.arange(TEMPERATURE_RANGE[0], TEMPERATURE_RANGE[1] + _APART, _APART)
     at = np.append(known[(known > data.ambient_temperature - _APART)], data.sump_limit)
     ones = np.ones(len(at))
     bulk = np.repeat(at[:, None], len(case.meshes), axis=1)
-    losses = LOSSES.at(case, OperatingPoints(ones, nominal.input_speed * ones, at, bulk))
-    power = losses.power(nominal.input_speed * ones)
+    losses = loss.at(OperatingPoints(ones, speed * ones, at, bulk))
+    power = losses.power(speed * ones)
     loaded = np.array([source.term in WITH_LOAD for source in losses.sources])
     total, limit = power.sum(axis=1), power[-1]
     coefficient = data.housing.coefficient or heat_transfer_coefficient(data.housing.air_speed)
@@ -60,17 +60,18 @@ def rating_of(case: Gearbox) -> ThermalRating | None:
     )
     dissipated = heat_dissipated(coefficient, data.housing.area, data.sump_limit, data.ambient_temperature)
     idle, with_load = float(limit[~loaded].sum()), float(limit[loaded].sum())
-    taken = nominal.input_torque * nominal.input_speed + float(limit.sum())
+    taken = loss.output_power + float(limit.sum())
     rated = thermal_rating(dissipated, idle, with_load, taken) if with_load > 0.0 else float("inf")
     return ThermalRating(coefficient, sump, data.sump_limit, dissipated, idle, with_load, taken, rated)
 
 
-def heat_part(case: Gearbox) -> tuple[dict[str, Any], list[TextTable], list[TextTable]]:
+def heat_part(prepared: PreparedGearbox) -> tuple[dict[str, Any], list[TextTable], list[TextTable]]:
     """Data, tables and tables of details of a case in thermal balance; nothing where it asks for none."""
+    case = prepared.case
     network, settled = heat_of(case), case.heat and case.heat.settled
     if network is None or settled is None:
         return {}, [], []
-    parts, speed = settled.parts, abs(LOSSES.nominal(case).input_speed)
+    parts, speed = settled.parts, abs(case.source.speed)
     rows = [
         (name, f"{value - ZERO_CELSIUS:.1f}", f"{network.network.capacities[name]:.4g}")
         if name in network.network.capacities
@@ -94,7 +95,7 @@ def heat_part(case: Gearbox) -> tuple[dict[str, Any], list[TextTable], list[Text
         )
         for path in paths
     ]
-    rating = rating_of(case)
+    rating = rating_of(GearboxLoss(case, prepared.tables))
     assert rating is not None, "it has a network"
     sump = rating.sump_temperature
     simple = [

@@ -10,8 +10,8 @@ from tribodyn.gears.tabulated import Tabulated
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.heat.nodes import heat_of
-from tribodyn.studies.motion.losses.part import LOSSES
-from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.motion.losses.gearbox import GearboxLoss
+from tribodyn.studies.motion.prepare import prepare, tabulated
 from tribodyn.tribology.heat.data import SettledTemperatures
 from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, lubricant_at
 
@@ -24,23 +24,27 @@ def prepare_settled(case: Gearbox, tables: tuple[Tabulated, ...] | None = None) 
     The case of the result then has its oil at the temperature of the sump. Raises InputError as `prepare`,
     and where oil or teeth get warmer or colder than the oil is known.
     """
-    return prepare(in_balance(case), tables)
+    if case.heat is not None and tables is None:
+        tables = tabulated(case)
+    return prepare(in_balance(case, tables=tables), tables)
 
 
-def in_balance(case: Gearbox, mesh_losses: Sequence[float] | None = None) -> Gearbox:
+def in_balance(
+    case: Gearbox, mesh_losses: Sequence[float] | None = None, tables: tuple[Tabulated, ...] | None = None
+) -> Gearbox:
     """The case with the temperatures of its parts; as it is where it has them, or asks for none.
 
-    `mesh_losses`, W, of the meshes take the place of the quasi-static ones.
+    `mesh_losses`, W, of the meshes take the place of the quasi-static ones; `tables` are those of the meshes,
+    if known.
     """
     heat = heat_of(case)
     if heat is None or case.heat is None or (case.heat.settled is not None and mesh_losses is None):
         return case
-    names = LOSSES.names(case)
+    names = [mesh.name for mesh in case.meshes]
     given = dict(zip(names, mesh_losses, strict=True)) if mesh_losses is not None else None
-    nominal = case if mesh_losses is None else replace(case, heat=replace(case.heat, settled=None))
-    speed = abs(LOSSES.nominal(nominal).input_speed)
+    loss = GearboxLoss(case, tables or tabulated(case))
     try:
-        found = settle(heat, lambda points: LOSSES.at(nominal, points), names, 1.0, speed, given)
+        found = settle(heat, loss.at, names, 1.0, abs(case.source.speed), given)
     except SimulationError as error:
         raise InputError("temperature.housing", None, str(error), _REMEDY) from error
     _refuse_unknown(found, heat)
