@@ -197,7 +197,8 @@ def broken_gearbox_heat(
             yield InputError(f"temperature.{name}", f"{value - ZERO_CELSIUS:.6g} degC", rule, remedy)
     if table.sump_limit <= table.ambient_temperature:
         rule = "must be above ambient_temperature: heat flows there"
-        yield InputError("temperature.sump_limit", f"{table.sump_limit - ZERO_CELSIUS:.6g} degC", rule)
+        written_as = f"{table.sump_limit - ZERO_CELSIUS:.6g} degC"
+        yield InputError("temperature.sump_limit", written_as, rule, 'write "95 degC", or leave it out')
 
 
 def _network(table: TemperatureTable) -> Iterator[InputError]:

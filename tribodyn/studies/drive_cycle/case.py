@@ -9,6 +9,7 @@ import numpy as np
 from tribodyn.cases.cost import CostKey, Estimate, in_memory, recorded, total
 from tribodyn.cases.heat_part import GearboxHeat
 from tribodyn.cases.loss_part import GearboxLosses, NominalPoint
+from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.schema import TIME, Layout
@@ -119,6 +120,10 @@ class DriveCycleCase(CaseHead):
         time, speed = np.array(cycle.time), np.array(cycle.speed)
         load = np.array(cycle.load if cycle.load is not None else cycle.torque)
         if cycle.load is None:
+            if self.nominal.output_torque == 0.0:
+                rule = "the scenario has no load, of which a torque could be a multiple"
+                remedy = "give scenario.operating.output_torque"
+                raise InputError("cycle.torque_table", None, rule, remedy)
             load = load / self.nominal.output_torque
         longest = cycle.step or float(time[-1] - time[0]) / ROWS
         parts = np.maximum(np.ceil(np.diff(time) / longest - 1e-9), 1.0).astype(int)

@@ -45,6 +45,15 @@ def test_torques_are_multiples_of_the_scenarios_own():
     assert rows.load == pytest.approx([1.0, -0.5])
 
 
+def test_without_a_load_a_torque_is_no_multiple():
+    torques = table()
+    torques["torque"] = torques.pop("load") | {"unit": "N*m"}
+    changes = {"scenario.operating.output_torque": "0 N*m", "scenario.mesh.backlash": "40 um"}
+    case = scenario(data(torque_table=torques), changes)
+    with pytest.raises(InputError, match=r"cycle\.torque_table: the scenario has no load"):
+        _ = case.rows
+
+
 def test_a_file_stands_beside_the_scenario(tmp_path):
     (tmp_path / "duty.csv").write_text("time [min],speed [rpm],load [1]\n0,0,1\n2,1480,0.5\n", "utf-8")
     (tmp_path / "cycle.toml").write_text(
