@@ -49,6 +49,7 @@ def test_without_a_load_a_torque_is_no_multiple():
     torques = table()
     torques["torque"] = torques.pop("load") | {"unit": "N*m"}
     changes = {"scenario.operating.output_torque": "0 N*m", "scenario.mesh.backlash": "40 um"}
+    changes["scenario.friction"] = {"law": "coulomb", "coefficient": 0.05}
     case = scenario(data(torque_table=torques), changes)
     with pytest.raises(InputError, match=r"cycle\.torque_table: the scenario has no load"):
         _ = case.rows
