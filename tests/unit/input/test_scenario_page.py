@@ -17,7 +17,7 @@ from tribodyn.tribology.friction import FRICTION_LAWS
 TEXT = PAGE.read_text(encoding="utf-8")
 TABLES = every_table()
 #: Keys in tables of examples that name files.
-FILES = ("material", "matrices", "torque_table")
+FILES = ("material", "matrices", "torque_table", "table")
 
 
 def test_the_page_is_what_the_schema_makes_of_it():

@@ -146,6 +146,20 @@ def test_oil_of_one_temperature_is_not_known_at_others():
         LOSSES.at(case, asked)
 
 
+@pytest.mark.parametrize(
+    ("load", "speed", "oil", "told"),
+    [
+        ([np.nan], [1.0], 350.0, "load = nan"),
+        ([1.0], [np.inf], 350.0, "speed = inf"),
+        ([1.0], [1.0], -5.0, "absolute zero"),
+        ([], [], 350.0, "no point"),
+    ],
+)
+def test_points_that_are_none_are_refused(load, speed, oil, told):
+    with pytest.raises(InputError, match=told):
+        LOSSES.at(load_scenario("involute-23-47"), OperatingPoints(load, speed, oil))
+
+
 def test_a_train_of_constant_stiffness_gives_way_as_springs_in_series():
     keys = {"mesh.compliance": "constant", "mesh.stiffness": "4e8 N/m", "bearings": "rigid-1e9"}
     keys |= {"mesh.backlash": "50 um"}

@@ -74,6 +74,7 @@ class GearboxLoss:
         """Losses at points of operation; torques, temperatures and losses settle together."""
         given = [np.atleast_1d(np.asarray(values, dtype=float)) for values in points[:3]]
         load, speed, supplied = np.broadcast_arrays(*given)
+        _refuse_no_points(load, speed, supplied)
         _refuse_other_temperatures(self.case.pair.lubricant, supplied)
         speed = np.maximum(np.abs(speed), LEAST_SPEED * self.case.source.speed)
         bulk = np.repeat(supplied[:, None], len(self.case.meshes), axis=1)
@@ -215,6 +216,20 @@ def alike(one: MeshPoints, two: MeshPoints) -> bool:
     return bool(np.allclose(one.torque, two.torque, rtol=1e-9, atol=1e-9 * scale)) and all(
         np.allclose(a, b, rtol=1e-12, equal_nan=True) for a, b in zip(one[1:], two[1:], strict=True)
     )
+
+
+def _refuse_no_points(*points: Float[Array, " point"]) -> None:
+    """Refuse points that are none: their temperature may be NaN where the oil is known at one."""
+    load, speed, temperature = points
+    for key, values, allowed, rule in (
+        ("load", load, np.isfinite(load), "is not a finite multiple of the scenario's loads"),
+        ("speed", speed, np.isfinite(speed), "is not a finite speed"),
+        ("oil_temperature", temperature, ~(temperature <= 0.0), "is not above absolute zero"),
+    ):
+        if not len(values):
+            raise InputError(key, [], "has no point of operation", "give one at least")
+        if not np.all(allowed):
+            raise InputError(key, float(values[~allowed][0]), rule)
 
 
 def _refuse_other_temperatures(oil: LubricantData, asked: Float[Array, " point"]) -> None:
