@@ -7,6 +7,7 @@ import numpy as np
 
 from tribodyn.cases.cost import CostKey, Estimate, in_memory, recorded, total
 from tribodyn.cases.loss_part import GearboxLosses, NominalPoint
+from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.schema import Layout
@@ -118,7 +119,10 @@ class MapCase(CaseHead):
 
     @cached_property
     def axes(self) -> tuple[Axis, Axis, Axis]:
-        """Torque, speed and oil temperature, before any node is added."""
+        """Torque, speed and oil temperature, before any node is added.
+
+        Raises InputError where torques are asked for of a gearbox without a load.
+        """
         of_nominal = (
             _OF_NOMINAL * abs(self.nominal.output_torque),
             _OF_NOMINAL * self.nominal.input_speed,
@@ -128,6 +132,11 @@ class MapCase(CaseHead):
             default if given is None else np.array(given)
             for given, default in zip(self.asked, of_nominal, strict=True)
         )
+        if not self.nominal.output_torque and np.any(torque):
+            rule = "the loads of a map are in proportion to those of its gearbox, and that has none"
+            raise InputError(
+                "map.torque", f"{torque[-1]:g} N*m", rule, "give it a load, or leave map.torque out"
+            )
         return _directed(torque, self.directions), _with_zero(speed), oil
 
     @property

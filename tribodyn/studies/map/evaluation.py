@@ -39,7 +39,8 @@ def evaluate(subject: Loaded, points: Sequence[Sequence[float]]) -> Answer:
     losses = subject.study.losses()
     assert losses is not None, "refused by the rules"
     torque, speed, oil = np.asarray(points, float).T
-    load = torque / losses.nominal(subject.case).output_torque
+    own = losses.nominal(subject.case).output_torque
+    load = torque / own if own else 0.0 * torque  # refused by the case where it is not 0
     found = losses.at(subject.case, OperatingPoints(load, speed, oil))
     return {
         "sources": [list(source) for source in found.sources],

@@ -56,7 +56,7 @@ def mapped(
         store = PointStore(case, workers, folder, report)
         grid = refined(case.axes, store.drag, case.accuracy, case.most_points)
         found = store.at(nodes_of(grid.axes))
-    loads = grid.axes[0] / case.nominal.output_torque
+    loads = grid.axes[0] / (case.nominal.output_torque or 1.0)
     return Mapped(grid, found, case.losses.statics(case.subject.case, loads), len(store))
 
 

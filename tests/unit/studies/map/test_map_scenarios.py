@@ -124,3 +124,20 @@ def test_an_oil_of_one_temperature_needs_to_be_told_which():
     assert told.axes[2].tolist() == [told.nominal.oil_temperature] == [333.15]
     with pytest.raises(InputError, match="not known at another"):
         load_data({**of_paper, "map": {"oil_temperature": ["60 degC", "70 degC"]}}, "mine")
+
+
+def test_a_gearbox_without_a_load_is_mapped_without_one():
+    idle = {
+        "like": "spur-25-51",
+        "operating": {"gear_torque": "0 N*m"},
+        "mesh": {"backlash": "50 um"},
+        "friction": {"law": "coulomb", "coefficient": 0.05},
+    }
+    data = {**REDUCER, "scenario": idle}
+    loaded = load_data(data, "mine")
+    assert loaded.case.axes[0].tolist() == [0.0]
+    assert loaded.study.quantities_of(loaded.case)["own_power_loss"] == 0.0
+    loaded = load_data({**data, "map": {"torque": ["5 N*m"]}}, "mine")
+    with pytest.raises(InputError, match="in proportion to those of its gearbox, and that has none") as error:
+        loaded.study.check(loaded.case)
+    assert error.value.key == "map.torque"
