@@ -90,14 +90,14 @@ def test_iso_14179_1_at_its_ends():
 
 
 def test_windage_by_hand():
-    """Dawson in rpm, mm, kW; Anderson & Loewenthal with air of 1.06 kg/m³ and 0.020 mPa s."""
+    """Dawson in rpm, mm, kW; Anderson & Loewenthal with oil of 30 mPa s."""
     speed, wheel = 7100 * RPM, Wheel(161e-3, 166e-3, 156e-3, 43e-3, 3.5e-3, 92.0)
     dawsons = 7100**2.9 * (0.16 * 312**3.9 + 312**2.9 * 43**0.75 * 3.5**1.15) * 1e-20
-    assert dawson(wheel, speed).torque * speed == pytest.approx(1e3 * dawsons, rel=1e-12)
-    kilowatts = 2.82e-7 * (1 + 2.3 * 43 / 161) * 1.06**0.8 * 7100**2.8 * 0.161**4.6 * 0.020**0.2
-    assert anderson_loewenthal(wheel, speed).torque * speed == pytest.approx(1e3 * kilowatts, rel=1e-12)
+    assert dawson(wheel, speed, OIL).torque * speed == pytest.approx(1e3 * dawsons, rel=1e-12)
+    kilowatts = 2.82e-7 * (1 + 2.3 * 43 / 161) * 7100**2.8 * 0.161**4.6 * (0.028 * 30 + 0.019) ** 0.2
+    assert anderson_loewenthal(wheel, speed, OIL).torque * speed == pytest.approx(1e3 * kilowatts, rel=1e-12)
     for diameter, outside in ((0.299, True), (0.301, False), (1.159, False), (1.161, True)):
-        assert bool(dawson(wheel._replace(root_radius=diameter / 2), speed).exceeded) == outside
+        assert bool(dawson(wheel._replace(root_radius=diameter / 2), speed, OIL).exceeded) == outside
 
 
 def test_palmgren_by_hand():
@@ -147,7 +147,7 @@ def test_losses_of_both_gears_are_added_and_limits_said_once():
             requested = LossData(churning, windage, "palmgren", 11e-3, 40e-3, sump, shafts=on_sides(*drags))
             found = losses_of_pair(requested, (pinion, gear), SPEEDS, OIL)
             assert found["churning"].power == pytest.approx(both(each, OIL, sump))
-            assert found["windage"].power == pytest.approx(both(blown))
+            assert found["windage"].power == pytest.approx(both(blown, OIL))
             assert len(found["churning"].exceeded) == (churning == "iso-14179-1")
             shafts = [
                 palmgren(drag, speed, OIL, 0.0, 0.0).idle * speed

@@ -165,6 +165,6 @@ def test_arrays_are_as_numbers_and_all_end_at_rest():
             oil = OilState(oils.viscosity[number], oils.density[number])
             assert formula(what, speeds[number], oil, SUMP).torque == pytest.approx(found[number])
     for blown in WINDAGE.values():
-        found = blown(PINION, speeds).torque
+        found = blown(PINION, speeds, OIL).torque
         assert found[0] == 0.0
-        assert [blown(PINION, speed).torque for speed in speeds] == pytest.approx(list(found))
+        assert [blown(PINION, speed, OIL).torque for speed in speeds] == pytest.approx(list(found))

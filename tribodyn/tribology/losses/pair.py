@@ -135,7 +135,7 @@ def wheel_torques(
         torque = CHURNING[data.churning](wheel, speed, oil, data.sump)
         yield ElementTorque("P_VZ0", name, "gear", data.churning, "churning", torque)
     if data.windage is not None and counted:
-        torque = WINDAGE[data.windage](wheel, speed)
+        torque = WINDAGE[data.windage](wheel, speed, oil)
         yield ElementTorque("P_VZ0", name, "gear", data.windage, "windage", torque)
 
 
