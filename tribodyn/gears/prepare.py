@@ -133,6 +133,7 @@ def wheels_of(case: Any, assembly: Assembly) -> tuple[Wheel, Wheel]:
             abs(float(body.teeth)),
             depths[place],
             abs(float(drive.helix_angle)),
+            float(drive.pressure_angle),
         )
 
     return wheel("pinion"), wheel("gear")

@@ -28,7 +28,8 @@ from tribodyn.tribology.losses.windage import anderson_loewenthal, dawson
 RPM = math.pi / 30.0
 #: Module 3 mm, 53 teeth.
 SPEED = 750 * RPM
-WHEEL = Wheel(79.5e-3, 82.5e-3, 75.75e-3, 24e-3, 3e-3, 53.0, 40e-3)
+ANGLE = math.radians(20.0)
+WHEEL = Wheel(79.5e-3, 82.5e-3, 75.75e-3, 24e-3, 3e-3, 53.0, 40e-3, pressure_angle=ANGLE)
 OIL = OilState(0.030, 850.0)
 SUMP = Sump(1e-3)
 
@@ -38,7 +39,7 @@ def wetted(wheel, depth):
     theta = math.acos(1 - depth / wheel.pitch_radius)
     sides = wheel.pitch_radius**2 * (2 * theta - math.sin(2 * theta))
     rim = 2 * wheel.pitch_radius * wheel.face_width * theta
-    height = wheel.tip_radius - wheel.root_radius
+    height = (wheel.tip_radius - wheel.root_radius) / math.cos(ANGLE)
     return sides + rim + 2 * wheel.teeth * height * wheel.face_width * theta / math.pi
 
 

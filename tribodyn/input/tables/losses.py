@@ -157,7 +157,7 @@ def broken_losses(
     named += [("losses.pump.shaft", table.pump.shaft)] if table.pump is not None else []
     for key, name in named:
         if name not in bodies:
-            yield unknown_name(key, name, bodies, "gear, shaft or body")
+            yield unknown_name(key, name, list(dict.fromkeys(bodies)), "gear, shaft or body")
     for name in table.carriers:
         if not carriers:
             rule, remedy = "there is no planetary stage", "leave it out"

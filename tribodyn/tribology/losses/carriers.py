@@ -18,7 +18,7 @@ class CarrierInOil:
     diameter: float  # m
     width: float  # m
     immersion: float  # depth of its lowest point below the oil's level at rest, m
-    clearance: float = 0.0  # to the housing, at faces and rim, m
+    clearance: float  # to the housing, at faces and rim, m; smooth_wheel does not read it
 
 
 def enclosed_drum(carrier: CarrierInOil, speed: Float[Array, "..."], oil: OilState, sump: Sump) -> Torque:

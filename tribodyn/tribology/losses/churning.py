@@ -16,7 +16,7 @@ LOW, HIGH = 6000.0, 9000.0
 def changenet_velex(wheel: Wheel, speed: Float[Array, "..."], oil: OilState, sump: Sump) -> Torque:
     """Churning by Changenet & Velex.
 
-    T = ½ ρ ω² S_m R³ C_m with the wetted surface S_m of flanks (b/cos β long), sides and teeth, h the depth
+    T = ½ ρ ω² S_m R³ C_m with the wetted surface S_m of flanks (b/cos β long, h/cos α high), sides and teeth, h the depth
     below the pitch circle's lowest point and D = 2 R, Fr = ω² R/g, Re = ω R b/ν:
     Re < 6000: C_m = 1.366 (h/D)^0.45 (V_0/D³)^0.1 Fr^−0.6 Re^−0.21;
     Re > 9000: C_m = 3.644 (h/D)^0.1 (V_0/D³)^−0.35 Fr^−0.88 (b/D)^0.85; between, linear in Re.
@@ -32,10 +32,11 @@ def changenet_velex(wheel: Wheel, speed: Float[Array, "..."], oil: OilState, sum
         return Torque(np.zeros(np.broadcast_shapes(speed.shape, np.shape(oil.viscosity))))
     half_angle = math.acos(max(1.0 - depth / radius, -1.0))
     height = wheel.tip_radius - wheel.root_radius
+    flank = height * width / (math.cos(wheel.pressure_angle) * math.cos(wheel.helix_angle))
     surface = (
         radius**2 * (2.0 * half_angle - math.sin(2.0 * half_angle))
         + diameter * width * half_angle
-        + 2.0 * wheel.teeth * height * width / math.cos(wheel.helix_angle) * half_angle / math.pi
+        + 2.0 * wheel.teeth * flank * half_angle / math.pi
     )
     turning = np.where(speed > 0.0, speed, 1.0)
     froude = turning**2 * radius / GRAVITY

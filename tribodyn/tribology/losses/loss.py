@@ -45,6 +45,7 @@ class Wheel(NamedTuple):
     #: depth of the tip circle's lowest point below the oil's level at rest, m; 0: not immersed
     immersion: float = 0.0
     helix_angle: float = 0.0  # β on the reference circle, rad, ≥ 0
+    pressure_angle: float = 0.0  # transverse, rad
 
 
 class Sump(NamedTuple):
