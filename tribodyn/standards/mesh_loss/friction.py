@@ -23,15 +23,6 @@ def schlenk(
     return 0.048 * load**0.2 * (1e3 * viscosity) ** -0.05 * (1e6 * roughness) ** 0.25 * lubricant
 
 
-def iso_14179_2_polyglycol(speed_sum: Any) -> Any:
-    """X_L = 0.75 (6/v_ΣC)^0.2 of a polyglycol, m/s: Niemann/Winter, ISO/TR 14179-2; from memory.
-
-    Their other types have constants: 1 of mineral oil, 0.8 of PAO and esters, 1.3 of phosphate esters, 1.5 of
-    traction fluids.
-    """
-    return 0.75 * (6.0 / speed_sum) ** 0.2
-
-
 def iso_14179_1(kinematic_viscosity: Any, load_intensity: Any, pitch_speed: Any) -> Any:
     """f_m = ν^−0.223 K^−0.40/(3.239 V^0.70) in mm²/s, N/mm², m/s: ISO/TR 14179-1:2001 (AGMA).
 

@@ -49,23 +49,17 @@ class HeatNetwork(NamedTuple):
 
     def incidence(self) -> Float[Array, "path node"]:
         """−1 where a path begins, +1 where it ends; of the free nodes."""
-        matrix = np.zeros((len(self.paths), len(self.capacities)))
-        place = {name: number for number, name in enumerate(self.nodes)}
-        for number, path in enumerate(self.paths):
-            for name, sign in ((path.one, -1.0), (path.two, 1.0)):
-                if name in place:
-                    matrix[number, place[name]] += sign
-        return matrix
+        return self._ends(self.nodes)
 
     def leaving(self) -> Float[Array, "path held"]:
-        """+1 where a path ends at a node of given temperature, −1 where it begins there."""
-        matrix = np.zeros((len(self.paths), len(self.held)))
-        place = {name: number for number, name in enumerate(self.held)}
-        for number, path in enumerate(self.paths):
-            for name, sign in ((path.one, -1.0), (path.two, 1.0)):
-                if name in place:
-                    matrix[number, place[name]] += sign
-        return matrix
+        """The same of the nodes of given temperature."""
+        return self._ends(tuple(self.held))
+
+    def _ends(self, names: Sequence[str]) -> Float[Array, "path name"]:
+        begin = [[path.one == name for name in names] for path in self.paths]
+        end = [[path.two == name for name in names] for path in self.paths]
+        shape = len(self.paths), len(names)
+        return np.reshape(end, shape).astype(float) - np.reshape(begin, shape)
 
     def isolated(self) -> tuple[str, ...]:
         """Free nodes from which no path leads to a node of given temperature: their heat cannot leave."""

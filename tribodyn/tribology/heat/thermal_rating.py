@@ -9,8 +9,6 @@ from scipy.optimize import root_scalar
 
 #: Air speed along the housing, m/s -> k, W/(m² K): large indoor space without a fan, then with one.
 COEFFICIENTS = ((1.4, 15.0), (2.5, 15.0), (5.0, 24.0), (10.0, 42.0), (15.0, 58.0))
-#: Maximum temperature of the sump, K: 95 °C.
-SUMP_LIMIT = 368.15
 
 
 def heat_transfer_coefficient(air_speed: float) -> float:

@@ -16,8 +16,9 @@ LOW, HIGH = 6000.0, 9000.0
 def changenet_velex(wheel: Wheel, speed: Float[Array, "..."], oil: OilState, sump: Sump) -> Torque:
     """Churning by Changenet & Velex.
 
-    T = ½ ρ ω² S_m R³ C_m with the wetted surface S_m of flanks (b/cos β long, h/cos α high), sides and teeth, h the depth
-    below the pitch circle's lowest point and D = 2 R, Fr = ω² R/g, Re = ω R b/ν:
+    T = ½ ρ ω² S_m R³ C_m with the wetted surface S_m of the rim, the sides and the teeth, whose flanks are
+    b/cos β long and their depth over cos α high, h the depth below the pitch circle's lowest point and
+    D = 2 R, Fr = ω² R/g, Re = ω R b/ν:
     Re < 6000: C_m = 1.366 (h/D)^0.45 (V_0/D³)^0.1 Fr^−0.6 Re^−0.21;
     Re > 9000: C_m = 3.644 (h/D)^0.1 (V_0/D³)^−0.35 Fr^−0.88 (b/D)^0.85; between, linear in Re.
 

@@ -7,7 +7,13 @@ import numpy as np
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.losses.bearings import BearingInOil, BearingTorque
 from tribodyn.tribology.losses.loss import OilState
-from tribodyn.tribology.losses.palmgren import static_share, viscous_moment, without_rating
+from tribodyn.tribology.losses.palmgren import (
+    BALL_FACTORS,
+    rolling_load,
+    static_share,
+    viscous_moment,
+    without_rating,
+)
 
 #: ISO/TR 14179-2: f_0 in an oil bath, by type and series; the first one where none is given.
 BATH_FACTORS: dict[str, dict[str, float]] = {
@@ -44,12 +50,7 @@ _SPHERICAL = {
     "241": (0.001, 1.5, -0.2),
 }
 #: f_1 of balls: c and y of c (P_0/C_0)^y.
-_BALL_FACTORS = {
-    "deep-groove-ball": (0.00075, 0.55),
-    "angular-contact-ball": (0.001, 0.33),
-    "four-point-contact-ball": (0.001, 0.33),
-    "self-aligning-ball": (0.0003, 0.4),
-}
+_BALL_FACTORS = BALL_FACTORS | {"deep-groove-ball": (0.00075, 0.55)}
 #: f_2 of the flanges of cylindrical rollers of usual design with cage, in oil.
 FLANGE_FACTOR = 0.002
 
@@ -64,18 +65,17 @@ def iso_14179_2(
     """M_0 + M_1 + M_2 by ISO/TR 14179-2:2001, with the factors of SKF's general catalogue of 1989.
 
     M_0 as `viscous_moment` has it; M_1 = f_1 P_1^a d_m^b N mm with N and mm, a = b = 1 but for spherical
-    rollers; M_2 = f_2 F_a d_m of cylindrical rollers. P_1 is at least F_r: balls 3 F_a − 0.1 F_r (deep
-    groove), F_a − 0.1 F_r (angular contact; 1.4 F_a − 0.1 F_r of two rows), 1.5 F_a + 3.6 F_r (four points),
-    1.4 Y_2 F_a − 0.1 F_r (self-aligning, Y_2 = 0.65 cot α); tapered rollers 2 Y F_a, Y = 0.4 cot α; spherical
-    rollers 1.35 Y_2 F_a where Y_2 F_a > F_r, Y_2 = 0.67 cot α, else F_r [1 + 0.35 (Y_2 F_a/F_r)³]. Written
-    from memory. Deep groove balls have f_1 0.0006 to 0.0009 (P_0/C_0)^0.55 there: the mean is taken.
+    rollers; M_2 = f_2 F_a d_m of cylindrical rollers. P_1 as `rolling_load` has it, but 1.5 F_a + 3.6 F_r of
+    four points, and of spherical rollers 1.35 Y_2 F_a where Y_2 F_a > F_r, Y_2 = 0.67 cot α, else
+    F_r [1 + 0.35 (Y_2 F_a/F_r)³]. Written from memory. Deep groove balls have f_1 0.0006 to 0.0009
+    (P_0/C_0)^0.55 there: the mean is taken.
     """
     kind, size = bearing.type, bearing.mean_diameter
     radial, axial = np.asarray(radial, dtype=float), np.asarray(axial, dtype=float)
     series = bearing.series or next(iter(BATH_FACTORS[kind]))
     factor = BATH_FACTORS[kind].get(series, next(iter(BATH_FACTORS[kind].values())))
     idle = viscous_moment(factor if bearing.drag_factor is None else bearing.drag_factor, size, speed, oil)
-    load = np.maximum(_rolling_load(bearing, radial, axial), radial)
+    load = _rolling_load(bearing, radial, axial)
     if kind == "spherical-roller":
         scale, a, b = _SPHERICAL[series]
         loaded = 1e-3 * scale * load**a * (1e3 * size) ** b
@@ -97,23 +97,13 @@ def _rolling_load(
     bearing: BearingInOil, radial: Float[Array, "..."], axial: Float[Array, "..."]
 ) -> Float[Array, "..."]:
     """P_1, N."""
-    match bearing.type:
-        case "deep-groove-ball":
-            return 3.0 * axial - 0.1 * radial
-        case "angular-contact-ball":
-            return (1.4 if bearing.both_ways else 1.0) * axial - 0.1 * radial
-        case "four-point-contact-ball":
-            return 1.5 * axial + 3.6 * radial
-        case "self-aligning-ball":
-            return 1.4 * 0.65 / math.tan(bearing.contact_angle) * axial - 0.1 * radial
-        case "tapered-roller":
-            return 0.8 / math.tan(bearing.contact_angle) * axial
-        case "spherical-roller":
-            thrust = 0.67 / math.tan(bearing.contact_angle) * axial
-            ratio = thrust / np.maximum(radial, 1e-300)
-            return np.where(ratio > 1.0, 1.35 * thrust, radial * (1.0 + 0.35 * np.minimum(ratio, 1.0) ** 3))
-        case _:
-            return radial
+    if bearing.type == "four-point-contact-ball":
+        return np.maximum(1.5 * axial + 3.6 * radial, radial)
+    if bearing.type != "spherical-roller":
+        return rolling_load(bearing, radial, axial)
+    thrust = 0.67 / math.tan(bearing.contact_angle) * axial
+    ratio = thrust / np.maximum(radial, 1e-300)
+    return np.where(ratio > 1.0, 1.35 * thrust, radial * (1.0 + 0.35 * np.minimum(ratio, 1.0) ** 3))
 
 
 #: ISO/TR 14179-1: coefficients of friction f_b by type.

@@ -26,7 +26,7 @@ _ROLLER_FACTORS = {
     "tapered-roller": 0.0004,
     "spherical-roller": 0.0004,
 }
-_BALL_FACTORS = {
+BALL_FACTORS = {
     "deep-groove-ball": (0.0005, 0.55),
     "angular-contact-ball": (0.001, 0.33),
     "four-point-contact-ball": (0.001, 0.33),
@@ -97,7 +97,7 @@ def palmgren(
     factor = DRAG_FACTORS[bearing.type] if bearing.drag_factor is None else bearing.drag_factor
     idle = bearing.rows * viscous_moment(factor, bearing.mean_diameter, speed, oil)
     if bearing.type in BALLS:
-        scale, exponent = _BALL_FACTORS[bearing.type]
+        scale, exponent = BALL_FACTORS[bearing.type]
         share = scale * static_share(bearing, radial, axial) ** exponent
     else:
         share = _ROLLER_FACTORS[bearing.type]
