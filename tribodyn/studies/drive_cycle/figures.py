@@ -31,7 +31,7 @@ def _duty(axes: Axes, record: Record) -> None:
     axes.set_ylabel("Speed of the input (rpm)")
     other = axes.twinx()
     other.plot(time, record["load"], color=PALETTE[1], linestyle="--")
-    other.set_ylabel("Load, of the own (dashed)")
+    other.set_ylabel("Load over nominal (dashed)")
     other.grid(visible=False)
 
 
