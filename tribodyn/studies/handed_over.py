@@ -1,5 +1,6 @@
 """Files of other programs: a scenario or a record as one of their files, and one of theirs as a scenario."""
 
+import math
 import tomllib
 from collections.abc import Mapping
 from functools import partial
@@ -136,9 +137,12 @@ def _chosen(key: str, value: Any, choice: FormatChoice) -> float | str:
     if choice.kind in _KINDS:
         return to_si_at(key, value, _KINDS[choice.kind])
     try:
-        return float(value)
+        number = float(value)
     except (TypeError, ValueError):
-        raise InputError(key, quoted(value), "is no number", "write one, such as 0.05") from None
+        number = math.nan
+    if not 0.0 <= number < math.inf:
+        raise InputError(key, quoted(value), "is no number from 0 on", "write one, such as 0.05")
+    return number
 
 
 def _source(source: str | Path, overrides: Mapping[str, Any], form: ExchangeFormat) -> Exported:

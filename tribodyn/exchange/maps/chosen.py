@@ -30,7 +30,8 @@ def at_temperature(exported: Exported, choices: Mapping[str, float]) -> tuple[fl
 def within(exported: Exported, name: str, value: float, axis: np.ndarray) -> None:
     """Refuse a value beyond the ends of an axis of the map."""
     if not axis[0] <= value <= axis[-1]:
-        rule = f"{name} {value:.6g} lies outside its map, {axis[0]:.6g} to {axis[-1]:.6g}"
+        unit = {OIL_TEMPERATURE: "K", "torque": "N*m", "speed": "rad/s"}[name]
+        rule = f"{name} {value:.6g} {unit} lies outside its map, {axis[0]:.6g} to {axis[-1]:.6g} {unit}"
         raise exported.refused(rule, f"choose another {name}, or map further")
 
 
