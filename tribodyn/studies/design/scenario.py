@@ -17,8 +17,7 @@ from tribodyn.cases.cost import CostKey, Estimate, record_bytes
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
-from tribodyn.input.resolve import resolve_table, toml_value
-from tribodyn.input.sources import find_scenario, read_toml
+from tribodyn.input.resolve import toml_value
 from tribodyn.input.tables.gears.drive_data import with_axes_held
 from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.design.candidates.archive import FACTORS, resolutions
@@ -31,7 +30,7 @@ from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import layout_of, names_of, scales_of
 from tribodyn.studies.design.parts import parts_of_design
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
-from tribodyn.studies.protocol.load import Loaded, load_data, loaded_from, put_chosen, schema_inside, table_of
+from tribodyn.studies.protocol.load import Loaded, load_data, loaded_around, put_chosen, schema_inside
 from tribodyn.studies.protocol.study import CaseHead
 
 KIND = "design"
@@ -308,27 +307,4 @@ def loaded_search(
     of the scenario to search through. Raises InputError for what cannot be searched, and where nothing says
     what is free and what is sought.
     """
-    if isinstance(source, CaseHead):
-        path, data = Path("scenario"), tomllib.loads(source.toml)
-    elif isinstance(source, Mapping):
-        path, data = Path("scenario"), dict(source)
-    else:
-        path = find_scenario(str(source))
-        data = read_toml(path)
-    if data.get("kind") == KIND:
-        search = data | {"design": {**data.get("design", {}), **design}}
-    else:
-        name = str(data.get("name", path.stem))
-        search = {
-            "title": f"Search through {data.get('title', name)}",
-            "name": f"{name}-design",
-            "kind": KIND,
-            "scenario": data,
-            "design": {"free": [], **design},
-        }
-    # keys of the scenario within, but for those of the search itself
-    prefixes = (f"{KIND}.", "scenario.")
-    within = {
-        key if key.startswith(prefixes) else f"scenario.{key}": value for key, value in overrides.items()
-    }
-    return loaded_from(resolve_table(search, path, within, table_of), path)
+    return loaded_around(KIND, source, design, overrides, "Search through", {"free": []})

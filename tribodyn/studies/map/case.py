@@ -105,9 +105,7 @@ class MapCase(CaseHead):
     @property
     def losses(self) -> GearboxLosses:
         """What the study of the gearbox offers."""
-        losses = self.subject.study.losses()
-        assert losses is not None, "refused by the rules"
-        return losses
+        return self.subject.losses
 
     @cached_property
     def nominal(self) -> NominalPoint:

@@ -1,8 +1,6 @@
 """The short form of a map, of the command line and of Python, and what a map says between its points."""
 
-import tomllib
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -10,13 +8,10 @@ import numpy as np
 from tribodyn.errors import InputError, quoted
 from tribodyn.input import units
 from tribodyn.input.quantity import InUnit, Table
-from tribodyn.input.resolve import resolve_table
-from tribodyn.input.sources import find_scenario, read_toml
 from tribodyn.input.vary import axes_of
 from tribodyn.record.loss_map import AXES, LossMap, efficiency_of
 from tribodyn.studies.map.scenario import KIND
-from tribodyn.studies.protocol.load import Loaded, loaded_from, table_of
-from tribodyn.studies.protocol.study import CaseHead
+from tribodyn.studies.protocol.load import Loaded, loaded_around
 
 #: Share of an axis's largest magnitude beyond its end that is its end.
 _SLACK = 1e-9
@@ -44,25 +39,9 @@ def axis_of(name: str, given: Any) -> Any:
 def loaded_map(source: Any, table: Mapping[str, Any], overrides: Mapping[str, Any]) -> Loaded:
     """Make the case of a map of a gearbox, or of a map: name, file, tables, or a case.
 
-    `table` has keys of ``[map]``, in place of those of a map; `overrides` are of the
-    gearbox.
+    `table` has keys of ``[map]``, in place of those of a map; `overrides` are of the gearbox.
     """
-    if isinstance(source, CaseHead):
-        path, data = Path("scenario"), tomllib.loads(source.toml)
-    elif isinstance(source, Mapping):
-        path, data = Path("scenario"), dict(source)
-    else:
-        path = find_scenario(str(source))
-        data = read_toml(path)
-    if data.get("kind") == KIND:
-        whole = data | {KIND: {**data.get(KIND, {}), **table}}
-    else:
-        name = str(data.get("name", path.stem))
-        title = f"Losses of {data.get('title', name)}"
-        whole = {"title": title, "name": f"{name}-map", "kind": KIND, "scenario": data, KIND: dict(table)}
-    own = (f"{KIND}.", "scenario.")  # keys of the gearbox, but for those of the map itself
-    within = {key if key.startswith(own) else f"scenario.{key}": value for key, value in overrides.items()}
-    return loaded_from(resolve_table(whole, path, within, table_of), path)
+    return loaded_around(KIND, source, table, overrides, "Losses of")
 
 
 def looked_up(losses: LossMap, torque: Any, speed: Any, oil_temperature: Any) -> dict[str, np.ndarray]:

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import re
+import tomllib
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -13,13 +14,14 @@ from typing import Annotated, Any, NamedTuple, Union
 import tomli_w
 from pydantic import Field, TypeAdapter, ValidationError
 
+from tribodyn.cases.loss_part import GearboxLosses
 from tribodyn.errors import InputError, InputErrors, quoted, unknown_name
 from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.input.messages import Origins, explain, outside
 from tribodyn.input.names import same_key
 from tribodyn.input.quantity import LIKE
 from tribodyn.input.resolve import OVERRIDES, Resolved, resolve, resolve_table, unresolved_keys
-from tribodyn.input.sources import file_name, find_scenario
+from tribodyn.input.sources import file_name, find_scenario, read_toml
 from tribodyn.input.specific_keys import example_of
 from tribodyn.input.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
 from tribodyn.studies import DEFAULT, STUDIES, study_of
@@ -73,6 +75,13 @@ class Loaded(NamedTuple):
     study: Study
     path: Path
     origins: Origins
+
+    @property
+    def losses(self) -> GearboxLosses:
+        """What the study of a gearbox offers; of others the rules have refused it."""
+        losses = self.study.losses()
+        assert losses is not None, "refused by the rules"
+        return losses
 
     def recorded_in(self, folder: Path) -> "Loaded":
         """The same, for a record in a folder that is named after it; see `record.target`."""
@@ -216,6 +225,41 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     toml = tomli_w.dumps(data)
     case: CaseHead = study.case(in_force(scenario), toml, hashlib.sha256(toml.encode()).hexdigest())
     return Loaded(case, study, path, origins)
+
+
+def loaded_around(
+    kind: str,
+    source: str | Path | Mapping[str, Any] | CaseHead,
+    table: Mapping[str, Any],
+    overrides: Mapping[str, Any],
+    title: str,
+    default: Mapping[str, Any] | None = None,
+) -> Loaded:
+    """Make the case of a study around a scenario: name, file, tables or a case of either.
+
+    `table` has keys of the table that is named as the kind, in place of those of the source; `overrides`, by
+    dotted keys, are of the scenario within; `title` stands before its title,
+    and `default` has further keys of the table where the source has none.
+    """
+    if isinstance(source, CaseHead):
+        path, data = Path("scenario"), tomllib.loads(source.toml)
+    elif isinstance(source, Mapping):
+        path, data = Path("scenario"), dict(source)
+    else:
+        path = find_scenario(str(source))
+        data = read_toml(path)
+    if data.get("kind") == kind:
+        whole = data | {kind: {**data.get(kind, {}), **table}}
+    else:
+        name = str(data.get("name", path.stem))
+        title = f"{title} {data.get('title', name)}"
+        whole = {"title": title, "name": f"{name}-{kind}", "kind": kind, "scenario": data}
+        whole[kind] = {**(default or {}), **table}
+    prefixes = (f"{kind}.", "scenario.")  # keys of the scenario within, but for those of the study itself
+    within = {
+        key if key.startswith(prefixes) else f"scenario.{key}": value for key, value in overrides.items()
+    }
+    return loaded_from(resolve_table(whole, path, within, table_of), path)
 
 
 def put_chosen(
