@@ -15,6 +15,8 @@ from tribodyn.numerics.shapes import Array, Float
 
 #: Points along a flank from which their number is found, and the least.
 _TRIAL, _LEAST = 40, 8
+#: Least pieces of the arc of half a root and of a tip.
+_ARC = 3
 
 
 class GearShape(NamedTuple):
@@ -24,6 +26,7 @@ class GearShape(NamedTuple):
     #: next, m; its axis of symmetry is x
     tooth: Float[Array, "point 2"]
     corners: tuple[int, ...]  # numbers of its points in which the outline has an edge
+    ends: tuple[int, ...]  # and of those in which fillets, flanks and tip begin and end
     teeth: int
     internal: bool  # whether the material is outside the outline
     radius: float  # of the bore, of an internal gear of its outside, m; 0: a solid gear
@@ -65,18 +68,20 @@ def gear_shape(assembly: Assembly, side: Side, tolerance: float) -> GearShape:
     )
     shape = tooth_outline(tooth, flank, fillet)
     land = abs(float(np.pi / body.teeth - shape.root_half_angle)), abs(float(shape.root_radius))
-    # the two chords beside the tooth's axis are one
     top = 2.0 * float(np.arcsin(shape.flank_y[-1] / abs(shape.tip_radius))), abs(float(shape.tip_radius))
-    root, tip = (pieces_of_arc(*arc, allowed) for arc in (land, top))
-    radius, angle = half_profile(shape, body.teeth, root, tip - 1)
-    radius, angle = np.abs(radius), np.abs(angle)
-    radius, angle = np.append(radius, radius[::-1]), np.append(-angle, angle[::-1])
-    ends = [root + fillet + flank - 2] + ([root + fillet - 1] if tooth.overrun > 0.0 else [])
+    root, tip = (max(_ARC, pieces_of_arc(*arc, allowed)) for arc in (land, top))
+    radius, angle = np.abs(half_profile(shape, body.teeth, root, 0))
+    across = np.linspace(-angle[-1], angle[-1], tip + 1)[1:-1]
+    radius = np.concatenate([radius, np.full(tip - 1, radius[-1]), radius[::-1]])
+    angle = np.concatenate([-angle, across, angle[::-1]])
+    ends = [root, root + fillet - 1, root + fillet + flank - 2]
+    edges = ends[1:] if tooth.overrun > 0.0 else ends[2:]
     pinion_twist = float(tan(assembly.drive.helix_angle) / reference_radius(assembly.drive, "pinion"))
     ratio = float(assembly.drive.pinion.teeth / assembly.drive.gear.teeth)
     return GearShape(
         tooth=np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=-1),
-        corners=tuple(sorted(ends + [len(radius) - 1 - end for end in ends])),
+        corners=tuple(sorted(edges + [len(radius) - 1 - end for end in edges])),
+        ends=tuple(sorted(ends + [len(radius) - 1 - end for end in ends])),
         teeth=abs(round(float(body.teeth))),
         internal=bool(body.teeth < 0),
         radius=abs(float(body.bore_radius)),

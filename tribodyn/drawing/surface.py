@@ -133,12 +133,17 @@ def _turned(points: Float[Array, "point 2"], angles: Float[Array, " angle"]) -> 
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
 
 
-def _of_shaft(shape: ShaftShape) -> Surface:
+def shaft_profile(shape: ShaftShape) -> list[tuple[float, float]]:
+    """Corners of half a section along the axis, radius and z, m: out, along z, in and back; closed."""
     ends = np.append(0.0, np.cumsum(shape.length))
     outside = [(r, z) for r, *both in zip(shape.radius, ends[:-1], ends[1:], strict=True) for z in both]
     inside = [(b, z) for b, *both in zip(shape.bore, ends[:-1], ends[1:], strict=True) for z in both]
     profile = [*outside, *inside[::-1]]
-    kept = [point for point, last in zip(profile, [profile[-1], *profile[:-1]], strict=True) if point != last]
+    return [point for point, last in zip(profile, [profile[-1], *profile[:-1]], strict=True) if point != last]
+
+
+def _of_shaft(shape: ShaftShape) -> Surface:
+    kept = shaft_profile(shape)
     pieces = max(12, pieces_of_arc(2.0 * np.pi, max(shape.radius), shape.tolerance))
     angle = 2.0 * np.pi / pieces * np.arange(pieces)
     around = np.stack([np.cos(angle), np.sin(angle)], axis=-1)

@@ -15,6 +15,7 @@ FORMATS: Registry[ExchangeFormat] = Registry(
         "openfast": "tribodyn.exchange.maps.openfast:FORMAT",
         "python": "tribodyn.exchange.maps.python:FORMAT",
         "c": "tribodyn.exchange.maps.c:FORMAT",
+        "step": "tribodyn.exchange.cad.step:FORMAT",
         "gltf": "tribodyn.exchange.cad.gltf:FORMAT",
         "rexs": "tribodyn.exchange.rexs.rexs_format:FORMAT",
     },

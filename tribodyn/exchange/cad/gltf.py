@@ -15,10 +15,12 @@ import numpy as np
 from tribodyn import __version__
 from tribodyn.drawing.shapes import PlacedPart
 from tribodyn.drawing.surface import Surface, surface_of
-from tribodyn.exchange.cad.chosen import CHOICES, chosen_parts
+from tribodyn.exchange.cad.chosen import CHOICES, chosen_parts, listed, tolerance_of
 from tribodyn.exchange.format import SCENARIO, ExchangeFormat, Exported, Written
 from tribodyn.numerics.shapes import Array
 
+#: Distance of triangles from the exact surfaces unless it is set, m.
+_TOLERANCE = 5e-6
 _MAGIC, _VERSION, _JSON, _BIN = b"glTF", 2, b"JSON", b"BIN\0"
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
 _FLOAT, _UNSIGNED_INT = 5126, 5125
@@ -33,9 +35,11 @@ _COLORS = {
 
 def write(exported: Exported, name: str, choices: Mapping[str, Any]) -> Written:
     """The parts of a scenario."""
-    parts, remarks = chosen_parts(exported, choices)
+    tolerance = tolerance_of(choices, _TOLERANCE)
+    parts = chosen_parts(exported, choices, tolerance)
     content, triangles = binary(parts, exported.path.stem)
-    return Written({".glb": content}, remarks=(*remarks, f"{triangles} triangles"))
+    remarks = listed(parts), f"{triangles} triangles within {1e6 * tolerance:g} um of the exact surfaces"
+    return Written({".glb": content}, remarks=remarks)
 
 
 def binary(parts: list[PlacedPart], title: str) -> tuple[bytes, int]:
