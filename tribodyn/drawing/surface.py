@@ -82,7 +82,7 @@ def _normals(shape: GearShape, pitch: float) -> tuple[Float[Array, "point 2"], F
     for start, end in pairwise(ends):
         run = line[start : end + 1]
         along = np.append(0.0, np.cumsum(np.hypot(*np.diff(run, axis=0).T)))
-        tangent = np.gradient(run, along, axis=0, edge_order=min(2, len(run) - 1))
+        tangent = np.gradient(run, along, axis=0, edge_order=2 if len(run) > 2 else 1)
         tangent /= np.hypot(*tangent.T)[:, None]
         right = np.stack([tangent[:, 1], -tangent[:, 0]], axis=-1)
         before[start + 1 : end + 1], after[start:end] = right[1:], right[:-1]
