@@ -138,7 +138,8 @@ def _titles(file: _File, lines: list[tuple[int, str]]) -> tuple[list[str], int]:
     names = file.row(*lines[0]).cells
     if len(lines) > 1 and all(re.fullmatch(r"\s*\w+\s*", name) for name in names):
         units = [cell.strip().strip("[]()") for cell in file.row(*lines[1], len(names)).cells]
-        if len(units) == len(names) and not any(_NUMBER.fullmatch(unit.replace(",", ".")) for unit in units):
+        numbers = [unit for unit in units if _NUMBER.fullmatch(unit.replace(",", "."))]
+        if len(units) == len(names) > len(numbers) and all(unit == "1" for unit in numbers):
             titles = [f"{name.strip()} [{unit}]" for name, unit in zip(names, units, strict=True)]
             return titles, 2
     return names, 1

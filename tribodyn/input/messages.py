@@ -210,8 +210,14 @@ def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
 
     Of a file that describes gears which its kind of study has not only that is said, once.
     """
-    # a text that is no Unicode is out of bounds, and complained of with them
-    problems = [dict(one) for one in error.errors(include_url=False) if one["type"] != "string_unicode"]
+    # a text that is no Unicode is out of bounds, and complained of with them; so is a list with too few
+    # values for some of its own being refused
+    problems = [
+        dict(one)
+        for one in error.errors(include_url=False)
+        if one["type"] != "string_unicode"
+        and not (one["type"] == "too_short" and len(one["input"]) >= one["ctx"]["min_length"])
+    ]
     errors = [_explain_one(one, model) for one in problems]
     several = "stage" in model.model_fields
     refused = (_outside(one, error, several) for one, error in zip(problems, errors, strict=True))

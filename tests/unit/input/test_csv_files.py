@@ -55,6 +55,26 @@ def test_files_as_other_programs_write_them(tmp_path: Path, text: str):
     assert [column["unit"] for column in found.values()] == ["deg", "um"]
 
 
+def test_a_line_of_units_with_a_unit_of_one(tmp_path: Path):
+    """A load without dimension has the unit 1; a line of numbers alone holds values."""
+    path = tmp_path / "cycle.csv"
+    path.write_text("time;load\ns;1\n0;0,5\n1;1\n", encoding="utf-8")
+    found = read_curve(path, "cycle.table", ["time", "load"])
+    assert [column["unit"] for column in found.values()] == ["s", "1"]
+    path.write_text("time;load\n1;1\n", encoding="utf-8")
+    with pytest.raises(InputError, match="no column"):
+        read_curve(path, "cycle.table", ["time", "load"])
+
+
+def test_a_list_with_a_wrong_value_is_not_too_short():
+    """Of a list whose value is refused only that value is said."""
+    values = {"unit": "N*m", "values": [0, float("nan")]}
+    with pytest.raises(InputError) as refused:
+        load_scenario("start-from-rest", {"operating.torque_speed_curve.torque": values})
+    assert "values.1" in str(refused.value)
+    assert "fewer" not in str(refused.value)
+
+
 def test_one_column_is_not_cut_at_decimal_commas(tmp_path: Path):
     """Under a header of one column 1,234 may be one number or two, of thousands or of one."""
     path = tmp_path / "pitch.csv"

@@ -83,7 +83,9 @@ def general_cost_keys(case: Any, mesh: MeshData) -> tuple[cost.CostKey, ...]:
     """Keys that make a case large."""
     return (
         cost.CostKey("output.samples_per_cycle", case.output.samples_per_cycle, 200),
-        cost.CostKey("solver.cycles", case.solver.cycles, 20),
+        cost.CostKey("solver.cycles", case.solver.cycles, 20)
+        if case.solver.duration is None
+        else cost.CostKey("solver.duration", case.solver.duration, 0.1),
         cost.CostKey("mesh.points", mesh.points, 65),
         cost.CostKey("mesh.slices", mesh.slices, 21),
     )
