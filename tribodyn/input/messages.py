@@ -210,19 +210,18 @@ def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
 
     Of a file that describes gears which its kind of study has not only that is said, once.
     """
-    # a text that is no Unicode is out of bounds, and complained of with them; so is a list with too few
-    # values for some of its own being refused
-    problems = [
-        dict(one)
-        for one in error.errors(include_url=False)
-        if one["type"] != "string_unicode"
-        and not (one["type"] == "too_short" and len(one["input"]) >= one["ctx"]["min_length"])
-    ]
+    problems = [one for one in map(dict, error.errors(include_url=False)) if not _said_elsewhere(one)]
     errors = [_explain_one(one, model) for one in problems]
     several = "stage" in model.model_fields
     refused = (_outside(one, error, several) for one, error in zip(problems, errors, strict=True))
     first = next(filter(None, refused), None)
     return errors if first is None else [first]
+
+
+def _said_elsewhere(detail: dict[str, Any]) -> bool:
+    """Of a text that is no Unicode its bounds are complained of; a list is short for values refused in it."""
+    short = detail["type"] == "too_short" and len(detail["input"]) >= detail["ctx"]["min_length"]
+    return short or detail["type"] == "string_unicode"
 
 
 def _outside(detail: dict[str, Any], error: InputError, several: bool) -> InputError | None:
