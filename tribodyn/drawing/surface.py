@@ -34,7 +34,8 @@ def volume(surface: Surface) -> float:
 
 def _of_gear(shape: GearShape) -> Surface:
     pitch, count = 2.0 * np.pi / shape.teeth, len(shape.tooth) - 1
-    arc = np.linspace(-0.5, 0.5, pieces_of_arc(pitch, shape.radius, shape.tolerance / 2) + 1) * pitch
+    pieces = pieces_of_arc(pitch, shape.radius, shape.tolerance / 2) if shape.radius else 1
+    arc = np.linspace(-0.5, 0.5, pieces + 1) * pitch
     circle = (
         shape.radius * np.stack([np.cos(arc), np.sin(arc)], axis=-1) if shape.radius else np.zeros((1, 2))
     )

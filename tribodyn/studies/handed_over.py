@@ -20,6 +20,7 @@ from tribodyn.exchange.format import (
     Imported,
 )
 from tribodyn.gears.prepare import assembled
+from tribodyn.geometry.limits.checks import check
 from tribodyn.input import units
 from tribodyn.input.sources import is_file
 from tribodyn.input.units import to_si_at
@@ -183,4 +184,8 @@ def placed_parts(loaded: Loaded, tolerance: float) -> list[PlacedPart]:
     with loaded.naming():
         if (placed := loaded.study.placed_parts()) is not None:
             return placed(loaded.case, tolerance)
-        return parts_of_pair(assembled(loaded.case.pair), tolerance) if loaded.study.has_gears else []
+        if not loaded.study.has_gears:
+            return []
+        pair = assembled(loaded.case.pair)
+        check(pair.family, pair.drive)
+        return parts_of_pair(pair, tolerance)

@@ -166,6 +166,19 @@ def test_a_train_is_read_back_in_its_places(tmp_path: Path):
     invoke("export", "industrial-reducer", "--to", "gltf", "-o", file, "--set", "part=middle")  # its own file
 
 
+def test_a_gear_without_a_bore_and_one_that_is_undercut_are_closed():
+    model = load_drive(
+        "liu-ni-involute-23-47", {"drive.pinion.teeth": "9", "drive.pinion.bore_radius": "0 mm"}
+    )
+    pinion, gear = parts_of_pair(assemble(family(model.family), model.drive), TOLERANCE)
+    assert isinstance(pinion.shape, GearShape)
+    assert isinstance(gear.shape, GearShape)
+    assert (len(pinion.shape.corners), len(gear.shape.corners)) == (4, 2)  # tips; and where undercut ends
+    surface = surface_of(pinion.shape)
+    assert np.any(np.all(surface.point[:, :2] == 0.0, axis=1))
+    volume_within(surface.point, surface.triangle)
+
+
 def test_a_shaft_is_its_cylinders(tmp_path: Path):
     shape = ShaftShape((0.05, 0.1, 0.03), (0.03, 0.045, 0.03), (0.0, 0.02, 0.02), 1e-6)
     surface = surface_of(shape)
@@ -199,6 +212,8 @@ def test_equal_parts_share_a_mesh_and_records_are_taken_too(tmp_path: Path):
         (("crc-23-47", "tolerance=2 mm"), "must be from 0.1 um to 1 mm"),
         (("crc-23-47", "tolerance=2"), "tolerance"),
         (("irefc", "part=gear"), "describes no gears"),
+        (("crc-23-47", "drive.pinion.bore_radius=35 mm"), "the bore reaches the root circle"),
+        (("efficiency-crc-23-47", "drive.pinion.bore_radius=35 mm"), "the bore reaches the root circle"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_in_one_line(words: tuple[str, str], said: str, tmp_path: Path):

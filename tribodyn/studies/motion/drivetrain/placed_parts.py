@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from tribodyn.drawing.shapes import GearShape, PlacedPart, ShaftShape, gear_shape
 from tribodyn.geometry.drive import Side
+from tribodyn.geometry.limits.checks import check
 from tribodyn.studies.motion.assembly import assemblies, phases
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.train.planetary import RAVIGNEAUX, SUN
@@ -15,9 +16,11 @@ _ROOM = 0.15
 def placed_parts(case: Gearbox, tolerance: float) -> list[PlacedPart]:
     """Gears and drawn shafts with the names of the scenario.
 
-    Chords leave the exact surfaces by `tolerance` (m) at most. InputError as of `assemblies`.
+    Chords leave the exact surfaces by `tolerance` (m) at most. InputError where teeth cannot be made.
     """
     pairs = assemblies(case)
+    if not case.named:  # those of a train have been checked
+        check(pairs[0].family, pairs[0].drive)
     teeth, heights = phases(case, pairs).teeth, _heights(case)
     path = pairs[0].path
     shapes: dict[tuple[int, Side, float], GearShape] = {}
