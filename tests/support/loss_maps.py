@@ -100,13 +100,12 @@ def write_map(
         )
         file.create_group("summary")
         for name, values in axes.items():
-            file[name] = values
-            file[name].make_scale(name)
+            file.create_dataset(name, data=values).make_scale(name)
         for name, (units, dims, values) in data.items():
-            file[name] = values
-            file[name].attrs.update({"units": units, "long_name": name.replace("_", " ")})
+            dataset = file.create_dataset(name, data=values)
+            dataset.attrs.update({"units": units, "long_name": name.replace("_", " ")})
             for number, dim in enumerate(dims):
-                file[name].dims[number].attach_scale(file[dim])
+                dataset.dims[number].attach_scale(file[dim])
         file["samples_written"] = len(axes["speed"])
         file.attrs["datasets"] = " ".join([*axes, *data])
     return path
