@@ -52,7 +52,7 @@ class MeshLoss(NamedTuple):
     #: film_min (m), film_parameter_min, friction_coefficient_mean, hertz_pressure_max (Pa), film_in_range,
     #: friction_in_range (shares of the contacts), NaN without load; friction_held, 1 where `_most` held it
     seen: Mapping[str, Float[Array, " point"]]
-    exceeded: tuple[str, ...] = ()  # limits of a standard's formula
+    exceeded: tuple[str, ...] = ()  # limits of the tables, or of a standard's formula
 
 
 class LossTable:
@@ -102,6 +102,9 @@ class LossTable:
         return MeshLoss(
             np.concatenate([part.drag for part in parts]),
             {name: np.concatenate([part.seen[name] for part in parts]) for name in names},
+            ("sharing of the load up to 10 times the nominal torque",)
+            if np.any(np.abs(points.torque) > 1.000001 * TORQUES[-1] * self.nominal)
+            else (),
         )
 
     def _of_some(self, points: MeshPoints, solved: Closure | None) -> MeshLoss:

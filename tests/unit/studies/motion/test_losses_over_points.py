@@ -196,3 +196,10 @@ def test_back_flanks_that_carry_nothing_lose_nothing(name):
     both = [load_scenario(name), load_scenario(name, {"mesh.backlash": "80 um"})]
     one, two = (LOSSES.at(case, points(case, [1.0, -0.5], [1.0, 0.5])).drag for case in both)
     assert two == pytest.approx(one, rel=1e-9)
+
+
+def test_loads_beyond_those_of_the_tables_are_told():
+    """Teeth share 100 times the load as they share 10 times, which is told."""
+    case = load_scenario("involute-18-36")
+    found = [LOSSES.at(case, points(case, load, 1.0, 333.15)).exceeded for load in (10.0, -9.0, 100.0, -11.0)]
+    assert [any("10 times" in limit for limit in one[0]) for one in found] == [False, False, True, True]
