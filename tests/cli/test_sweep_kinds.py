@@ -30,6 +30,7 @@ VARIED = {
     "design": ("scenario.drive.module", ("3 mm", "3.1 mm")),
     "assessment": ("operating.oil_temperature", ("70 degC", "80 degC")),
     "train-assessment": ("scenario.operating.oil_temperature", ("70 degC", "80 degC")),
+    "drive-cycle": ("scenario.temperature.ambient_temperature", ("15 degC", "25 degC")),
     "map": ("scenario.operating.output_torque", ("1700 N*m", "1770 N*m")),
 }
 #: Kinds whose cases take long.
