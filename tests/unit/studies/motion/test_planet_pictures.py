@@ -167,9 +167,10 @@ def test_what_is_alike_is_said_once(record: Record):
     assert set(mesh_labels(record)) == {f"set-{member}-1 (and 2, 3)" for member in members}
     further = {"large", "step-1 (and 2, 3)"} if pairs else set()
     assert set(body_labels(record)) == {"sun", "ring", "carrier", "planet-1 (and 2, 3)"} | further
-    stages, meshes = tables(record)
+    stages, meshes, losses = tables(record)
     assert stages.columns == ("", "set", "")
     assert len(meshes.columns) == 2 + len(members)
+    assert losses.title == "Losses by term and element"
     assert any("-1 (and 2, 3)" in line for line in verdict(record))
 
 
