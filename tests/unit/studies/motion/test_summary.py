@@ -52,7 +52,7 @@ PREPARED = cast(
     SimpleNamespace(
         cycle=CYCLE,
         model=MODEL,
-        case=SimpleNamespace(is_pair=True, named=False, meshes=[SimpleNamespace(pair=OILED)]),
+        case=SimpleNamespace(is_pair=True, named=False, in_time=False, meshes=[SimpleNamespace(pair=OILED)]),
         warm_pairs=[OILED],
         thermal=[None],
     ),
