@@ -3,31 +3,7 @@
 import math
 from typing import NamedTuple
 
-from tribodyn.exchange.rexs.file.attributes import (
-    AXIAL_ABSORPTION,
-    AXIAL_STIFFNESS,
-    BEARING_TYPE,
-    BEARING_TYPES,
-    CLEARANCE,
-    CONTACT_ANGLE,
-    DESIGNATION,
-    E_OF_CATALOGUE,
-    ELEMENT,
-    INNER,
-    OUTER,
-    PRELOAD,
-    PRELOAD_FORCE,
-    RADIAL_ABSORPTION,
-    RADIAL_STIFFNESS,
-    RATINGS,
-    ROW,
-    ROW_ABSORPTION,
-    ROW_DISTANCE,
-    ROWS,
-    TILT_STIFFNESS,
-    U_INNER,
-    U_OUTER,
-)
+from tribodyn.exchange.rexs.file import attributes as rexs
 from tribodyn.exchange.rexs.file.model import Component
 from tribodyn.exchange.rexs.file.sheet import Sheet
 from tribodyn.exchange.rexs.reading.draft import UNKNOWN, Draft, text
@@ -72,7 +48,7 @@ def supports_of(sheet: Sheet, shaft: Component) -> list[Support]:
             sheet.model.related("side", "assembly", bearing.number, role)
             for role in ("inner_part", "outer_part")
         )
-        for parts, others, key in ((inner, outer, U_INNER), (outer, inner, U_OUTER)):
+        for parts, others, key in ((inner, outer, rexs.U_INNER), (outer, inner, rexs.U_OUTER)):
             if shaft in parts:
                 found.append(Support(bearing, sheet.si(bearing, key), others[0] if others else None))
     return sorted(found, key=lambda each: each.place or 0.0)
@@ -83,11 +59,11 @@ def put_bearing(draft: Draft, support: Support, place: float, sense: int) -> Non
     sheet, bearing = draft.sheet, support.bearing
     draft.table("[[shaft.drawn.bearing]]", bearing.name)
     draft.put("position", f'"{1e3 * place:.12g} mm"')
-    named = {name: kind for kind, names in BEARING_TYPES.items() for name in names}
-    said = sheet.text(bearing, BEARING_TYPE)
+    named = {name: kind for kind, names in rexs.BEARING_TYPES.items() for name in names}
+    said = sheet.text(bearing, rexs.BEARING_TYPE)
     kind = named.get(said or "")
     if said is not None and kind is None:
-        sheet.leave(bearing, BEARING_TYPE, "no such type in a scenario: springs stand for it")
+        sheet.leave(bearing, rexs.BEARING_TYPE, "no such type in a scenario: springs stand for it")
     sizes = {} if kind is None else _sizes(sheet, bearing, kind)
     if kind in _ONE_WAY and sizes and not _thrust(sheet, bearing, sense):
         draft.change(
@@ -97,26 +73,26 @@ def put_bearing(draft: Draft, support: Support, place: float, sense: int) -> Non
     if kind is None or not sizes:
         _put_springs(draft, bearing, kind)
         return
-    draft.put("type", text(kind), sheet.text(bearing, DESIGNATION) or "")
-    sheet.truth(bearing, RADIAL_ABSORPTION)
+    draft.put("type", text(kind), sheet.text(bearing, rexs.DESIGNATION) or "")
+    sheet.truth(bearing, rexs.RADIAL_ABSORPTION)
     for key, value in sizes.items():
         draft.put(key, value)
-    for rating in RATINGS:
+    for rating in rexs.RATINGS:
         if rating.key not in sizes and sheet.si(bearing, rating):
             draft.put(rating.key, sheet.toml(bearing, rating))
-    if not sheet.si(bearing, RATINGS[3]):
+    if not sheet.si(bearing, rexs.RATINGS[3]):
         draft.suggest("contamination_factor", "0.5")
-    held = sheet.text(bearing, AXIAL_ABSORPTION)
+    held = sheet.text(bearing, rexs.AXIAL_ABSORPTION)
     if kind in _ONE_WAY:
         for key, value in _thrust(sheet, bearing, sense).items():
             draft.put(key, value)
-        if sheet.si(bearing, PRELOAD):
-            draft.put("preload", sheet.toml(bearing, PRELOAD))
-        elif sheet.si(bearing, PRELOAD_FORCE):
-            draft.put("preload_force", sheet.toml(bearing, PRELOAD_FORCE))
+        if sheet.si(bearing, rexs.PRELOAD):
+            draft.put("preload", sheet.toml(bearing, rexs.PRELOAD))
+        elif sheet.si(bearing, rexs.PRELOAD_FORCE):
+            draft.put("preload_force", sheet.toml(bearing, rexs.PRELOAD_FORCE))
         return
-    if sheet.si(bearing, CLEARANCE) is not None:
-        draft.put("clearance", sheet.toml(bearing, CLEARANCE))
+    if sheet.si(bearing, rexs.CLEARANCE) is not None:
+        draft.put("clearance", sheet.toml(bearing, rexs.CLEARANCE))
     if kind in _BOTH_WAYS and held == "no_direction":
         draft.put("locating", "false")
     elif kind in _BOTH_WAYS and held in ("positive", "negative"):
@@ -135,12 +111,12 @@ def _thrust(sheet: Sheet, bearing: Component, sense: int) -> dict[str, str]:
     What takes force towards -u stands at the end of smaller u of a pair in X arrangement.
     """
     ways = {"positive": sense, "negative": -sense}
-    held, rows = sheet.text(bearing, AXIAL_ABSORPTION), _rows(sheet, bearing)
-    of_rows = [sheet.text(row, ROW_ABSORPTION) for row in rows]
-    count = max(len(rows), sheet.whole(bearing, ROWS) or 1)
+    held, rows = sheet.text(bearing, rexs.AXIAL_ABSORPTION), _rows(sheet, bearing)
+    of_rows = [sheet.text(row, rexs.ROW_ABSORPTION) for row in rows]
+    count = max(len(rows), sheet.whole(bearing, rexs.ROWS) or 1)
     if count == 1:
         return {"thrust": text("+z" if ways[held] > 0 else "-z")} if held in ways else {}
-    distance = sheet.toml(bearing, ROW_DISTANCE) if sheet.si(bearing, ROW_DISTANCE) else None
+    distance = sheet.toml(bearing, rexs.ROW_DISTANCE) if sheet.si(bearing, rexs.ROW_DISTANCE) else None
     pair = {("negative", "positive"): "X", ("positive", "negative"): "O"}.get(tuple(of_rows), "")  # type: ignore[call-overload]
     if distance is None or count > 2 or not pair:
         return {}
@@ -157,21 +133,23 @@ def _sizes(sheet: Sheet, bearing: Component, kind: str) -> dict[str, str]:
         if angle is None:
             return {}
         found["contact_angle"] = angle
-    if max(len(rows), sheet.whole(bearing, ROWS) or 1) == 2 and kind in _NO_WAY:
-        if not sheet.si(bearing, ROW_DISTANCE):
+    if max(len(rows), sheet.whole(bearing, rexs.ROWS) or 1) == 2 and kind in _NO_WAY:
+        if not sheet.si(bearing, rexs.ROW_DISTANCE):
             return {}
-        found |= {"rows": "2", "row_distance": sheet.toml(bearing, ROW_DISTANCE) or ""}
+        found |= {"rows": "2", "row_distance": sheet.toml(bearing, rexs.ROW_DISTANCE) or ""}
     elements = (
         sheet.model.related("assembly", "assembly", rows[0].number, "part", "rolling_element") if rows else []
     )
     if elements:
-        keys = ELEMENT if kind in _ROLLERS else ELEMENT[:1]
-        inside = {key.key: sheet.toml(rows[0], key) for key in ROW}
+        keys = rexs.ELEMENT if kind in _ROLLERS else rexs.ELEMENT[:1]
+        inside = {key.key: sheet.toml(rows[0], key) for key in rexs.ROW}
         inside |= {key.key: sheet.toml(elements[0], key) for key in keys}
         if all(inside.values()):
             return found | {key: value for key, value in inside.items() if value is not None}
-    catalogue = {"bore": sheet.toml(bearing, INNER), "outside_diameter": sheet.toml(bearing, OUTER)}
-    catalogue[RATINGS[1].key] = sheet.toml(bearing, RATINGS[1]) if sheet.si(bearing, RATINGS[1]) else None
+    catalogue = {"bore": sheet.toml(bearing, rexs.INNER), "outside_diameter": sheet.toml(bearing, rexs.OUTER)}
+    catalogue[rexs.RATINGS[1].key] = (
+        sheet.toml(bearing, rexs.RATINGS[1]) if sheet.si(bearing, rexs.RATINGS[1]) else None
+    )
     if None in catalogue.values() or kind == "needle-roller":
         return {}
     return found | {key: value for key, value in catalogue.items() if value is not None}
@@ -179,9 +157,9 @@ def _sizes(sheet: Sheet, bearing: Component, kind: str) -> dict[str, str]:
 
 def _contact_angle(sheet: Sheet, bearing: Component, rows: list[Component]) -> str | None:
     """Of its rows, else from e = 1.5 tan α of the catalogue."""
-    if rows and sheet.si(rows[0], CONTACT_ANGLE):
-        return sheet.toml(rows[0], CONTACT_ANGLE)
-    limit = sheet.si(bearing, E_OF_CATALOGUE)
+    if rows and sheet.si(rows[0], rexs.CONTACT_ANGLE):
+        return sheet.toml(rows[0], rexs.CONTACT_ANGLE)
+    limit = sheet.si(bearing, rexs.E_OF_CATALOGUE)
     return f'"{math.degrees(math.atan(limit / 1.5)):.6g} deg"' if limit else None
 
 
@@ -189,7 +167,7 @@ def _put_springs(draft: Draft, bearing: Component, kind: str | None) -> None:
     """Springs: the file's, or for what it leaves open a typical stiffness."""
     sheet = draft.sheet
     if kind is not None:
-        name = sheet.text(bearing, DESIGNATION) or bearing.name
+        name = sheet.text(bearing, rexs.DESIGNATION) or bearing.name
         lacking = (
             "bore, outside diameter and ratings"
             if kind not in _ANGLED
@@ -198,15 +176,15 @@ def _put_springs(draft: Draft, bearing: Component, kind: str | None) -> None:
         draft.suggest(
             "type", text(kind), f"{name}: {lacking} are not in the file; with them in place of the springs"
         )
-    if sheet.truth(bearing, RADIAL_ABSORPTION) is not False:
-        value = sheet.si(bearing, RADIAL_STIFFNESS)
+    if sheet.truth(bearing, rexs.RADIAL_ABSORPTION) is not False:
+        value = sheet.si(bearing, rexs.RADIAL_STIFFNESS)
         for axis in ("stiffness_x", "stiffness_y"):
             _put_spring(draft, bearing, axis, value)
-    if sheet.text(bearing, AXIAL_ABSORPTION) in ("positive", "negative", "both_directions"):
-        _put_spring(draft, bearing, "stiffness_axial", sheet.si(bearing, AXIAL_STIFFNESS))
-        if sheet.text(bearing, AXIAL_ABSORPTION) != "both_directions":
+    if sheet.text(bearing, rexs.AXIAL_ABSORPTION) in ("positive", "negative", "both_directions"):
+        _put_spring(draft, bearing, "stiffness_axial", sheet.si(bearing, rexs.AXIAL_STIFFNESS))
+        if sheet.text(bearing, rexs.AXIAL_ABSORPTION) != "both_directions":
             draft.change(bearing, "takes axial force one way alone; here its spring holds both ways")
-    tilt = sheet.si(bearing, TILT_STIFFNESS)
+    tilt = sheet.si(bearing, rexs.TILT_STIFFNESS)
     if tilt:
         limited = min(tilt, STIFF_TILT) if tilt >= RIGID_TILT else tilt
         draft.put(
@@ -228,14 +206,14 @@ def put_springs_of(draft: Draft, name: str, supports: list[Support]) -> None:
     """Write [bearings.NAME], what holds a shaft that is not drawn: the sum of its bearings."""
     sheet, parts = draft.sheet, [each.bearing for each in supports]
     draft.table(f"[bearings.{name}]", ", ".join(part.name for part in parts))
-    across = [part for part in parts if sheet.truth(part, RADIAL_ABSORPTION) is not False]
-    stiffness = [sheet.si(part, RADIAL_STIFFNESS) for part in across]
+    across = [part for part in parts if sheet.truth(part, rexs.RADIAL_ABSORPTION) is not False]
+    stiffness = [sheet.si(part, rexs.RADIAL_STIFFNESS) for part in across]
     along = [
-        sheet.si(part, AXIAL_STIFFNESS) or 0.0
+        sheet.si(part, rexs.AXIAL_STIFFNESS) or 0.0
         for part in parts
-        if sheet.text(part, AXIAL_ABSORPTION) not in (None, "no_direction")
+        if sheet.text(part, rexs.AXIAL_ABSORPTION) not in (None, "no_direction")
     ]
-    tilt = [sheet.si(part, TILT_STIFFNESS) or 0.0 for part in parts]
+    tilt = [sheet.si(part, rexs.TILT_STIFFNESS) or 0.0 for part in parts]
     if across and all(stiffness):
         total = sum(value or 0.0 for value in stiffness)
         if total >= RIGID:
@@ -263,4 +241,4 @@ def put_stiffness(draft: Draft, across: float, along: float, tilt: float) -> Non
 
 def hold_across(sheet: Sheet, supports: list[Support]) -> bool:
     """Whether bearings hold what they carry in x and y."""
-    return any(sheet.truth(each.bearing, RADIAL_ABSORPTION) is not False for each in supports)
+    return any(sheet.truth(each.bearing, rexs.RADIAL_ABSORPTION) is not False for each in supports)

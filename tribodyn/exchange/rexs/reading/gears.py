@@ -3,30 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from tribodyn.exchange.rexs.file.attributes import (
-    CROWNING,
-    CROWNING_SHAPE,
-    CUTTER,
-    DATUM_FACE,
-    FACE_WIDTH,
-    FLANK,
-    GEAR,
-    HELIX_ANGLE,
-    HELIX_SLOPE,
-    LOWER_SPAN,
-    NORMAL_MODULE,
-    NUMBER_OF_TEETH,
-    PRESSURE_ANGLE,
-    PROFILE_SHIFT,
-    QUALITY,
-    RACK,
-    RELIEF_SHAPE,
-    RELIEFS,
-    THICKNESS_CODE,
-    TIP_DIAMETER,
-    UPPER_SPAN,
-    RexsKey,
-)
+from tribodyn.exchange.rexs.file import attributes as rexs
 from tribodyn.exchange.rexs.file.model import Component
 from tribodyn.exchange.rexs.file.sheet import Sheet
 from tribodyn.exchange.rexs.reading.draft import Draft, text
@@ -64,7 +41,7 @@ def flanks_of(sheet: Sheet, gear: Component) -> list[Component]:
     return [*left, *right]
 
 
-def of_both_flanks(sheet: Sheet, gear: Component, key: RexsKey) -> Component | None:
+def of_both_flanks(sheet: Sheet, gear: Component, key: rexs.RexsKey) -> Component | None:
     """The flank to read an attribute from; both flanks must say the same."""
     flanks = [flank for flank in flanks_of(sheet, gear) if sheet.number(flank, key) is not None]
     values = [sheet.si(flank, key) or 0.0 for flank in flanks]
@@ -74,7 +51,7 @@ def of_both_flanks(sheet: Sheet, gear: Component, key: RexsKey) -> Component | N
     return flanks[0] if flanks else None
 
 
-def common(sheet: Sheet, stage: Component, gears: Sequence[Component], key: RexsKey) -> str | None:
+def common(sheet: Sheet, stage: Component, gears: Sequence[Component], key: rexs.RexsKey) -> str | None:
     """What the gears of a stage say alike of their teeth, as a scenario writes it, without sign."""
     told = [(sheet.si(gear, key), gear) for gear in gears]
     said = [(abs(value), gear) for value, gear in told if value is not None]
@@ -88,7 +65,7 @@ def common(sheet: Sheet, stage: Component, gears: Sequence[Component], key: Rexs
 
 def hand_of(sheet: Sheet, gear: Component) -> int:
     """1 right, -1 left, 0 spur: a positive helix angle is right-handed (ISO 21771)."""
-    angle = sheet.si(gear, HELIX_ANGLE) or 0.0
+    angle = sheet.si(gear, rexs.HELIX_ANGLE) or 0.0
     return 0 if angle == 0.0 else 1 if angle > 0 else -1
 
 
@@ -100,7 +77,7 @@ def check_hands(sheet: Sheet, stage: Component, first: Component, second: Compon
         words = {1: "right-handed", -1: "left-handed", 0: "a spur gear"}
         needed = "the same hand as its ring" if inside else "opposite hands"
         rule = f"{first} is {words[hands[0]]}, {second} {words[hands[1]]}: parallel axes need {needed}"
-        raise sheet.refused(stage, rule, f"check the sign of {HELIX_ANGLE.name}")
+        raise sheet.refused(stage, rule, f"check the sign of {rexs.HELIX_ANGLE.name}")
 
 
 def put_gear(draft: Draft, gear: Component, called: str = "gear") -> None:
@@ -109,9 +86,9 @@ def put_gear(draft: Draft, gear: Component, called: str = "gear") -> None:
     internal = gear.type == "ring_gear"
     name = draft.name(gear)
     draft.table(f"[{called}.{name}]", gear.name if gear.name != name else "")
-    teeth = sheet.whole(gear, NUMBER_OF_TEETH)
-    width = sheet.toml(gear, FACE_WIDTH)
-    for key, value in ((NUMBER_OF_TEETH, teeth), (FACE_WIDTH, width)):
+    teeth = sheet.whole(gear, rexs.NUMBER_OF_TEETH)
+    width = sheet.toml(gear, rexs.FACE_WIDTH)
+    for key, value in ((rexs.NUMBER_OF_TEETH, teeth), (rexs.FACE_WIDTH, width)):
         if value is None:
             raise sheet.refused(gear, f"{key.name} missing", "add it")
     draft.put("teeth", str(abs(teeth or 0)))
@@ -122,25 +99,25 @@ def put_gear(draft: Draft, gear: Component, called: str = "gear") -> None:
     _put_shift(draft, gear)
     _put_tip(draft, gear, abs(teeth or 0), internal)
     tip = draft.lines[-1].startswith("tip_diameter")
-    for key in FLANK:
+    for key in rexs.FLANK:
         flank = of_both_flanks(sheet, gear, key)
         draft.put(key.key, sheet.toml(flank, key) if flank is not None and not tip else None)
         for each in flanks_of(sheet, gear) if tip else ():
-            sheet.leave(each, key, f"{TIP_DIAMETER.name} goes before")
-    for key in GEAR:
+            sheet.leave(each, key, f"{rexs.TIP_DIAMETER.name} goes before")
+    for key in rexs.GEAR:
         draft.put(key.key, sheet.toml(gear, key))
     _put_tool(draft, gear)
     _put_thickness(draft, gear)
-    quality = sheet.whole(gear, QUALITY)
+    quality = sheet.whole(gear, rexs.QUALITY)
     draft.put("quality", str(quality) if quality is not None else None)
     draft.put("material", material_of(draft, gear))
     _put_modification(draft, gear)
 
 
 def _put_shift(draft: Draft, gear: Component) -> None:
-    flank = of_both_flanks(draft.sheet, gear, PROFILE_SHIFT)
+    flank = of_both_flanks(draft.sheet, gear, rexs.PROFILE_SHIFT)
     if flank is not None:
-        draft.put("profile_shift", draft.sheet.toml(flank, PROFILE_SHIFT))
+        draft.put("profile_shift", draft.sheet.toml(flank, rexs.PROFILE_SHIFT))
     else:
         draft.suggest("profile_shift", "0.0", "not in the file: none")
 
@@ -148,19 +125,19 @@ def _put_shift(draft: Draft, gear: Component) -> None:
 def _put_tip(draft: Draft, gear: Component, teeth: int, internal: bool) -> None:
     """The tip diameter, where it is one: writers put 1 mm where they know none."""
     sheet = draft.sheet
-    tip, module = sheet.si(gear, TIP_DIAMETER), sheet.si(gear, NORMAL_MODULE) or 0.0
+    tip, module = sheet.si(gear, rexs.TIP_DIAMETER), sheet.si(gear, rexs.NORMAL_MODULE) or 0.0
     if tip is None:
-        if internal and not any(of_both_flanks(sheet, gear, key) for key in FLANK):
+        if internal and not any(of_both_flanks(sheet, gear, key) for key in rexs.FLANK):
             draft.assume("addendum", "0.9", "no tip diameter in the file: clear of its planets' fillets")
         return
-    helix = sheet.si(gear, HELIX_ANGLE) or 0.0
+    helix = sheet.si(gear, rexs.HELIX_ANGLE) or 0.0
     reference = teeth * module / math.cos(helix)
     if abs(abs(tip) - reference) > 4 * module or (abs(tip) > reference + 2 * module and internal):
         sheet.leave(
-            gear, TIP_DIAMETER, f"no tip diameter of a reference diameter of {1e3 * reference:.6g} mm"
+            gear, rexs.TIP_DIAMETER, f"no tip diameter of a reference diameter of {1e3 * reference:.6g} mm"
         )
         return
-    draft.put("tip_diameter", (sheet.toml(gear, TIP_DIAMETER) or "").replace('"-', '"'))
+    draft.put("tip_diameter", (sheet.toml(gear, rexs.TIP_DIAMETER) or "").replace('"-', '"'))
 
 
 def _put_tool(draft: Draft, gear: Component) -> None:
@@ -177,21 +154,25 @@ def _put_tool(draft: Draft, gear: Component) -> None:
         cutter = tool.type == "cutter_wheel_tool"
         if cutter and gear.type != "ring_gear":
             continue
-        for key in CUTTER if cutter else RACK:
-            draft.put(key.key, sheet.toml(tool, key), tool.name if key in (CUTTER[0], RACK[0]) else "")
+        for key in rexs.CUTTER if cutter else rexs.RACK:
+            draft.put(
+                key.key, sheet.toml(tool, key), tool.name if key in (rexs.CUTTER[0], rexs.RACK[0]) else ""
+            )
 
 
 def _put_thickness(draft: Draft, gear: Component) -> None:
     sheet = draft.sheet
-    code = sheet.text(gear, THICKNESS_CODE)
-    upper, lower = sheet.si(gear, UPPER_SPAN), sheet.si(gear, LOWER_SPAN)
+    code = sheet.text(gear, rexs.THICKNESS_CODE)
+    upper, lower = sheet.si(gear, rexs.UPPER_SPAN), sheet.si(gear, rexs.LOWER_SPAN)
     if code is not None:
         draft.put("thickness_code", text(code))
-        for key in (UPPER_SPAN, LOWER_SPAN):
-            sheet.leave(gear, key, f"{THICKNESS_CODE.name} goes before")
+        for key in (rexs.UPPER_SPAN, rexs.LOWER_SPAN):
+            sheet.leave(gear, key, f"{rexs.THICKNESS_CODE.name} goes before")
     elif upper is not None:
-        flank = of_both_flanks(sheet, gear, PRESSURE_ANGLE)
-        along = math.cos((sheet.si(flank, PRESSURE_ANGLE) if flank is not None else None) or math.radians(20))
+        flank = of_both_flanks(sheet, gear, rexs.PRESSURE_ANGLE)
+        along = math.cos(
+            (sheet.si(flank, rexs.PRESSURE_ANGLE) if flank is not None else None) or math.radians(20)
+        )
         draft.put("thickness_allowance", f'"{1e6 * upper / along:.9g} um"')
         if lower is not None and lower < upper:
             draft.put("thickness_tolerance", f'"{1e6 * (upper - lower) / along:.9g} um"')
@@ -201,7 +182,7 @@ def _put_modification(draft: Draft, gear: Component) -> None:
     """What is taken off the flanks; both are read, the left one is written."""
     sheet = draft.sheet
     written: dict[str, str | None] = {}
-    turned = sheet.text(gear, DATUM_FACE) == "positive"
+    turned = sheet.text(gear, rexs.DATUM_FACE) == "positive"
     for number, flank in enumerate(flanks_of(sheet, gear)):
         found: dict[str, str | None] = {}
         for part in sheet.model.related("reference", "origin", flank.number, "referenced"):
@@ -224,19 +205,19 @@ def _put_modification(draft: Draft, gear: Component) -> None:
 
 def _modification(sheet: Sheet, part: Component) -> dict[str, str | None]:
     found: dict[str, str | None] = {}
-    if part.type in RELIEFS:
-        found = {key.key: sheet.toml(part, key) for key in RELIEFS[part.type]}
-        shape = sheet.text(part, RELIEF_SHAPE)
+    if part.type in rexs.RELIEFS:
+        found = {key.key: sheet.toml(part, key) for key in rexs.RELIEFS[part.type]}
+        shape = sheet.text(part, rexs.RELIEF_SHAPE)
         if shape in ("linear", "parabolic"):
             found[f"{part.type}_shape"] = text(shape)
         elif shape is not None:
-            sheet.leave(part, RELIEF_SHAPE, "linear and parabolic reliefs are known")
+            sheet.leave(part, rexs.RELIEF_SHAPE, "linear and parabolic reliefs are known")
     elif part.type == "helix_crowning":
-        found = {key.key: sheet.toml(part, key) for key in CROWNING}
-        if sheet.text(part, CROWNING_SHAPE) not in (None, "parabolic"):
-            sheet.leave(part, CROWNING_SHAPE, "a parabola stands for it")
+        found = {key.key: sheet.toml(part, key) for key in rexs.CROWNING}
+        if sheet.text(part, rexs.CROWNING_SHAPE) not in (None, "parabolic"):
+            sheet.leave(part, rexs.CROWNING_SHAPE, "a parabola stands for it")
     elif part.type == "helix_slope":
-        found = {"helix_slope": sheet.toml(part, HELIX_SLOPE)}
+        found = {"helix_slope": sheet.toml(part, rexs.HELIX_SLOPE)}
     return {key: value for key, value in found.items() if value is not None}
 
 
@@ -256,11 +237,16 @@ def put_stage(draft: Draft, stage: Component, first: Component, second: Componen
 def put_teeth(draft: Draft, stage: Component, gears: Sequence[Component], distance: float | None) -> None:
     """Write what the gears of a stage have alike."""
     sheet = draft.sheet
-    module, helix = common(sheet, stage, gears, NORMAL_MODULE), common(sheet, stage, gears, HELIX_ANGLE)
+    module, helix = (
+        common(sheet, stage, gears, rexs.NORMAL_MODULE),
+        common(sheet, stage, gears, rexs.HELIX_ANGLE),
+    )
     if module is None:
-        raise sheet.refused(gears[0], f"{NORMAL_MODULE.name} missing", "add it")
-    flanks = [flank for gear in gears if (flank := of_both_flanks(sheet, gear, PRESSURE_ANGLE)) is not None]
-    angle = common(sheet, stage, flanks, PRESSURE_ANGLE)
+        raise sheet.refused(gears[0], f"{rexs.NORMAL_MODULE.name} missing", "add it")
+    flanks = [
+        flank for gear in gears if (flank := of_both_flanks(sheet, gear, rexs.PRESSURE_ANGLE)) is not None
+    ]
+    angle = common(sheet, stage, flanks, rexs.PRESSURE_ANGLE)
     draft.put("module", module)
     if angle is None:
         draft.assume("pressure_angle", '"20 deg"')

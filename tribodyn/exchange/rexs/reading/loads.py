@@ -3,19 +3,7 @@
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from tribodyn.exchange.rexs.file.attributes import (
-    DEFINES_SPEED,
-    DEFINES_TORQUE,
-    HOURS,
-    OIL_TEMPERATURE,
-    POWER,
-    SHARE,
-    SPEED,
-    TORQUE,
-    TRANSMITS,
-    U_ON_SHAFT,
-    RexsKey,
-)
+from tribodyn.exchange.rexs.file import attributes as rexs
 from tribodyn.exchange.rexs.file.model import Component, LoadCase
 from tribodyn.exchange.rexs.file.sheet import Sheet
 from tribodyn.exchange.rexs.reading.draft import Draft, text
@@ -35,7 +23,7 @@ class Ends(NamedTuple):
 
 
 def _value(
-    sheet: Sheet, case: LoadCase | None, part: Component, key: RexsKey
+    sheet: Sheet, case: LoadCase | None, part: Component, key: rexs.RexsKey
 ) -> tuple[Component, float] | None:
     """A value of a part in a load case, else its own."""
     for each in (*(case.parts if case is not None else ()), part):
@@ -49,10 +37,10 @@ def transmitting(sheet: Sheet) -> list[tuple[Component, Component]]:
     found = []
     for load in sheet.model.of_type("external_load"):
         shafts = sheet.model.related("assembly", "part", load.number, "assembly", "shaft")
-        transmits = sheet.truth(load, TRANSMITS)
+        transmits = sheet.truth(load, rexs.TRANSMITS)
         if transmits is None:
             cases: tuple[LoadCase | None, ...] = sheet.model.cases or (None,)
-            transmits = any((_value(sheet, case, load, TORQUE) or (load, 0.0))[1] for case in cases)
+            transmits = any((_value(sheet, case, load, rexs.TORQUE) or (load, 0.0))[1] for case in cases)
         if transmits and shafts:
             found.append((load, shafts[0]))
     return found
@@ -71,14 +59,14 @@ def ends_of(sheet: Sheet, speeds: Mapping[int, float]) -> Ends:
     fast = [
         (shaft, value[1])
         for shaft in sheet.model.of_type("shaft")
-        if (value := _value(sheet, case, shaft, SPEED)) and value[1]
+        if (value := _value(sheet, case, shaft, rexs.SPEED)) and value[1]
     ]
-    told.sort(key=lambda each: sheet.truth(each[0], DEFINES_TORQUE) is False)
+    told.sort(key=lambda each: sheet.truth(each[0], rexs.DEFINES_TORQUE) is False)
     fast.sort(
-        key=lambda each: (sheet.truth(each[0], DEFINES_SPEED) is not True, each[0].number not in shafts)
+        key=lambda each: (sheet.truth(each[0], rexs.DEFINES_SPEED) is not True, each[0].number not in shafts)
     )
     if not told or not fast:
-        what = TORQUE.name if not told else SPEED.name
+        what = rexs.TORQUE.name if not told else rexs.SPEED.name
         raise sheet.refused("external_load" if not told else "shaft", f"no {what} is given", "add it")
     load, loaded, torque = told[0]
     quick, speed = fast[0]
@@ -89,7 +77,7 @@ def ends_of(sheet: Sheet, speeds: Mapping[int, float]) -> Ends:
             )
     other = next(shaft for number, shaft in shafts.items() if number != loaded.number)
     drives = torque * speed * speeds[loaded.number] / speeds[quick.number] > 0
-    drives = torque > 0 if _torque_key(sheet, case, load) is POWER else drives
+    drives = torque > 0 if _torque_key(sheet, case, load) is rexs.POWER else drives
     into, out = (loaded, other) if drives else (other, loaded)
     if out.number not in speeds or into.number not in speeds:
         raise sheet.refused(out, "no gear links it with the input", "check the relations")
@@ -97,17 +85,17 @@ def ends_of(sheet: Sheet, speeds: Mapping[int, float]) -> Ends:
     fast_ends = [abs(speeds[each.number] / speeds[quick.number]) for each in (into, out)]
     if 1.0 not in fast_ends:
         rule = "its speed is known, but power neither enters nor leaves there"
-        raise sheet.refused(quick, rule, "give that of an end", SPEED.name)
+        raise sheet.refused(quick, rule, "give that of an end", rexs.SPEED.name)
     sense = speed * speeds[into.number] / speeds[quick.number]
     return Ends(load, quick, into, out, drives, fast_ends[0] == 1.0, 1 if sense > 0 else -1)
 
 
-def _torque_key(sheet: Sheet, case: LoadCase | None, load: Component) -> RexsKey:
-    return TORQUE if _value(sheet, case, load, TORQUE) else POWER
+def _torque_key(sheet: Sheet, case: LoadCase | None, load: Component) -> rexs.RexsKey:
+    return rexs.TORQUE if _value(sheet, case, load, rexs.TORQUE) else rexs.POWER
 
 
 def _torque(sheet: Sheet, case: LoadCase | None, load: Component) -> tuple[Component, float] | None:
-    for key in (TORQUE, POWER):
+    for key in (rexs.TORQUE, rexs.POWER):
         found = _value(sheet, case, load, key)
         if found is not None and found[1]:
             return found
@@ -136,8 +124,8 @@ def put_operating(draft: Draft, ends: Ends, names: Mapping[int, str]) -> None:
         told = None
         for part in (*case.parts, *([unit] if unit else ())):
             if unit is not None and part.number == unit.number and told is None:
-                hours = sheet.si(part, HOURS)
-                told = sheet.toml(part, SHARE) or (f"{hours / 3600:.12g}" if hours else None)
+                hours = sheet.si(part, rexs.HOURS)
+                told = sheet.toml(part, rexs.SHARE) or (f"{hours / 3600:.12g}" if hours else None)
         if told is None:
             draft.assume("share", "1.0", "not in the file: all load cases last equally long")
         draft.put("share", told)
@@ -150,29 +138,29 @@ def _end(draft: Draft, shaft: Component, names: Mapping[int, str]) -> str:
     """What the scenario calls an end: the body at the load's place, else the gear or the shaft."""
     sheet = draft.sheet
     for load, its in transmitting(sheet):
-        place = sheet.si(load, U_ON_SHAFT) if its is shaft else None
+        place = sheet.si(load, rexs.U_ON_SHAFT) if its is shaft else None
         for mass in masses_on(sheet, shaft):
-            there = sheet.si(mass, U_ON_SHAFT) or 0.0
+            there = sheet.si(mass, rexs.U_ON_SHAFT) or 0.0
             if mass.number in draft.bodies and place is not None and abs(there - place) < 1e-6:
                 return draft.name(mass)
         if its is shaft:
-            sheet.leave(load, U_ON_SHAFT, "torque enters and leaves at gears and bodies")
+            sheet.leave(load, rexs.U_ON_SHAFT, "torque enters and leaves at gears and bodies")
     return names[shaft.number]
 
 
 def _put_case(draft: Draft, ends: Ends, case: LoadCase | None) -> None:
     sheet = draft.sheet
-    speed, torque = _value(sheet, case, ends.fast, SPEED), _torque(sheet, case, ends.load)
+    speed, torque = _value(sheet, case, ends.fast, rexs.SPEED), _torque(sheet, case, ends.load)
     if speed is None or torque is None or not speed[1]:
         what = ends.load if torque is None else ends.fast
         raise sheet.refused(
             what, f"{case.name if case else 'the file'} gives no speed or no torque", "add it"
         )
     end = "input" if ends.speed_at_input else "output"
-    draft.put(f"{end}_speed", (sheet.toml(speed[0], SPEED) or "").replace('"-', '"'))
+    draft.put(f"{end}_speed", (sheet.toml(speed[0], rexs.SPEED) or "").replace('"-', '"'))
     own = ends.input if ends.torque_at_input else ends.output
     key = _torque_key(sheet, case, ends.load)
-    way = "power" if key is POWER else f"{'input' if own is ends.input else 'output'}_torque"
+    way = "power" if key is rexs.POWER else f"{'input' if own is ends.input else 'output'}_torque"
     draft.put(way, (sheet.toml(torque[0], key) or "").replace('"-', '"'))
     first = sheet.model.cases[0] if sheet.model.cases else None
     if _flow(sheet, case, ends) != _flow(sheet, first, ends):
@@ -186,11 +174,11 @@ def _oil_of(sheet: Sheet, case: LoadCase | None) -> str | None:
     warm = None
     for part in (*(case.parts if case is not None else ()), *([oil] if oil else ())):
         if oil is not None and part.number == oil.number and warm is None:
-            warm = sheet.toml(part, OIL_TEMPERATURE)
+            warm = sheet.toml(part, rexs.OIL_TEMPERATURE)
     return warm
 
 
 def _flow(sheet: Sheet, case: LoadCase | None, ends: Ends) -> tuple[bool, bool]:
     """Signs of speed and of torque or power."""
-    speed, torque = _value(sheet, case, ends.fast, SPEED), _torque(sheet, case, ends.load)
+    speed, torque = _value(sheet, case, ends.fast, rexs.SPEED), _torque(sheet, case, ends.load)
     return (speed or (None, 0.0))[1] > 0, (torque or (None, 0.0))[1] > 0

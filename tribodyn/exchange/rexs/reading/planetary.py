@@ -3,21 +3,7 @@
 import math
 from typing import NamedTuple
 
-from tribodyn.exchange.rexs.file.attributes import (
-    AXIAL_STIFFNESS,
-    CENTRE_DISTANCE,
-    INERTIA,
-    INNER,
-    LENGTH,
-    MASS,
-    OUTER,
-    RADIAL_STIFFNESS,
-    TILT_STIFFNESS,
-    TORSIONAL_STIFFNESS,
-    U_INNER,
-    U_ON_SHAFT,
-    RexsKey,
-)
+from tribodyn.exchange.rexs.file import attributes as rexs
 from tribodyn.exchange.rexs.file.model import Component
 from tribodyn.exchange.rexs.file.sheet import Sheet
 from tribodyn.exchange.rexs.reading.bearings import (
@@ -34,7 +20,7 @@ from tribodyn.exchange.rexs.reading.gears import check_hands, flanks_of, put_tee
 from tribodyn.exchange.rexs.reading.shafts import Cylinder, mass_of, masses_on, sections_of
 
 COUPLINGS = "coupling", "switchable_coupling"
-ENGAGED = RexsKey("is_engaged", "")
+ENGAGED = rexs.RexsKey("is_engaged", "")
 
 
 class PlanetarySet(NamedTuple):
@@ -204,7 +190,7 @@ def put_set(draft: Draft, found: PlanetarySet) -> None:
     else:
         draft.assume("held", text(held), "its coupling is open in the file: no power would flow")
     for coupling in couplings_of(sheet, found.members[held]):
-        value = sheet.si(coupling, TORSIONAL_STIFFNESS)
+        value = sheet.si(coupling, rexs.TORSIONAL_STIFFNESS)
         if value and value < RIGID_TILT:
             draft.put("support_stiffness", f'"{value:.9g} N*m/rad"')
             break
@@ -254,23 +240,26 @@ def put_carrier(draft: Draft, found: PlanetarySet) -> None:
     mass = inertia = 0.0
     guessed = False
     for plate in sheet.model.related("assembly", "assembly", carrier.number, "part", "side_plate"):
-        length, outer, inner = (sheet.si(plate, key) or 0.0 for key in (LENGTH, OUTER, INNER))
+        length, outer, inner = (sheet.si(plate, key) or 0.0 for key in (rexs.LENGTH, rexs.OUTER, rexs.INNER))
         part = mass_of(sheet, [Cylinder(0.0, length, outer, inner)], plate)
         mass, inertia, guessed = mass + part[0], inertia + part[1], guessed or not part[2]
     for shaft in found.carrier_shafts:
         part = mass_of(sheet, sections_of(draft, shaft), shaft)
         mass, inertia, guessed = mass + part[0], inertia + part[1], guessed or not part[2]
         for each in masses_on(sheet, shaft):
-            sheet.si(each, U_ON_SHAFT)
-            mass, inertia = mass + (sheet.si(each, MASS) or 0.0), inertia + (sheet.si(each, INERTIA) or 0.0)
+            sheet.si(each, rexs.U_ON_SHAFT)
+            mass, inertia = (
+                mass + (sheet.si(each, rexs.MASS) or 0.0),
+                inertia + (sheet.si(each, rexs.INERTIA) or 0.0),
+            )
     for pin in sheet.model.related("planet_pin", "planetary_stage", found.stage.number, "shaft"):
         part, away = (
             mass_of(sheet, sections_of(draft, pin), pin),
-            sheet.si(found.meshes[0][0], CENTRE_DISTANCE) or 0.0,
+            sheet.si(found.meshes[0][0], rexs.CENTRE_DISTANCE) or 0.0,
         )
         frame_of(sheet, pin)
         mass, inertia, guessed = mass + part[0], inertia + part[1] + part[0] * away**2, guessed or not part[2]
-    told = sheet.si(carrier, MASS)
+    told = sheet.si(carrier, rexs.MASS)
     if told:
         mass, inertia = told, inertia * told / mass if mass else 0.0
     draft.table("[[body]]", carrier.name)
@@ -305,7 +294,7 @@ def put_bearings_of_set(draft: Draft, found: PlanetarySet) -> None:
     if supports:
         put_springs_of(draft, draft.name(found.planets[0]), supports)
         for each in supports:
-            sheet.si(each.bearing, U_INNER)
+            sheet.si(each.bearing, rexs.U_INNER)
     for other in found.planets[1:]:
         its = shaft_of(sheet, other)
         for one, same in zip(supports, supports_of(sheet, its) if its is not None else [], strict=False):
@@ -315,7 +304,8 @@ def put_bearings_of_set(draft: Draft, found: PlanetarySet) -> None:
 def _put_coupled(draft: Draft, name: str, coupling: Component) -> None:
     sheet = draft.sheet
     across, along, tilt = (
-        sheet.si(coupling, key) or 0.0 for key in (RADIAL_STIFFNESS, AXIAL_STIFFNESS, TILT_STIFFNESS)
+        sheet.si(coupling, key) or 0.0
+        for key in (rexs.RADIAL_STIFFNESS, rexs.AXIAL_STIFFNESS, rexs.TILT_STIFFNESS)
     )
     draft.table(f"[bearings.{name}]", coupling.name)
     if not across:

@@ -3,18 +3,7 @@
 import math
 from typing import NamedTuple
 
-from tribodyn.exchange.rexs.file.attributes import (
-    DENSITY,
-    INERTIA,
-    INNER_BEGIN,
-    INNER_END,
-    LENGTH,
-    MASS,
-    MATERIAL,
-    OUTER_BEGIN,
-    OUTER_END,
-    U_ON_SHAFT,
-)
+from tribodyn.exchange.rexs.file import attributes as rexs
 from tribodyn.exchange.rexs.file.model import Component
 from tribodyn.exchange.rexs.file.sheet import Sheet
 from tribodyn.exchange.rexs.reading.bearings import Support, put_bearing, put_springs_of, supports_of
@@ -45,15 +34,18 @@ def sections_of(draft: Draft, shaft: Component) -> list[Cylinder]:
     sheet = draft.sheet
     found: list[Cylinder] = []
     parts = sheet.model.related("assembly", "assembly", shaft.number, "part", "shaft_section")
-    for part in sorted(parts, key=lambda each: sheet.si(each, U_ON_SHAFT) or 0.0):
-        values = [sheet.si(part, key) for key in (LENGTH, OUTER_BEGIN, OUTER_END, INNER_BEGIN, INNER_END)]
+    for part in sorted(parts, key=lambda each: sheet.si(each, rexs.U_ON_SHAFT) or 0.0):
+        values = [
+            sheet.si(part, key)
+            for key in (rexs.LENGTH, rexs.OUTER_BEGIN, rexs.OUTER_END, rexs.INNER_BEGIN, rexs.INNER_END)
+        ]
         length, begin, end, bore, last = (value or 0.0 for value in values)
         end, last = end if values[2] is not None else begin, last if values[4] is not None else bore
-        start = sheet.si(part, U_ON_SHAFT)
+        start = sheet.si(part, rexs.U_ON_SHAFT)
         expected = found[-1].start + found[-1].length if found else start or 0.0
         if start is not None and abs(start - expected) > _NEAR:
             rule = f"but the section before it ends at {1e3 * expected:.9g} mm on {shaft}"
-            raise sheet.refused(part, rule, "let the sections join", U_ON_SHAFT.name)
+            raise sheet.refused(part, rule, "let the sections join", rexs.U_ON_SHAFT.name)
         if length <= 0 or min(begin, end) <= 0:
             raise sheet.refused(
                 part, "has no length or no outer diameter", "add length and outer_diameter_begin"
@@ -71,7 +63,7 @@ def sections_of(draft: Draft, shaft: Component) -> list[Cylinder]:
 def mass_of(sheet: Sheet, stretches: list[Cylinder], shaft: Component) -> tuple[float, float, bool]:
     """Mass (kg) and polar inertia (kg m²) of cylinders, and whether the file says their density."""
     material = sheet.model.related("reference", "origin", shaft.number, "referenced", "material")
-    density = sheet.si(material[0], DENSITY) if material else None
+    density = sheet.si(material[0], rexs.DENSITY) if material else None
     mass = inertia = 0.0
     for each in stretches:
         section = 0.25 * math.pi * (each.diameter**2 - each.bore**2) * each.length * (density or 7850.0)
@@ -99,7 +91,7 @@ def put_masses(draft: Draft, shaft: Component, *, bare: bool = False) -> None:
         draft.table("[[body]]", part.name if part.name != draft.name(part) else "")
         draft.put("name", text(draft.name(part)))
         draft.bodies.add(part.number)
-        for key in (MASS, INERTIA):
+        for key in (rexs.MASS, rexs.INERTIA):
             value = draft.sheet.toml(part, key)
             if value is None:
                 raise draft.sheet.refused(part, f"{key.name} missing", "add it")
@@ -132,7 +124,7 @@ def put_shaft(draft: Draft, shaft: Component) -> None:
     stretches, supports = sections_of(draft, shaft), held_by_housing(draft, shaft)
     sense = sense_of(sheet, shaft)
     places = {each.number: middle_of_gear(sheet, each, shaft) for each in gears}
-    places |= {each.number: sheet.si(each, U_ON_SHAFT) for each in masses}
+    places |= {each.number: sheet.si(each, rexs.U_ON_SHAFT) for each in masses}
     why = _not_drawn(sheet, shaft, stretches, supports, places)
     if not gears:
         if stretches or supports:
@@ -201,5 +193,5 @@ def _put_drawn(
 def _put_material(draft: Draft, shaft: Component) -> None:
     sheet = draft.sheet
     found = sheet.model.related("reference", "origin", shaft.number, "referenced", "material")
-    for key in MATERIAL[:3] if found else ():
+    for key in rexs.MATERIAL[:3] if found else ():
         draft.put(key.key, sheet.toml(found[0], key))

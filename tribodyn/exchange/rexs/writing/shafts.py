@@ -5,41 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.exchange.rexs.file.attributes import (
-    AXIAL_ABSORPTION,
-    AXIAL_STIFFNESS,
-    BEARING_TYPE,
-    BEARING_TYPES,
-    CLEARANCE,
-    CONTACT_ANGLE,
-    DENSITY,
-    ELEMENT,
-    INERTIA,
-    INNER,
-    INNER_BEGIN,
-    INNER_END,
-    LENGTH,
-    MASS,
-    MATERIAL,
-    OUTER,
-    OUTER_BEGIN,
-    OUTER_END,
-    PRELOAD,
-    PRELOAD_FORCE,
-    RADIAL_ABSORPTION,
-    RADIAL_STIFFNESS,
-    RATINGS,
-    ROW,
-    ROW_ABSORPTION,
-    ROW_DISTANCE,
-    ROWS,
-    TILT_STIFFNESS,
-    TORSIONAL_STIFFNESS,
-    U_INNER,
-    U_ON_SHAFT,
-    U_OUTER,
-    RexsKey,
-)
+from tribodyn.exchange.rexs.file import attributes as rexs
 from tribodyn.exchange.rexs.writing.builder import ModelText, si, value_in
 from tribodyn.exchange.rexs.writing.layout import RexsPlaces
 from tribodyn.exchange.rexs.writing.teeth import said
@@ -78,16 +44,24 @@ class Shafts:
         model, along = self.model, 0.0
         for section in drawn["section"]:
             outer, inner = (
-                value_in(section["diameter"], OUTER_BEGIN),
-                value_in(section.get("bore") or "0 mm", INNER_BEGIN),
+                value_in(section["diameter"], rexs.OUTER_BEGIN),
+                value_in(section.get("bore") or "0 mm", rexs.INNER_BEGIN),
             )
-            values = {U_ON_SHAFT: float(f"{1e3 * along:.12g}"), LENGTH: value_in(section["length"], LENGTH)}
-            values |= {OUTER_BEGIN: outer, OUTER_END: outer, INNER_BEGIN: inner, INNER_END: inner}
+            values = {
+                rexs.U_ON_SHAFT: float(f"{1e3 * along:.12g}"),
+                rexs.LENGTH: value_in(section["length"], rexs.LENGTH),
+            }
+            values |= {
+                rexs.OUTER_BEGIN: outer,
+                rexs.OUTER_END: outer,
+                rexs.INNER_BEGIN: inner,
+                rexs.INNER_END: inner,
+            }
             model.relate("assembly", assembly=number, part=model.add("shaft_section", "", values))
             along += si(section["length"])
         metal = {key: drawn.get(key) or value for key, value in _METAL.items()}
-        values = said(metal, MATERIAL[:3])
-        assert DENSITY in values
+        values = said(metal, rexs.MATERIAL[:3])
+        assert rexs.DENSITY in values
         model.relate("reference", origin=number, referenced=model.add("material", f"shaft {name}", values))
         for count, bearing in enumerate(drawn["bearing"], start=1):
             self._bearing(number, f"{name}-{count}", bearing)
@@ -95,12 +69,12 @@ class Shafts:
     def _bearing(self, shaft: int, name: str, table: Mapping[str, Any]) -> None:
         """A bearing of a drawn shaft."""
         model, kind = self.model, table.get("type")
-        if table.get("matrix") is not None or (kind is not None and kind not in BEARING_TYPES):
+        if table.get("matrix") is not None or (kind is not None and kind not in rexs.BEARING_TYPES):
             what = "a matrix" if kind is None else f"a {kind} bearing"
             raise InputError(
                 f"bearing {name}", None, f"is {what}, which REXS has not", "write springs instead"
             )
-        place = value_in(table["position"], U_INNER)
+        place = value_in(table["position"], rexs.U_INNER)
         if kind is None:
             values = _springs(
                 [table.get(key) for key in ("stiffness_x", "stiffness_y")], table, self.remarks, name
@@ -115,13 +89,13 @@ class Shafts:
             else thrust or "both_directions"
         )
         values = {
-            BEARING_TYPE: BEARING_TYPES[str(kind)][0],
-            AXIAL_ABSORPTION: way,
-            RADIAL_ABSORPTION: True,
-            ROWS: rows,
+            rexs.BEARING_TYPE: rexs.BEARING_TYPES[str(kind)][0],
+            rexs.AXIAL_ABSORPTION: way,
+            rexs.RADIAL_ABSORPTION: True,
+            rexs.ROWS: rows,
         }
-        values |= said(table, (INNER, OUTER, *RATINGS, ROW_DISTANCE, PRELOAD_FORCE))
-        for key in (CLEARANCE, PRELOAD):
+        values |= said(table, (rexs.INNER, rexs.OUTER, *rexs.RATINGS, rexs.ROW_DISTANCE, rexs.PRELOAD_FORCE))
+        for key in (rexs.CLEARANCE, rexs.PRELOAD):
             if table.get(key.key) is not None and si(table[key.key]):
                 values[key] = value_in(table[key.key], key)
         number = model.add(_CATALOGUE, name, values)
@@ -129,22 +103,24 @@ class Shafts:
         for row in range(rows):
             held = _PAIRS.get(str(table.get("arrangement")), (way, way))[row]
             inside = model.add(
-                "rolling_bearing_row", "", said(table, (CONTACT_ANGLE, *ROW)) | {ROW_ABSORPTION: held}
+                "rolling_bearing_row",
+                "",
+                said(table, (rexs.CONTACT_ANGLE, *rexs.ROW)) | {rexs.ROW_ABSORPTION: held},
             )
             model.relate("ordered_assembly", row + 1, assembly=number, part=inside)
-            if element := said(table, ELEMENT):
+            if element := said(table, rexs.ELEMENT):
                 model.relate(
                     "ordered_assembly", 1, assembly=inside, part=model.add("rolling_element", "", element)
                 )
 
     def _held(self, bearing: int, shaft: int, place: Any, outer: int | None = None) -> None:
         """Let a bearing hold a shaft in the casing, or in another shaft."""
-        self.model.put(bearing, U_INNER, place)
-        self.model.put(bearing, U_OUTER, None if outer is None else place)
+        self.model.put(bearing, rexs.U_INNER, place)
+        self.model.put(bearing, rexs.U_OUTER, None if outer is None else place)
         casing = self.casing if outer is None else outer
         self.model.relate("side", assembly=bearing, inner_part=shaft, outer_part=casing)
 
-    def stiffness(self, name: str) -> dict[RexsKey, Any]:
+    def stiffness(self, name: str) -> dict[rexs.RexsKey, Any]:
         """The stiffness of [bearings.NAME]; nothing where there is none."""
         bearings = self.tables.get("bearings") or {}
         table = bearings.get(name) or bearings.get("default") or bearings.get("gear")
@@ -156,9 +132,15 @@ class Shafts:
                 raise InputError(f"bearings.{name}.{what}", None, rule, "write stiffness_x and stiffness_y")
         both = [table.get(key) for key in ("stiffness_x", "stiffness_y")]
         values = _springs(both, table, self.remarks, name)
-        if table.get("span") is not None and TILT_STIFFNESS not in values and RADIAL_STIFFNESS in values:
-            tilt = values[RADIAL_STIFFNESS] * (si(table["span"]) / 2) ** 2  # of two bearings at this distance
-            values[TILT_STIFFNESS] = float(f"{1e3 * tilt:.12g}")
+        if (
+            table.get("span") is not None
+            and rexs.TILT_STIFFNESS not in values
+            and rexs.RADIAL_STIFFNESS in values
+        ):
+            tilt = (
+                values[rexs.RADIAL_STIFFNESS] * (si(table["span"]) / 2) ** 2
+            )  # of two bearings at this distance
+            values[rexs.TILT_STIFFNESS] = float(f"{1e3 * tilt:.12g}")
         return values
 
     def springs(
@@ -167,9 +149,9 @@ class Shafts:
         """The bearings of something that no drawn shaft carries, as one concept bearing."""
         values = self.stiffness(name)
         if floating:  # no bearing holds it in x and y
-            values = {key: value for key, value in values.items() if key is not RADIAL_STIFFNESS}
-            values[RADIAL_ABSORPTION] = False
-        if not values or (floating and AXIAL_STIFFNESS not in values):
+            values = {key: value for key, value in values.items() if key is not rexs.RADIAL_STIFFNESS}
+            values[rexs.RADIAL_ABSORPTION] = False
+        if not values or (floating and rexs.AXIAL_STIFFNESS not in values):
             return
         here = float(f"{1e3 * place:.12g}")
         self._held(self.model.add(_CONCEPT, f"bearing of {name}", values), shaft, here, outer)
@@ -177,8 +159,8 @@ class Shafts:
     def body(self, table: Mapping[str, Any]) -> None:
         """A body without teeth on its shaft."""
         name = table["name"]
-        values = said(table, (MASS, INERTIA))
-        values[U_ON_SHAFT] = float(f"{1e3 * self.layout.position[name]:.12g}")
+        values = said(table, (rexs.MASS, rexs.INERTIA))
+        values[rexs.U_ON_SHAFT] = float(f"{1e3 * self.layout.position[name]:.12g}")
         number = self.model.add("additional_mass", name, values)
         self.model.relate("assembly", assembly=self.numbers[self.layout.shaft_of[name]], part=number)
 
@@ -190,24 +172,24 @@ class Shafts:
                 rule = "a link to the ground, or with a law of its own, which REXS has not"
                 raise InputError("link", quoted(name), rule, "leave it out")
             first, second = (self.numbers[self.layout.shaft(end)] for end in link["ends"])
-            values: dict[RexsKey, Any] = {}
+            values: dict[rexs.RexsKey, Any] = {}
             if link.get("stiffness") is not None:
-                values[TORSIONAL_STIFFNESS] = value_in(link["stiffness"], TORSIONAL_STIFFNESS)
+                values[rexs.TORSIONAL_STIFFNESS] = value_in(link["stiffness"], rexs.TORSIONAL_STIFFNESS)
             number = self.model.add("coupling", name, values)
             self.model.relate("side", assembly=number, inner_part=first, outer_part=second)
 
 
 def _springs(
     both: Sequence[Any], table: Mapping[str, Any], remarks: list[str], name: str
-) -> dict[RexsKey, Any]:
+) -> dict[rexs.RexsKey, Any]:
     """Of a concept bearing: one radial stiffness, the geometric mean where x and y differ."""
     told = [si(each, "N/m") for each in both if each is not None]
-    values: dict[RexsKey, Any] = {RADIAL_ABSORPTION: bool(told)}
+    values: dict[rexs.RexsKey, Any] = {rexs.RADIAL_ABSORPTION: bool(told)}
     if told:
-        values[RADIAL_STIFFNESS] = float(f"{math.prod(told) ** (1 / len(told)):.12g}")
+        values[rexs.RADIAL_STIFFNESS] = float(f"{math.prod(told) ** (1 / len(told)):.12g}")
         if min(told) != max(told):
             remarks.append(f"bearing {name}: REXS has one radial stiffness; the mean of x and y stands there")
-    values[AXIAL_ABSORPTION] = (
+    values[rexs.AXIAL_ABSORPTION] = (
         "both_directions" if table.get("stiffness_axial") is not None else "no_direction"
     )
-    return values | said(table, (AXIAL_STIFFNESS, TILT_STIFFNESS))
+    return values | said(table, (rexs.AXIAL_STIFFNESS, rexs.TILT_STIFFNESS))

@@ -4,41 +4,14 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from tribodyn.exchange.rexs.file.attributes import (
-    CROWNING,
-    CROWNING_SHAPE,
-    CUTTER,
-    DATUM_FACE,
-    FACE_WIDTH,
-    FLANK,
-    GEAR,
-    HELIX_ANGLE,
-    HELIX_SLOPE,
-    LOWER_SPAN,
-    MATERIAL,
-    MATERIAL_NAME,
-    NORMAL_MODULE,
-    NUMBER_OF_TEETH,
-    PRESSURE_ANGLE,
-    PROFILE_SHIFT,
-    QUALITY,
-    RACK,
-    RELIEF_SHAPE,
-    RELIEFS,
-    THICKNESS_CODE,
-    TIP_DIAMETER,
-    TREATMENT,
-    TREATMENTS,
-    UPPER_SPAN,
-    RexsKey,
-)
+from tribodyn.exchange.rexs.file import attributes as rexs
 from tribodyn.exchange.rexs.writing.builder import ModelText, si, value_in
 
 #: Basic racks of ISO 53: addendum, dedendum, rounding.
 _RACKS = {"A": (1.0, 1.25, 0.38), "B": (1.0, 1.25, 0.3), "C": (1.0, 1.25, 0.25), "D": (1.0, 1.4, 0.39)}
 
 
-def said(table: Mapping[str, Any], keys: tuple[RexsKey, ...]) -> dict[RexsKey, Any]:
+def said(table: Mapping[str, Any], keys: tuple[rexs.RexsKey, ...]) -> dict[rexs.RexsKey, Any]:
     """The attributes that a table has the keys of."""
     return {key: value_in(table[key.key], key) for key in keys if table.get(key.key) is not None}
 
@@ -109,27 +82,27 @@ class GearText:
         model, gear, stage = self.model, common_of(self.tables, name), stage_of(self.tables, name)
         internal = bool(gear.get("internal"))
         number = model.add("ring_gear" if internal else "cylindrical_gear", called or name)
-        helix = value_in(stage["helix_angle"], HELIX_ANGLE) if stage.get("helix_angle") else 0.0
-        angle = value_in(stage.get("pressure_angle") or "20 deg", PRESSURE_ANGLE)
+        helix = value_in(stage["helix_angle"], rexs.HELIX_ANGLE) if stage.get("helix_angle") else 0.0
+        angle = value_in(stage.get("pressure_angle") or "20 deg", rexs.PRESSURE_ANGLE)
         values = {
-            NUMBER_OF_TEETH: gear["teeth"],
-            NORMAL_MODULE: value_in(stage["module"], NORMAL_MODULE),
-            HELIX_ANGLE: float(helix) * hand(self.tables, name) + 0.0,
-            FACE_WIDTH: value_in(gear["face_width"], FACE_WIDTH),
+            rexs.NUMBER_OF_TEETH: gear["teeth"],
+            rexs.NORMAL_MODULE: value_in(stage["module"], rexs.NORMAL_MODULE),
+            rexs.HELIX_ANGLE: float(helix) * hand(self.tables, name) + 0.0,
+            rexs.FACE_WIDTH: value_in(gear["face_width"], rexs.FACE_WIDTH),
         }
-        values |= said(gear, (TIP_DIAMETER, QUALITY, *GEAR))
+        values |= said(gear, (rexs.TIP_DIAMETER, rexs.QUALITY, *rexs.GEAR))
         if gear.get("thickness_code") is not None:
-            values[THICKNESS_CODE] = gear["thickness_code"]
+            values[rexs.THICKNESS_CODE] = gear["thickness_code"]
         elif gear.get("thickness_allowance") is not None:
             along = math.cos(math.radians(float(angle)))
             upper = si(gear["thickness_allowance"], "um")
-            values[UPPER_SPAN] = float(f"{upper * along:.12g}")
+            values[rexs.UPPER_SPAN] = float(f"{upper * along:.12g}")
             if gear.get("thickness_tolerance") is not None:
                 lower = upper - si(gear["thickness_tolerance"], "um")
-                values[LOWER_SPAN] = float(f"{lower * along:.12g}")
+                values[rexs.LOWER_SPAN] = float(f"{lower * along:.12g}")
         modified = {key: value for key, value in (gear.get("modification") or {}).items() if _counts(value)}
         if modified:
-            values[DATUM_FACE] = "negative"
+            values[rexs.DATUM_FACE] = "negative"
         for key, value in values.items():
             model.put(number, key, value)
         self._flanks(number, gear, angle, modified)
@@ -142,10 +115,12 @@ class GearText:
         shift = gear.get("profile_shift") or 0.0
         if gear.get("profile_shift_of") == "gap":
             shift = -shift
-        values = {PRESSURE_ANGLE: angle, PROFILE_SHIFT: float(shift)} | said(gear, FLANK)
+        values = {rexs.PRESSURE_ANGLE: angle, rexs.PROFILE_SHIFT: float(shift)} | said(gear, rexs.FLANK)
         left, right = (model.add("cylindrical_gear_flank", "", values) for _ in range(2))
         model.relate("flank", gear=number, left=left, right=right)
-        keys, sort = (CUTTER, "cutter_wheel_tool") if gear.get("internal") else (RACK, "rack_shaped_tool")
+        keys, sort = (
+            (rexs.CUTTER, "cutter_wheel_tool") if gear.get("internal") else (rexs.RACK, "rack_shaped_tool")
+        )
         tool = said(gear, keys)
         if tool:
             made = model.add(sort, "", tool)
@@ -161,10 +136,10 @@ class GearText:
     def material(self, table: Mapping[str, Any]) -> int:
         """The component of a material."""
         if str(table) not in self._materials:
-            values = said(table, MATERIAL)
-            values[MATERIAL_NAME] = str(table.get("title", "own values"))
-            if table.get("treatment") in TREATMENTS:
-                values[TREATMENT] = TREATMENTS[table["treatment"]]
+            values = said(table, rexs.MATERIAL)
+            values[rexs.MATERIAL_NAME] = str(table.get("title", "own values"))
+            if table.get("treatment") in rexs.TREATMENTS:
+                values[rexs.TREATMENT] = rexs.TREATMENTS[table["treatment"]]
             self._materials[str(table)] = self.model.add("material", str(table.get("title", "")), values)
         return self._materials[str(table)]
 
@@ -178,14 +153,16 @@ def _counts(value: Any) -> bool:
 
 def _modifications(model: ModelText, table: Mapping[str, Any]) -> list[int]:
     found = []
-    for kind, keys in RELIEFS.items():
+    for kind, keys in rexs.RELIEFS.items():
         if table.get(kind) is not None:
-            shape = {RELIEF_SHAPE: table.get(f"{kind}_shape", "linear")}
+            shape = {rexs.RELIEF_SHAPE: table.get(f"{kind}_shape", "linear")}
             found.append(model.add(kind, "", said(table, keys) | shape))
-    ends = {key: table.get(key.key, table.get("crowning")) for key in CROWNING}
+    ends = {key: table.get(key.key, table.get("crowning")) for key in rexs.CROWNING}
     if any(value is not None for value in ends.values()):
         amounts = {key: value_in(value or "0 um", key) for key, value in ends.items()}
-        found.append(model.add("helix_crowning", "", amounts | {CROWNING_SHAPE: "parabolic"}))
+        found.append(model.add("helix_crowning", "", amounts | {rexs.CROWNING_SHAPE: "parabolic"}))
     if table.get("helix_slope") is not None:
-        found.append(model.add("helix_slope", "", {HELIX_SLOPE: value_in(table["helix_slope"], HELIX_SLOPE)}))
+        found.append(
+            model.add("helix_slope", "", {rexs.HELIX_SLOPE: value_in(table["helix_slope"], rexs.HELIX_SLOPE)})
+        )
     return found

@@ -5,29 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.exchange.rexs.file.attributes import (
-    AXIAL_STIFFNESS,
-    CENTRE_DISTANCE,
-    DEFINES_SPEED,
-    DEFINES_TORQUE,
-    LUBRICANT,
-    OIL_KIND,
-    OIL_NAME,
-    OIL_TEMPERATURE,
-    OIL_TYPE,
-    OIL_TYPES,
-    POWER,
-    RADIAL_STIFFNESS,
-    ROTATING_ANGLE,
-    SHARE,
-    SPEED,
-    TILT_STIFFNESS,
-    TORQUE,
-    TORSIONAL_STIFFNESS,
-    TRANSMITS,
-    U_ON_SHAFT,
-    RexsKey,
-)
+from tribodyn.exchange.rexs.file import attributes as rexs
 from tribodyn.exchange.rexs.writing.builder import ModelText, si, value_in
 from tribodyn.exchange.rexs.writing.layout import RexsPlaces, centre_distance, layout_of
 from tribodyn.exchange.rexs.writing.shafts import Shafts
@@ -98,7 +76,7 @@ class TrainText:
         x, y = self.layout.centre[shaft]
         if angle is not None:
             x, y = x + away * math.cos(angle), y + away * math.sin(angle)
-        self.model.put(number, U_ON_SHAFT, float(f"{1e3 * place:.12g}"))
+        self.model.put(number, rexs.U_ON_SHAFT, float(f"{1e3 * place:.12g}"))
         self.model.place(number, (self.layout.start[shaft] + place, x, y))
         if angle is None:
             self.model.relate("assembly", assembly=self.shafts.numbers[shaft], part=number)
@@ -107,9 +85,9 @@ class TrainText:
     def _stage(self, name: str, first: int, second: int, distance: float, azimuth: float) -> int:
         """Add a cylindrical stage; `azimuth` (rad) from the first gear's axis to that of the second."""
         turned = math.degrees(math.remainder(0.5 * math.pi - azimuth, 2 * math.pi))
-        values: dict[RexsKey, Any] = {
-            CENTRE_DISTANCE: float(f"{1e3 * distance:.12g}"),
-            ROTATING_ANGLE: float(f"{turned:.12g}") + 0.0,
+        values: dict[rexs.RexsKey, Any] = {
+            rexs.CENTRE_DISTANCE: float(f"{1e3 * distance:.12g}"),
+            rexs.ROTATING_ANGLE: float(f"{turned:.12g}") + 0.0,
         }
         number = self.meshes[name] = self.model.add("cylindrical_stage", name, values)
         self.model.relate("stage", stage=number, gear_1=first, gear_2=second)
@@ -183,25 +161,30 @@ class TrainText:
             for mesh in meshes:
                 model.relate("assembly", assembly=number, part=mesh)
 
-    def _support(self, stage: Mapping[str, Any]) -> dict[RexsKey, Any]:
+    def _support(self, stage: Mapping[str, Any]) -> dict[rexs.RexsKey, Any]:
         """How stiff the held member is in the casing."""
         values = self.shafts.stiffness(stage[stage["held"]])
         found = {
-            key: values[key] for key in (RADIAL_STIFFNESS, AXIAL_STIFFNESS, TILT_STIFFNESS) if key in values
+            key: values[key]
+            for key in (rexs.RADIAL_STIFFNESS, rexs.AXIAL_STIFFNESS, rexs.TILT_STIFFNESS)
+            if key in values
         }
         if stage.get("support_stiffness") is not None:
-            found[TORSIONAL_STIFFNESS] = value_in(stage["support_stiffness"], TORSIONAL_STIFFNESS)
+            found[rexs.TORSIONAL_STIFFNESS] = value_in(stage["support_stiffness"], rexs.TORSIONAL_STIFFNESS)
         return found
 
     def _oil(self) -> None:
         oil = self.tables["lubricant"]
-        values = said(oil, LUBRICANT) | {OIL_NAME: str(oil.get("title", "own values")), OIL_KIND: "oil"}
+        values = said(oil, rexs.LUBRICANT) | {
+            rexs.OIL_NAME: str(oil.get("title", "own values")),
+            rexs.OIL_KIND: "oil",
+        }
         if len(values) == 2:
             self.shafts.remarks.append(
                 "lubricant: given at one temperature, without a data sheet; REXS has no such keys"
             )
-        if oil.get("type") in OIL_TYPES:
-            values[OIL_TYPE] = OIL_TYPES[oil["type"]]
+        if oil.get("type") in rexs.OIL_TYPES:
+            values[rexs.OIL_TYPE] = rexs.OIL_TYPES[oil["type"]]
         number = self.model.add("lubricant", str(oil.get("title", "")), values)
         self.model.relate("reference", origin=self.casing, referenced=number)
 
@@ -220,7 +203,10 @@ class TrainText:
             turns = (
                 sense if end == "input" else sense * self.layout.turns[shaft] / self.layout.turns[self._input]
             )
-            values = {U_ON_SHAFT: float(f"{1e3 * self.layout.position.get(name, 0.0):.12g}"), TRANSMITS: True}
+            values = {
+                rexs.U_ON_SHAFT: float(f"{1e3 * self.layout.position.get(name, 0.0):.12g}"),
+                rexs.TRANSMITS: True,
+            }
             load = self.model.add("external_load", end, values)
             self.model.relate("assembly", assembly=self.shafts.numbers[shaft], part=load)
             ends[end] = load, self.shafts.numbers[shaft], 1.0 if turns > 0 else -1.0
@@ -228,7 +214,7 @@ class TrainText:
         total = sum(duty["share"] for duty in duties)
         for duty in duties:
             values = self._case(_under(operating, duty), ends)
-            values[self.unit] = {SHARE: float(f"{100 * duty['share'] / total:.12g}")}
+            values[self.unit] = {rexs.SHARE: float(f"{100 * duty['share'] / total:.12g}")}
             self.model.case(values)
         if not duties:
             for number, each in self._case(operating, ends).items():
@@ -242,25 +228,27 @@ class TrainText:
 
     def _case(
         self, operating: Mapping[str, Any], ends: Mapping[str, tuple[int, int, float]]
-    ) -> dict[int, dict[RexsKey, Any]]:
-        found: dict[int, dict[RexsKey, Any]] = {}
+    ) -> dict[int, dict[rexs.RexsKey, Any]]:
+        found: dict[int, dict[rexs.RexsKey, Any]] = {}
         speed = next((key for key in _SPEEDS if operating.get(key) is not None), None)
         load = next((key for key in reversed(_LOADS) if operating.get(key) is not None), None)
         if speed is None or load is None:
             raise InputError("operating", None, "has no speed or no load", "REXS needs both")
         _, shaft, turns = ends[speed.partition("_")[0]]
-        found[shaft] = {SPEED: turns * value_in(operating[speed], SPEED)}
+        found[shaft] = {rexs.SPEED: turns * value_in(operating[speed], rexs.SPEED)}
         end = "input" if load == "power" else load.partition("_")[0]
         number, _, turns = ends[end]
         with_motion = 1.0 if end == "input" else -1.0
         if load == "power":
-            found[number] = {POWER: value_in(operating[load], POWER)}
+            found[number] = {rexs.POWER: value_in(operating[load], rexs.POWER)}
         else:
-            found[number] = {TORQUE: with_motion * turns * value_in(operating[load], TORQUE)}
-        self.model.put(shaft, DEFINES_SPEED, True)
-        self.model.put(number, DEFINES_TORQUE, True)
+            found[number] = {rexs.TORQUE: with_motion * turns * value_in(operating[load], rexs.TORQUE)}
+        self.model.put(shaft, rexs.DEFINES_SPEED, True)
+        self.model.put(number, rexs.DEFINES_TORQUE, True)
         if operating.get("oil_temperature") is not None:
-            found[self.casing] = {OIL_TEMPERATURE: value_in(operating["oil_temperature"], OIL_TEMPERATURE)}
+            found[self.casing] = {
+                rexs.OIL_TEMPERATURE: value_in(operating["oil_temperature"], rexs.OIL_TEMPERATURE)
+            }
         return found
 
 
