@@ -27,7 +27,7 @@ _QUOTED = re.compile(r'"[^"]*"')
 _TOLD = re.compile(r"sep=(.?)", re.IGNORECASE)
 
 
-class _Row(NamedTuple):
+class _CsvRow(NamedTuple):
     """A line of a file, cut into cells."""
 
     number: int
@@ -45,7 +45,7 @@ class _File:
         """What is wrong with a line."""
         return InputError(self.key, rule=f"line {number}: {rule}", remedy=remedy, file=str(self.path))
 
-    def row(self, number: int, line: str, width: int = 1) -> _Row:
+    def row(self, number: int, line: str, width: int = 1) -> _CsvRow:
         """Cut a line into cells; empty ones beyond `width` are left out, as spreadsheets leave them."""
         try:
             cells = next(csv.reader([line], strict=True, delimiter=self.separator))
@@ -54,9 +54,9 @@ class _File:
             raise self.bad(number, f"not a row of a table: {error}", remedy) from None
         while len(cells) > width and not cells[-1].strip():
             cells.pop()
-        return _Row(number, line, cells)
+        return _CsvRow(number, line, cells)
 
-    def of_width(self, number: int, line: str, width: int) -> _Row:
+    def of_width(self, number: int, line: str, width: int) -> _CsvRow:
         """A row with as many cells as the header."""
         row = self.row(number, line, width)
         count = len(row.cells)
@@ -145,7 +145,7 @@ def _titles(file: _File, lines: list[tuple[int, str]]) -> tuple[list[str], int]:
     return names, 1
 
 
-def _decimal_commas(file: _File, rows: list[_Row], places: Mapping[str, int]) -> bool:
+def _decimal_commas(file: _File, rows: list[_CsvRow], places: Mapping[str, int]) -> bool:
     """Whether numbers have decimal commas; refuses what has commas and points, or may be meant either way."""
     if file.separator == ",":
         return False
@@ -170,7 +170,7 @@ def _may_be_thousands(cell: str) -> tuple[str, str]:
     return rule, f"write {whole}, or a decimal point where one is meant"
 
 
-def _number(file: _File, row: _Row, cell: str, name: str, commas: bool) -> float:
+def _number(file: _File, row: _CsvRow, cell: str, name: str, commas: bool) -> float:
     """The number in a cell."""
     text = cell.strip()
     plain = text.replace(",", ".", 1) if commas else text

@@ -38,7 +38,7 @@ def transient_in_time(
 
     Samples are even in time, a complete run has one at its end. The model's variable is time.
     """
-    walk = _Walk(model, state, settings)
+    walk = _WalkInTime(model, state, settings)
     total = settings.cycles * settings.samples + 1
     times = np.arange(total) / settings.samples
     done = 0
@@ -58,7 +58,7 @@ def transient_in_time(
     yield walk.stop("")
 
 
-class _Walk:
+class _WalkInTime:
     """A walk through time: state, samples and counts so far."""
 
     def __init__(self, model: Model, state: Float[Array, " state"], settings: TransientSettings) -> None:

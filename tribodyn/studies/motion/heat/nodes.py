@@ -33,7 +33,7 @@ _SEAT = "seat, reference heat flow density of ISO 15312"
 _USUAL = 333.15
 
 
-class _Part(NamedTuple):
+class _HeatPart(NamedTuple):
     """A node with its paths, and where heat of a source of this name enters."""
 
     name: str
@@ -110,7 +110,7 @@ def _disc(case: Gearbox, number: int) -> GearDisc:
     )
 
 
-def _gears(case: Gearbox, data: GearboxHeatData, discs: list[GearDisc], oil: OilHeat) -> Iterator[_Part]:
+def _gears(case: Gearbox, data: GearboxHeatData, discs: list[GearDisc], oil: OilHeat) -> Iterator[_HeatPart]:
     for gear, disc in zip(case.gears, discs, strict=True):
         name, given = gear_node(gear.name), data.tooth_oil.get(gear.name)
         law = gear_to_oil(disc.surface, _speed_ratio(case, gear.body), oil)
@@ -119,10 +119,10 @@ def _gears(case: Gearbox, data: GearboxHeatData, discs: list[GearDisc], oil: Oil
         if gear.teeth < 0 and case.bodies[gear.body].ratio == 0:
             seat = SEAT * 2.0 * math.pi * disc.bore_radius * disc.width
             paths.append(HeatPath(name, HOUSING, seat, "outside of a ring that stands, as of a seat"))
-        yield _Part(name, disc.capacity, tuple(paths))
+        yield _HeatPart(name, disc.capacity, tuple(paths))
 
 
-def _undrawn_shafts(case: Gearbox, discs: list[GearDisc], oil: OilHeat) -> Iterator[_Part]:
+def _undrawn_shafts(case: Gearbox, discs: list[GearDisc], oil: OilHeat) -> Iterator[_HeatPart]:
     """Shafts that have a mass and are not drawn, and carriers."""
     on_drawn = case.system.bodies if case.system is not None else ()
     members = {body for gearset in case.sets for body in gearset.members.values()}
@@ -144,14 +144,14 @@ def _undrawn_shafts(case: Gearbox, discs: list[GearDisc], oil: OilHeat) -> Itera
             surface = 6.0 * (body.mass / STEEL[0]) ** (2.0 / 3.0)
             law = gear_to_oil(surface, _speed_ratio(case, number), oil)
             paths.append(HeatPath(name, OIL, law, "surface of a cube of its mass that turns in oil"))
-        yield _Part(name, body.mass * STEEL[1], tuple(paths))
+        yield _HeatPart(name, body.mass * STEEL[1], tuple(paths))
 
 
 def _drawn(case: Gearbox) -> tuple[ShaftData, ...]:
     return case.system.shafts if case.system is not None else ()
 
 
-def _shaft(case: Gearbox, shaft: ShaftData, discs: list[GearDisc], oil: OilHeat) -> Iterator[_Part]:
+def _shaft(case: Gearbox, shaft: ShaftData, discs: list[GearDisc], oil: OilHeat) -> Iterator[_HeatPart]:
     """A drawn shaft and its bearings."""
     name, drawing = f"shaft {shaft.name}", shaft.drawing
     volume = sum(
@@ -168,7 +168,7 @@ def _shaft(case: Gearbox, shaft: ShaftData, discs: list[GearDisc], oil: OilHeat)
         )
         for gear, place in on_it
     ]
-    yield _Part(name, volume * drawing.density * STEEL[1], tuple(paths))
+    yield _HeatPart(name, volume * drawing.density * STEEL[1], tuple(paths))
     ratio = _speed_ratio(case, shaft.points[0][0])
     for number, table in enumerate(drawing.bearing, start=1):
         if table.type is None:
@@ -183,7 +183,7 @@ def _shaft(case: Gearbox, shaft: ShaftData, discs: list[GearDisc], oil: OilHeat)
         gears = [place for _, place in on_it] or [table.position]
         along = _along(shaft, table.position, min(gears, key=lambda place: abs(place - table.position)))
         to_shaft = bearing_seat if along == math.inf else in_series(bearing_seat, along)
-        yield _Part(
+        yield _HeatPart(
             node,
             ring.capacity,
             (
@@ -195,7 +195,7 @@ def _shaft(case: Gearbox, shaft: ShaftData, discs: list[GearDisc], oil: OilHeat)
         )
 
 
-def _typed_bearings(case: Gearbox, parts: Sequence[_Part], oil: OilHeat) -> Iterator[_Part]:
+def _typed_bearings(case: Gearbox, parts: Sequence[_HeatPart], oil: OilHeat) -> Iterator[_HeatPart]:
     """Bearings that [losses] has and no drawing, on the shaft or the gear that they carry."""
     names, drawn = {part.name for part in parts}, {part.source for part in parts}
     gears = {gear.name: gear.body for gear in case.gears}
@@ -222,7 +222,7 @@ def _typed_bearings(case: Gearbox, parts: Sequence[_Part], oil: OilHeat) -> Iter
                         for other in [other for other in carried if other in names][:1]
                     ),
                 ]
-                yield _Part(node, count * ring.capacity, tuple(paths), name)
+                yield _HeatPart(node, count * ring.capacity, tuple(paths), name)
 
 
 def _times(count: int, law: ConductanceLaw) -> ConductanceLaw:
