@@ -47,6 +47,7 @@ READ_BY_HAND = {
     "nest-asyncio2": "BSD-2-Clause",
     "ptyprocess": "ISC",
     "traitlets": "BSD-3-Clause",
+    "trimesh": "MIT",
     "ziamath": "MIT; its font, STIX Two Math, OFL-1.1",
 }
 #: Families of licences, by what a licence's name holds.
@@ -123,7 +124,7 @@ def is_known(name: str) -> bool:
 
 def rows() -> list[Row]:
     """A row for every package of constraints.txt whose licence is known here, see `is_known`."""
-    default, optional = needed(), needed(("xarray", "cluster", "design"))
+    default, optional = needed(), needed(("xarray", "cluster", "design", "fmu", "app"))
     found = []
     for name, version in constraints().items():
         if is_known(name):
