@@ -52,6 +52,9 @@ class PlacedPart(NamedTuple):
     centre: tuple[float, float, float]  # of its own frame, m
     angle: float  # of its own x axis, counter-clockwise, rad
     fill: str  # "pinion", "gear", "ring" or "shaft"
+    turns: float = 0.0  # counter-clockwise for each turn of the first body; of a planet in space, not its pin
+    orbits: float = 0.0  # of its centre about an axis, a planet's
+    axis: tuple[float, float] = (0.0, 0.0)  # that axis, m
 
 
 def gear_shape(assembly: Assembly, side: Side, tolerance: float) -> GearShape:
@@ -113,5 +116,7 @@ def parts_of_pair(assembly: Assembly, tolerance: float) -> list[PlacedPart]:
         direction = np.pi / 2.0 * (-upwards if side in ring else upwards) + half
         shape = gear_shape(assembly, side, tolerance)
         centre = (0.0, 0.0 if side == "pinion" else apart, 0.0)
-        parts.append(PlacedPart(side, shape, centre, float(direction), "ring" if side in ring else side))
+        turns = -1.0 if side == "pinion" else float(assembly.drive.pinion.teeth / assembly.drive.gear.teeth)
+        fill = "ring" if side in ring else side
+        parts.append(PlacedPart(side, shape, centre, float(direction), fill, turns))
     return parts

@@ -23,7 +23,14 @@ class Surface(NamedTuple):
 
 def surface_of(shape: GearShape | ShaftShape) -> Surface:
     """The surface of a part in its own frame."""
-    return _of_gear(shape) if isinstance(shape, GearShape) else _of_shaft(shape)
+    return _of_gear(shape, shape.teeth) if isinstance(shape, GearShape) else _of_shaft(shape)
+
+
+def one_tooth(shape: GearShape) -> Surface:
+    """What a gear repeats about its axis: its surface between the middles of two gaps, open to the others."""
+    whole = _of_gear(shape, 1)
+    kept, numbers = np.unique(whole.triangle, return_inverse=True)
+    return Surface(whole.point[kept], whole.normal[kept], numbers.reshape(whole.triangle.shape))
 
 
 def volume(surface: Surface) -> float:
@@ -32,7 +39,8 @@ def volume(surface: Surface) -> float:
     return float(np.sum(one * np.cross(two, three)) / 6.0)
 
 
-def _of_gear(shape: GearShape) -> Surface:
+def _of_gear(shape: GearShape, teeth: int) -> Surface:
+    """All points, and the triangles of so many teeth."""
     pitch, count = 2.0 * np.pi / shape.teeth, len(shape.tooth) - 1
     pieces = pieces_of_arc(pitch, shape.radius, shape.tolerance / 2) if shape.radius else 1
     arc = np.linspace(-0.5, 0.5, pieces + 1) * pitch
@@ -42,10 +50,10 @@ def _of_gear(shape: GearShape) -> Surface:
     before, after = _normals(shape, pitch)
     heights = np.linspace(-0.5, 0.5, _layers(shape) + 1) * shape.width
     way = -1.0 if shape.internal else 1.0
-    swept = [_swept(shape, shape.tooth[:-1], way * before, way * after, heights, way)]
+    swept = [_swept(shape, teeth, shape.tooth[:-1], way * before, way * after, heights, way)]
     if shape.radius:
         radial = circle[:-1] / shape.radius
-        swept.append(_swept(shape, circle[:-1], -way * radial, -way * radial, heights, -way))
+        swept.append(_swept(shape, teeth, circle[:-1], -way * radial, -way * radial, heights, -way))
     parts = [surface for surface, _ in swept]
     points = np.concatenate([shape.tooth, circle])
     numbers = np.append(np.arange(count + 1), np.arange(count + 1, len(points))[::-1])
@@ -55,7 +63,7 @@ def _of_gear(shape: GearShape) -> Surface:
     tooth = np.arange(shape.teeth)[:, None]
     outline = (np.arange(count + 1) + count * tooth) % (count * shape.teeth)
     inner = (np.arange(len(circle)) + (len(circle) - 1) * tooth) % max(1, (len(circle) - 1) * shape.teeth)
-    every = np.concatenate([outline, count * shape.teeth + inner], axis=1)[:, flat].reshape(-1, 3)
+    every = np.concatenate([outline, count * shape.teeth + inner], axis=1)[:teeth, flat].reshape(-1, 3)
     for end, way in ((0, -1.0), (1, 1.0)):
         edges = [surface.point[ends[end]] for surface, ends in swept]
         place = np.concatenate(edges if shape.radius else [*edges, [[0.0, 0.0, heights[-end]]]])
@@ -92,6 +100,7 @@ def _normals(shape: GearShape, pitch: float) -> tuple[Float[Array, "point 2"], F
 
 def _swept(
     shape: GearShape,
+    teeth: int,
     line: Float[Array, "point 2"],
     before: Float[Array, "point 2"],
     after: Float[Array, "point 2"],
@@ -122,7 +131,9 @@ def _swept(
     goes = (own + per_tooth * np.arange(shape.teeth)[:, None]).ravel()
     comes = np.roll((own - edge + per_tooth * np.arange(shape.teeth)[:, None]).ravel(), -1)
     layers = around * np.arange(len(heights) - 1)[:, None]
-    a, b, c, d = ((each + layers).ravel() for each in (goes, comes, comes + around, goes + around))
+    built = slice(teeth * len(own))
+    sides = goes, comes, comes + around, goes + around
+    a, b, c, d = ((each[built] + layers).ravel() for each in sides)
     triangles = np.concatenate([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)])
     surface = Surface(points, normals, triangles if way > 0.0 else triangles[:, ::-1])
     return surface, np.stack([goes, goes + around * (len(heights) - 1)])

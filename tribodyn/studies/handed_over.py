@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tribodyn.drawing.shapes import PlacedPart, parts_of_pair
-from tribodyn.errors import InputError, near_name, quoted
+from tribodyn.errors import InputError, SimulationError, near_name, quoted
 from tribodyn.exchange import FORMATS
+from tribodyn.exchange.cad.gltf import binary
 from tribodyn.exchange.format import (
     SCENARIO,
     TEXT,
@@ -26,9 +27,12 @@ from tribodyn.input.sources import is_file
 from tribodyn.input.units import to_si_at
 from tribodyn.numerics.files.output_files import check_output, write_output
 from tribodyn.record.loss_map import is_map, loss_map
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies.protocol.load import Loaded, load, load_data
 
+#: Distance of triangles from the exact surfaces on a page, m.
+_ON_A_PAGE = 2e-5
 _KINDS = {
     kind.name: kind
     for kind in (units.TEMPERATURE_KIND, units.ANGULAR_SPEED, units.TORQUE, units.INERTIA, units.LENGTH)
@@ -189,3 +193,15 @@ def placed_parts(loaded: Loaded, tolerance: float) -> list[PlacedPart]:
         pair = assembled(loaded.case.pair)
         check(pair.family, pair.drive)
         return parts_of_pair(pair, tolerance)
+
+
+def bodies_in_space(record: Record) -> bytes:
+    """Gears and shafts of a record as its page has them, one tooth of every gear.
+
+    Nothing where it has none, or this version cannot make its case.
+    """
+    try:
+        parts = placed_parts(load_data(record.scenario, record.path.stem), _ON_A_PAGE)
+    except (InputError, SimulationError):
+        return b""
+    return binary(parts, record.label, by_tooth=True)[0] if parts else b""

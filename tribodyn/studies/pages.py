@@ -157,7 +157,7 @@ def drawable_of_sweep(records: Sequence[SweepRecord]) -> "Mapping[str, SweepDraw
     for record in records[1:]:
         if study_of_record(record) is not study:
             rule = f"of kind {record.kind_of_study}, the first of {study.kind}"
-            raise InputError("record", str(record.path), rule, "draw them apart")
+            raise record.refused(rule, "draw them apart")
     if any(record.listed for record in records):
         from tribodyn.post.figures.sweep_response import DATA_SET_DRAWINGS
 
@@ -209,6 +209,7 @@ def report(
     """
     from tribodyn.post.page.page import PageContent, page
     from tribodyn.post.page.sensors import SensedSection, sensed_section
+    from tribodyn.studies.handed_over import bodies_in_space
 
     if not records:
         raise InputError("records", None, "there is nothing to report on", "name at least one record")
@@ -233,6 +234,7 @@ def report(
             parts=study.besides("tables", record) or (),
             sensed=sensed_section(record) if figures else SensedSection(),
             pictures=_pictures_of_sensors(record) if figures and len(records) == 1 else (),
+            bodies=bodies_in_space(record) if figures else b"",
         )
         for study, record in zip(studies, records, strict=True)
     ]
@@ -280,8 +282,7 @@ def sweep_report(record: SweepRecord) -> str:
     from tribodyn.post.page.sweep_page import sweep_page
 
     if record.listed:
-        remedy = "draw its signals: tribodyn plot FILE signals"
-        raise InputError("record", str(record.path), "a data set has no page", remedy)
+        raise record.refused("a data set has no page", "draw its signals: tribodyn plot FILE signals")
 
     study, pictures = study_of_record(record), []
     for name, drawing in study.sweep_drawings().items():
@@ -325,8 +326,7 @@ def write_report(
     if len(sweeps) == 1 == len(records):
         text = sweep_report(sweeps[0])
     elif sweeps:
-        path_of_sweep = str(sweeps[0].path)
-        raise InputError("record", path_of_sweep, "a sweep has a page of its own", "make a page of each")
+        raise sweeps[0].refused("a sweep has a page of its own", "make a page of each")
     else:
         runs = [record for record in records if isinstance(record, Record)]
         text = report(runs, measured=measured, align=align)

@@ -2,10 +2,11 @@
 
 A header of 12 bytes, then the chunks JSON and BIN, each with its length and name in front, little-endian and
 filled up to four bytes. A node for every part, by its name; equal parts share a mesh. Metres, y upwards, z
-along the shafts: the axes of a train as they are.
+along the shafts: the axes of a train as they are. What turns says so in its `extras`, for viewers that ask.
 """
 
 import json
+import math
 import struct
 from collections.abc import Mapping
 from typing import Any
@@ -13,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from tribodyn import __version__
-from tribodyn.drawing.shapes import PlacedPart
-from tribodyn.drawing.surface import Surface, surface_of
+from tribodyn.drawing.shapes import GearShape, PlacedPart
+from tribodyn.drawing.surface import Surface, one_tooth, surface_of
 from tribodyn.exchange.cad.chosen import CHOICES, chosen_parts, listed, tolerance_of
 from tribodyn.exchange.format import SCENARIO, ExchangeFormat, Exported, Written
 from tribodyn.numerics.shapes import Array
@@ -42,8 +43,8 @@ def write(exported: Exported, name: str, choices: Mapping[str, Any]) -> Written:
     return Written({".glb": content}, remarks=remarks)
 
 
-def binary(parts: list[PlacedPart], title: str) -> tuple[bytes, int]:
-    """A file of parts, and the number of its triangles."""
+def binary(parts: list[PlacedPart], title: str, *, by_tooth: bool = False) -> tuple[bytes, int]:
+    """A file of parts, and the number of its triangles; `by_tooth`: a gear is one tooth, used many times."""
     data: dict[str, list[Any]] = {name: [] for name in ("bufferViews", "accessors", "meshes")}
     blocks, fills, meshes, nodes, count = list[bytes](), list[str](), dict[tuple[int, str], int](), [], 0
 
@@ -70,21 +71,26 @@ def binary(parts: list[PlacedPart], title: str) -> tuple[bytes, int]:
         data["meshes"].append({"name": part.name, "primitives": [primitive]})
         return len(data["meshes"]) - 1
 
+    teeth = list[dict[str, Any]]()
     for part in parts:
-        key = id(part.shape), part.fill
+        shape, key = part.shape, (id(part.shape), part.fill)
+        gear = shape if isinstance(shape, GearShape) else None
         if key not in meshes:
-            meshes[key] = mesh_of(part, surface_of(part.shape))
+            meshes[key] = mesh_of(part, one_tooth(gear) if by_tooth and gear else surface_of(shape))
+        node: dict[str, Any] = {"name": part.name, "translation": [*map(float, part.centre)]}
+        node |= _turned(part.angle)
+        node["extras"] = {"turns": part.turns, "orbits": part.orbits, "axis": [*map(float, part.axis)]}
+        if gear:
+            node["extras"]["teeth"] = gear.teeth
+        repeated = gear.teeth if by_tooth and gear else 1
+        if by_tooth and gear:
+            node["children"] = [len(parts) + len(teeth) + tooth for tooth in range(repeated)]
+            teeth += [_turned(2.0 * np.pi * k / repeated) | {"mesh": meshes[key]} for k in range(repeated)]
+        else:
+            node["mesh"] = meshes[key]
         primitive = data["meshes"][meshes[key]]["primitives"][0]
-        count += data["accessors"][primitive["indices"]]["count"] // 3
-        half = part.angle / 2.0
-        nodes.append(
-            {
-                "name": part.name,
-                "mesh": meshes[key],
-                "translation": list(map(float, part.centre)),
-                "rotation": [0.0, 0.0, float(np.sin(half)), float(np.cos(half))],
-            }
-        )
+        count += repeated * data["accessors"][primitive["indices"]]["count"] // 3
+        nodes.append(node)
     asset = {"version": "2.0", "generator": f"written by tribodyn {__version__}"}
     materials = [
         {
@@ -101,7 +107,7 @@ def binary(parts: list[PlacedPart], title: str) -> tuple[bytes, int]:
         "asset": asset,
         "scene": 0,
         "scenes": [{"name": title, "nodes": list(range(len(nodes)))}],
-        "nodes": nodes,
+        "nodes": nodes + teeth,
         "materials": materials,
         **data,
         "buffers": [{"byteLength": sum(map(len, blocks))}],
@@ -109,6 +115,11 @@ def binary(parts: list[PlacedPart], title: str) -> tuple[bytes, int]:
     text = json.dumps(whole, ensure_ascii=False, separators=(",", ":")).encode()
     chunks = _chunk(_JSON, text, b" ") + _chunk(_BIN, b"".join(blocks), b"\0")
     return struct.pack("<4sII", _MAGIC, _VERSION, 12 + len(chunks)) + chunks, count
+
+
+def _turned(angle: float) -> dict[str, Any]:
+    """A rotation about z, rad."""
+    return {"rotation": [0.0, 0.0, round(math.sin(angle / 2.0), 15), round(math.cos(angle / 2.0), 15)]}
 
 
 def _chunk(name: bytes, content: bytes, fill: bytes) -> bytes:

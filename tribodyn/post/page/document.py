@@ -102,7 +102,7 @@ def assembled(title: str, payload: dict[str, Any], sections: dict[str, str], fig
         # no text of a record can end the element that holds it
         "DATA": json.dumps(payload, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
         "PLOTLY": _file("package_data/plotly.min.js", "plotly") if figures else "",
-        "SCRIPT": _file("solid.js") + _file("page.js"),
+        "SCRIPT": "".join(map(_file, ("solid.js", "space.js", "page.js"))),
     }
     # every other piece is a name: what stands in for one is not looked through again
     body = "".join(parts.get(piece, piece) for piece in _file("page.html").split("@"))

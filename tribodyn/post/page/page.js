@@ -374,7 +374,14 @@
     }
     context.beginPath(); context.arc(x, y, 3.5 * pixel, 0, 7); context.fill();
   }
-  // ---- shafts in space
+  // ---- bodies in space
+  const bodies = (data.bodies || []).length ? space.section($("space-section"), data.bodies) : { redraw: () => {}, show: () => {} };
+  function drawBodies() {
+    const own = data.records[which].bodies;
+    $("space-section").hidden = own === undefined;
+    if (own !== undefined) bodies.show(own);
+  }
+  // ---- shafts bent
   const view = { yaw: -0.6, pitch: 0.3 };
   let waits = false;
   function drawSolid() {
@@ -405,7 +412,7 @@
       }
     }
   }
-  function redraw() { draw(); drawTeeth(); drawSolid(); drawMaps(); drawProfiles(); }
+  function redraw() { draw(); drawTeeth(); drawSolid(); drawMaps(); drawProfiles(); bodies.redraw(); }
   function move(value, fromSlider) {
     const [low, high] = span();
     at = Math.min(high, Math.max(low, value));
@@ -457,7 +464,7 @@
     view.pitch = Math.min(1.5, Math.max(-1.5, view.pitch + event.movementY / 150));
     drawSolid();
   };
-  $("which").onchange = (event) => { which = Number(event.target.value); looks(); move(at); };
+  $("which").onchange = (event) => { which = Number(event.target.value); looks(); move(at); drawBodies(); };
   $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; redraw(); };
   document.addEventListener("keydown", (event) => {
     if (["SELECT", "INPUT"].includes(event.target.tagName) && event.key !== " ") return;
@@ -492,7 +499,7 @@
   $("teeth-section").hidden = !data.records.some((one) => one.teeth);
   // page.html#at=1.25 opens there
   const asked = Number(new URLSearchParams(location.hash.slice(1)).get("at") || NaN);
-  offer(); draw(); drawMaps(); drawProfiles(); move(isFinite(asked) ? asked : at);
+  offer(); draw(); drawMaps(); drawProfiles(); drawBodies(); move(isFinite(asked) ? asked : at);
   if (data.figures) {
     $("plot").on("plotly_hover", (event) => { if (!playing) move(event.points[0].x); });
     $("plot").on("plotly_relayout", mark);

@@ -1,5 +1,7 @@
 """Puts a page together: one file, which asks nothing of any other place."""
 
+import gzip
+from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
@@ -61,6 +63,7 @@ class PageContent(NamedTuple):
     sensed: SensedSection = SensedSection()  # what its sensors gave
     #: tables as above of parts of what the summary is about, below it
     parts: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
+    bodies: bytes = b""  # its gears and shafts in space, glTF 2.0 in one binary file; none: nothing to show
 
 
 def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bool = True) -> str:
@@ -89,6 +92,10 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
             entry["series"] = [
                 series for series in entry["series"] if len(series["curves"]) > 1 or series["name"] in kept
             ]
+    bodies = list(dict.fromkeys(content.bodies for content in contents if content.bodies))
+    for entry, content in zip(data, contents, strict=True):
+        if content.bodies:
+            entry["bodies"] = bodies.index(content.bodies)
     units = [entry.pop("axis_unit") for entry in data]
     names = [series["name"] for series in data[0]["series"]]
     panels = [name for name in contents[0].panels if name in names] or names[:FIGURES]
@@ -117,6 +124,7 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
         "OVER": "Over the run",
     }
     payload = {"records": data, "panels": panels, "load": LOAD, "axis": axis}
+    payload["bodies"] = [b64encode(gzip.compress(each, mtime=0)).decode() for each in bodies]
     return assembled(" · ".join(dict.fromkeys(map(title_of, records))), payload, sections, figures)
 
 

@@ -6,8 +6,8 @@ from tribodyn.drawing.shapes import GearShape, PlacedPart, ShaftShape, gear_shap
 from tribodyn.geometry.drive import Side
 from tribodyn.geometry.limits.checks import check
 from tribodyn.studies.motion.assembly import assemblies, phases
-from tribodyn.studies.motion.case import Gearbox
-from tribodyn.train.planetary import RAVIGNEAUX, SUN
+from tribodyn.studies.motion.case import BodyData, Gearbox
+from tribodyn.train.planetary import CARRIER, RAVIGNEAUX, SUN
 
 #: Room between planes of gears of which no drawing says how far apart they are, over the wider one's width.
 _ROOM = 0.15
@@ -24,6 +24,7 @@ def placed_parts(case: Gearbox, tolerance: float) -> list[PlacedPart]:
     teeth, heights = phases(case, pairs).teeth, _heights(case)
     path = pairs[0].path
     shapes: dict[tuple[int, Side, float], GearShape] = {}
+    carriers = {body: case.bodies[each.members[CARRIER]] for each in case.sets for body in each.planets}
     found = []
     for number, gear in enumerate(case.gears):
         mesh, side = gear.meshes[0]
@@ -33,9 +34,13 @@ def placed_parts(case: Gearbox, tolerance: float) -> list[PlacedPart]:
         x, y = case.bodies[gear.body].centre
         if y != y:  # of a pair they are as far apart as its path of contact says
             y = float(path.pinion_pitch_radius + path.gear_pitch_radius)
-        first = case.bodies[gear.body].sense == case.bodies[0].sense
+        body, about = case.bodies[gear.body], carriers.get(gear.body)
+        first = body.sense == case.bodies[0].sense
         fill = "ring" if gear.teeth < 0 else "pinion" if first else "gear"
-        found.append(PlacedPart(gear.name, shapes[key], (x, y, heights[number]), teeth[number], fill))
+        part = PlacedPart(gear.name, shapes[key], (x, y, heights[number]), teeth[number], fill, _turns(body))
+        if about is not None:
+            part = part._replace(orbits=_turns(about), axis=about.centre)
+        found.append(part)
     for shaft in case.system.shafts if case.system is not None else ():
         sections = shaft.drawing.section
         shape = ShaftShape(
@@ -44,8 +49,14 @@ def placed_parts(case: Gearbox, tolerance: float) -> list[PlacedPart]:
             tuple(section.bore for section in sections),
             tolerance,
         )
-        found.append(PlacedPart(_other(shaft.name, found), shape, (*shaft.centre, shaft.start), 0.0, "shaft"))
+        name, turns = _other(shaft.name, found), _turns(case.bodies[shaft.points[0][0]])
+        found.append(PlacedPart(name, shape, (*shaft.centre, shaft.start), 0.0, "shaft", turns))
     return found
+
+
+def _turns(body: BodyData) -> float:
+    """Turns of a body for each of the first one, counter-clockwise."""
+    return body.sense * float(body.ratio)
 
 
 def _other(name: str, parts: Sequence[PlacedPart]) -> str:
