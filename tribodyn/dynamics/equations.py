@@ -23,11 +23,11 @@ from tribodyn.dynamics.approach import (
 )
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.energy import parametric_torque
-from tribodyn.dynamics.loads import add_frame_forces, carried_along, clutch_forces, link_forces, load_torque
+from tribodyn.dynamics.loads import add_frame_forces, carried_along, clutch_forces, link_forces, load_on
 from tribodyn.dynamics.mesh_motion import motion_of, on_body, place_in_mesh
 from tribodyn.dynamics.parameters import BY_TIME, DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.numerics.elementary import by_chain_rule, independent, law, plain
-from tribodyn.train.coupling import coupling_forces, spread_forces
+from tribodyn.train.coupling import carry_along, coupling_forces, spread_forces
 from tribodyn.train.motor import motor_torque
 from tribodyn.train.structure import (
     ACROSS,
@@ -45,7 +45,6 @@ from tribodyn.train.structure import (
     rolling_ratio,
     shift_of,
     slip_of,
-    slip_of_body,
     speed_of,
     turn_of,
 )
@@ -204,10 +203,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
 
     power_out = taken_out
     for b in range(layout.bodies):
-        slip = slip_of_body(b, y, model)
-        resisting = bodies.load[b] + bodies.load_damping[b] * slip
-        if b == layout.output:
-            resisting = resisting + load_torque(time, operation)
+        resisting = load_on(b, time, y, model)
         place_of_torque = half + turn_of(b, layout)
         dy[place_of_torque] = dy[place_of_torque] - resisting
         power_out = power_out + resisting * speed_of(b, y, model)
@@ -225,11 +221,13 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         drive_torque, _ = motor_torque(driven_body, y, model)
         place_of_torque = half + turn_of(driven_body, layout)
         dy[place_of_torque] = dy[place_of_torque] + drive_torque
+    acceleration = zero + operation.acceleration  # of the reference, rad/s²
     if layout.inertial > 0:
+        if options.drive == DRIVE_SPEED:
+            carry_along(acceleration, model, dy)
         spread_forces(y, model, dy)
     if options.drive == DRIVE_SPEED:
-        drive_torque = -dy[half + layout.lag]
-        acceleration = zero  # of the reference, rad/s²
+        drive_torque = bodies.inertia[0] * acceleration - dy[half + layout.lag]
         power_in = put_in + drive_torque * reference_speed
     else:
         acceleration = dy[half + layout.lag] / bodies.inertia[0]

@@ -10,6 +10,7 @@ from tribodyn.train.structure import (
     place_in_space,
     shift_of,
     slip_of,
+    slip_of_body,
     turn_of,
     turned,
     turning,
@@ -19,7 +20,7 @@ from tribodyn.train.structure import (
 @law
 def load_torque(time, operation):
     """Torque on the output against its motion beside the constant one, N m: over time, and harmonics."""
-    torque = 0.0 * time
+    torque = operation.output_torque + 0.0 * time
     for i in range(operation.load_amplitudes.shape[0]):
         angle = operation.load_frequencies[i] * time + operation.load_phases[i]
         torque = torque + operation.load_amplitudes[i] * sin(angle)
@@ -29,6 +30,39 @@ def load_torque(time, operation):
         out, back = operation.load_slopes[i] * width, operation.load_slopes[i + 1] * width
         torque = torque + start + cubic_rise(u, end - start, out, back)
     return torque
+
+
+@law
+def drive_of_output(time, y, model):
+    """Torque of the shaft beside the output, against its motion, N m; see `parameters.OutputDrive`."""
+    layout, shaft = model.options.layout, model.operation.output_drive
+    passed = time - shaft.since
+    nominal = model.bodies.ratio[layout.output] * model.operation.nominal_speed
+    ahead = turned(layout.output, y, layout) - nominal * y[layout.lag]  # of the nominal rotation
+    angle = shaft.angle + passed * (shaft.slip + 0.5 * shaft.acceleration * passed)
+    slip = shaft.slip + shaft.acceleration * passed
+    slipping = slip_of_body(layout.output, y, model) - slip
+    return shaft.stiffness * (ahead - angle) + shaft.damping * slipping
+
+
+@law
+def load_on(body, time, y, model):
+    """Torque of the load on a body against its motion, N m."""
+    bodies, layout = model.bodies, model.options.layout
+    torque = bodies.load[body] + bodies.load_damping[body] * slip_of_body(body, y, model)
+    if body == layout.output:
+        torque = torque + load_torque(time, model.operation) + drive_of_output(time, y, model)
+    return torque
+
+
+@law
+def load_slopes(body, model):
+    """Slopes of `load_on` over the rotation of the body and over its speed, N m/rad, N m s/rad."""
+    damping = model.bodies.load_damping[body]
+    if body == model.options.layout.output:
+        shaft = model.operation.output_drive
+        return shaft.stiffness, damping + shaft.damping
+    return 0.0 * damping, damping
 
 
 @law

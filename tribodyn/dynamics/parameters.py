@@ -63,6 +63,20 @@ class Options(NamedTuple):
     variable: int = BY_ROTATION
 
 
+class OutputDrive(NamedTuple):
+    """A spring and a damper between the output and a shaft beside it whose rotation is prescribed.
+
+    The shaft turns at the output's nominal speed, and more. What it takes is power on the load.
+    """
+
+    stiffness: Any = 0.0  # N m/rad
+    damping: Any = 0.0  # N m s/rad
+    since: Any = 0.0  # time that the next three are of, s
+    angle: Any = 0.0  # rotation of the shaft beyond the nominal one, rad
+    slip: Any = 0.0  # its speed above the nominal one, rad/s
+    acceleration: Any = 0.0  # rad/s²
+
+
 class Operation(NamedTuple):
     """How the train is driven and loaded, and widths over which the equations are smoothed; SI."""
 
@@ -84,6 +98,9 @@ class Operation(NamedTuple):
     motor_speeds: Float[Array, " knot"] = np.zeros(0)
     motor_torques: Float[Array, " knot"] = np.zeros(0)
     motor_slopes: Float[Array, " knot"] = np.zeros(0)
+    acceleration: Any = 0.0  # of the reference where its speed is prescribed, rad/s²
+    output_torque: Any = 0.0  # constant, on the output against its motion, added to its load, N m
+    output_drive: OutputDrive = OutputDrive()
 
 
 class Model(NamedTuple):

@@ -10,7 +10,7 @@ from zlib import crc32
 
 import numpy as np
 
-from tribodyn.dynamics.loads import joins_in_space, load_torque
+from tribodyn.dynamics.loads import joins_in_space, load_on
 from tribodyn.dynamics.recorded.outputs import Evaluated, bearing_force
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.sensing.data import HousingData, SensorData
@@ -21,7 +21,6 @@ from tribodyn.train.structure import (
     place_in_space,
     shift_of,
     slip_of,
-    slip_of_body,
     turned,
     turning,
 )
@@ -88,10 +87,7 @@ def torque_of_link(link: int, samples: Evaluated) -> Float[Array, " sample"]:
 
 def output_torque(samples: Evaluated) -> Float[Array, " sample"]:
     """Torque of the load on the output, against its motion, N m."""
-    model, y = samples.model, samples.y
-    body, bodies = model.layout.output, samples.model.bodies
-    steady = bodies.load[body] + bodies.load_damping[body] * slip_of_body(body, y, model)
-    return steady + load_torque(time_of(samples), model.operation)
+    return load_on(samples.model.layout.output, time_of(samples), samples.y, samples.model)
 
 
 def housing_acceleration(

@@ -154,8 +154,8 @@ def choose(method: str, model: Model, state: Float[Array, " state"]) -> Choice:
 
 
 def choose_in_time(method: str, model: Model, state: Float[Array, " state"]) -> Choice:
-    """Return the method of a run by time: the user's, or one of SciPy's by the same estimate."""
+    """Return the method of a run by time: the user's, or by the same estimate."""
     choice = choose(method, model, state)
     if method != AUTO:
         return choice
-    return Choice(IN_TIME if choice.method == EXPLICIT else IN_TIME_STIFF, choice.reason)
+    return Choice(IN_TIME_STIFF if choice.method == STIFF else IN_TIME, choice.reason)

@@ -188,6 +188,16 @@ def coupling_forces(cycles, y, model, dy):
 
 
 @law
+def carry_along(acceleration, model, dy):
+    """Take off the forces in `dy` what the prescribed acceleration of the reference takes of `mass`."""
+    layout, parts = model.options.layout, model.links.coupled
+    for e in range(parts.mass.shape[0]):
+        if layout.inertial_columns[e] == layout.lag:
+            i = layout.half + layout.inertial_rows[e]
+            dy[i] = dy[i] - parts.mass[e] * acceleration
+
+
+@law
 def spread_forces(y, model, dy):
     """Turn the forces in `dy` into those that accelerate their coordinates' own masses alike."""
     layout, parts = model.options.layout, model.links.coupled

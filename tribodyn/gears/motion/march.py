@@ -17,6 +17,7 @@ from tribodyn.gears.prepare import MOST_MOTIONS
 from tribodyn.gears.sensing.listening import Listener
 from tribodyn.record.writer import RecordWriter
 from tribodyn.solve.choice import choose, choose_in_time
+from tribodyn.solve.in_time import transient_in_time
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
 
@@ -65,12 +66,7 @@ def record_motion(
             record, len(meshes), revolution, samples, of_train=meshes[0].number is not None
         )
     stop = Stop(state, 0.0, 0, 0, "", 0.0)
-    integrated = transient
-    if by_time:
-        from tribodyn.solve.in_time import transient_in_time  # SciPy's solvers take long to import
-
-        integrated = transient_in_time
-    for part in integrated(model, state, settings):
+    for part in (transient_in_time if by_time else transient)(model, state, settings):
         if isinstance(part, Stop):
             stop = part
         elif len(part.cycles):

@@ -37,7 +37,7 @@ from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.single_teeth import ToothSampleNumber
 from tribodyn.input.tables.laws import FrictionTable
 from tribodyn.mesh.table import MeshData
-from tribodyn.solve.methods import AUTO, METHODS, SOLVERS, Runs, SolverData, runs
+from tribodyn.solve.methods import AUTO, METHODS, SOLVERS, SolverData, in_time
 
 #: Cosines in a load or an error: a curve is given by points.
 MOST_HARMONICS = 1000
@@ -217,9 +217,9 @@ def broken_rules_in_time(scenario: Any) -> Iterator[InputError]:
     if operating.source == "speed":
         rule = 'is of gears that a motor drives, and with source = "speed" the rotation is prescribed'
         yield InputError(key, None, rule, 'write source = "torque", or give solver.cycles')
-    if solver.method in METHODS and runs(solver.method) is not Runs.SCIPY:
+    if solver.method in METHODS and not in_time(solver.method):
         rule = "integrates over the rotation, and with solver.duration the gears may stand"
-        others = ", ".join(name for name in METHODS if runs(name) is Runs.SCIPY)
+        others = ", ".join(filter(in_time, METHODS))
         yield InputError("solver.method", quoted(solver.method), rule, f'use "auto", {others}')
     if solver.revolutions is not None:
         yield InputError("solver.revolutions", None, "contradicts solver.duration", "give one of them")

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from tribodyn.dynamics.approach import Motion
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.equations import resultants
-from tribodyn.dynamics.loads import carried_along, load_torque
+from tribodyn.dynamics.loads import carried_along, load_on, load_slopes
 from tribodyn.dynamics.mesh_motion import motion_of, on_body, place_in_mesh
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.kernels.native import kernel
@@ -44,7 +44,6 @@ from tribodyn.train.structure import (
     rolling_ratio,
     shift_of,
     slip_of,
-    slip_of_body,
     speed_of,
     turn_of,
 )
@@ -237,11 +236,11 @@ def differentiate(place, y, f, scale, model, work, into):
     prescribed = options.drive == DRIVE_SPEED
     for b in range(1, layout.bodies):  # loads and drive; what the reference's speed does is differenced below
         i = half + turn_of(b, layout)
-        jacobian[i, i] -= bodies.load_damping[b]
-        resisting = bodies.load[b] + bodies.load_damping[b] * slip_of_body(b, y, model)
-        if b == layout.output:
-            resisting += load_torque(time, operation)
-        jacobian[works + OUT, i] += resisting + bodies.load_damping[b] * speed_of(b, y, model)
+        stiffness, damping = load_slopes(b, model)
+        jacobian[i, turn_of(b, layout)] -= stiffness
+        jacobian[i, i] -= damping
+        jacobian[works + OUT, turn_of(b, layout)] += stiffness * speed_of(b, y, model)
+        jacobian[works + OUT, i] += load_on(b, time, y, model) + damping * speed_of(b, y, model)
         if b == layout.input and not prescribed:
             torque, slope = motor_torque(b, y, model)
             jacobian[i, i] += slope
@@ -284,11 +283,11 @@ def differentiate(place, y, f, scale, model, work, into):
         if i != layout.lag:
             jacobian[i, half + i] = rate
 
-    if not prescribed:
+    if not prescribed or operation.acceleration != 0.0:
         difference = min(SHARE * scale[half + layout.lag], SHARE * operation.nominal_speed)
         evaluations += column(half + layout.lag, difference, place, y, f, model, work, into)
     over_time = operation.load_amplitudes.shape[0] > 0 or operation.load_times.shape[0] > 1
-    if over_time or layout.clutches > 0:
+    if over_time or layout.clutches > 0 or operation.output_drive.stiffness != 0.0:
         evaluations += column(layout.lag, SHARE * scale[layout.lag], place, y, f, model, work, into)
     difference = PHASE_DIFFERENCE if place.phase + PHASE_DIFFERENCE < place.end else -PHASE_DIFFERENCE
     moved = place.phase + difference

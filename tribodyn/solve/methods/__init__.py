@@ -42,7 +42,7 @@ AUTO = "auto"
 #: Among these "auto" chooses, see `choice`; batches in lanes run the explicit one.
 EXPLICIT, STIFF, SWITCHING = "dopri5", "rodas4", "switching"
 #: And of these in runs by time.
-IN_TIME, IN_TIME_STIFF = "dop853", "lsoda"
+IN_TIME, IN_TIME_STIFF = EXPLICIT, "lsoda"
 #: What a scenario may say, with a line on each.
 SOLVERS = {
     AUTO: "explicit or stiff by an estimate; the record says which and why",
@@ -81,6 +81,11 @@ def solver(name: str) -> str:
 def runs(name: str) -> Runs | None:
     """What runs a method; None for "auto", which is not yet decided."""
     return METHODS[name].runs if name in METHODS else None
+
+
+def in_time(name: str) -> bool:
+    """Whether a method runs by time too."""
+    return name == IN_TIME or runs(name) is Runs.SCIPY
 
 
 def integrator_class(name: str) -> Any:

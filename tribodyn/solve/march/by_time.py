@@ -1,0 +1,387 @@
+"""The native march by time: the gears may stand, and turn back. Dormand & Prince's pair, see `dopri5`.
+
+The state is that of a march by rotation: its lag t − c T, with T the time of a reference cycle at nominal
+speed, says what cycle c the reference has come to at a time t. Steps aim at the ends of the intervals between
+which the set of contacting pairs changes; where one is passed, in either direction, is found on the dense
+output. With the nominal sliding velocity the phases where friction reverses are such ends too, `reversal`;
+with dynamic sliding steps end where friction turns, see `step_control`.
+
+`y` and `clock` together are all that a march goes on with. Times are in reference cycles of nominal speed.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.energy import engagement
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, Model
+from tribodyn.kernels.native import kernel
+from tribodyn.numerics.elementary import absolute, law, maximum, minimum, sqrt, truncate
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.integrator import Status
+from tribodyn.solve.march import step_control as rules
+from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, scratch_buffer
+from tribodyn.solve.march.reversal import stops
+from tribodyn.solve.methods.dopri5 import (
+    STAGES,
+    C,
+    dense_output,
+    embedded_difference,
+    growth,
+    shrinkage,
+    stage_state,
+)
+from tribodyn.solve.tolerances import tolerances_from
+from tribodyn.train.layout import TrainLayout
+from tribodyn.train.schedule import interval_of
+from tribodyn.train.structure import PARAMETRIC
+
+#: What a march goes on with, rows of `clock`: the time; whole reference cycles before the interval; the
+#: interval, and which of its stops comes next; the step to try; the error of the last one; steps so far.
+TIME, WHOLE, INTERVAL, STOP, STEP, LAST_ERROR, STEPS = range(7)
+#: Of the step last accepted, and of no weight between calls: its length, the share of it that counts, the way
+#: over the end of the interval (−1, 0, 1), and whether the derivatives where it ends are not known yet.
+TAKEN, SHARE, WAY, FRESH = range(7, 11)
+CLOCK_ROWS = 11
+#: Distance from the end of an interval, in reference cycles, within which a state is there; and its growth
+#: with the time, which rounding makes.
+BEYOND, ROUNDING = 1e-11, 4e-16
+#: Halvings in which a place on the dense output is found.
+HALVINGS = 100
+
+
+class TimeControl(NamedTuple):
+    """What the step control of a march by time needs."""
+
+    rtol: float
+    max_steps: int  # in one reference cycle of nominal speed, on average since the start
+    atol: Float[Array, " state"]  # absolute tolerances
+    stops: Float[Array, "interval stop"]  # phases that steps end on, see `reversal.stops`
+
+
+def time_control(model: Model, y: Float[Array, " state"], rtol: float, max_steps: int) -> TimeControl:
+    """Control of a march that starts from a state."""
+    tolerances = tolerances_from(model, y, rtol, max_steps)
+    return TimeControl(rtol, max_steps, tolerances.atol, stops(model))
+
+
+def begun_clock(model: Model, y: Float[Array, " state"], control: TimeControl) -> Float[Array, " row"]:
+    """The clock of a march from a state at time 0."""
+    clock = np.zeros(CLOCK_ROWS)
+    cycles = cycles_at(np.zeros(1), y[None], model)
+    whole, phase, interval = (float(part[0]) for part in interval_of(cycles, model.schedule))
+    clock[WHOLE], clock[INTERVAL] = whole, interval
+    clock[STOP] = np.searchsorted(control.stops[int(interval), :-1], phase, side="right")
+    clock[STEP], clock[LAST_ERROR], clock[FRESH] = rules.FIRST_STEP, rules.MINIMUM_ERROR, 1.0
+    return clock
+
+
+def time_buffer(layout: TrainLayout) -> Float[Array, "row state"]:
+    """Scratch of a march by time: a step's new state, its error and the stages."""
+    return scratch_buffer(STAGES, layout)
+
+
+def cycles_at(
+    times: Float[Array, " sample"], states: Float[Array, "sample state"], model: Model
+) -> Float[Array, " sample"]:
+    """Reference cycles that states have come to at times."""
+    return times - states[:, model.layout.lag] / float(nominal_time(model))
+
+
+@law
+def nominal_time(model):
+    """Time of a reference cycle at nominal speed, s."""
+    return model.operation.pitch_angle / model.operation.nominal_speed
+
+
+@law
+def phase_at(time, lag, whole, model):
+    """Phase of the reference at a time and a lag, counted from the start of a cycle."""
+    return time - lag / nominal_time(model) - whole
+
+
+@law
+def speed_share(slip, model):
+    """Speed of the reference over its nominal one."""
+    return 1.0 + slip / model.operation.nominal_speed
+
+
+@law
+def lower_bound(interval, stop, control, model):
+    """Phase that the next steps must not pass backwards."""
+    return control.stops[interval, stop - 1] if stop > 0 else model.schedule.start[interval]
+
+
+@law
+def time_to(distance, rate, acceleration):
+    """Time in which a distance ≥ 0 is passed at a rate and its acceleration; `rules.UNLIMITED`: it is not."""
+    squared = rate * rate + 2.0 * acceleration * distance
+    if squared < 0.0:
+        return rules.UNLIMITED
+    divisor = rate + sqrt(squared)
+    return minimum(2.0 * distance / divisor, rules.UNLIMITED) if divisor > 0.0 else rules.UNLIMITED
+
+
+@kernel
+def begin(model, y, clock, work, buffer):
+    """Evaluate the derivatives where a step begins; returns whether they are finite."""
+    layout = model.options.layout
+    interval, whole = truncate(clock[INTERVAL]), clock[WHOLE]
+    phase = phase_at(clock[TIME], y[layout.lag], whole, model)
+    if model.options.sliding == SLIDING_DYNAMIC:
+        rules.begin_turning(phase, interval, y, model, work)
+    derivatives(phase, whole, interval, y, model, work, buffer[SCRATCH])
+    clock[FRESH] = 0.0
+    total = 0.0
+    for i in range(layout.states):
+        total += absolute(buffer[SCRATCH, i])
+    return total < rules.INFINITE
+
+
+@kernel
+def attempt_in_time(step, model, y, clock, work, buffer):
+    """Fill the new state and its error; `work` is then as it is at the end of the step."""
+    layout = model.options.layout
+    stage, k = buffer[STATE], buffer[SCRATCH:]
+    interval, whole = truncate(clock[INTERVAL]), clock[WHOLE]
+    for s in range(1, STAGES):
+        stage_state(s, step, y, k, stage, layout)
+        phase = phase_at(clock[TIME] + C[s] * step, stage[layout.lag], whole, model)
+        derivatives(phase, whole, interval, stage, model, work, k[s])
+    for i in range(layout.states):
+        buffer[ERROR, i] = step * embedded_difference(k, i)
+
+
+@kernel
+def beyond(share, way, bound, model, y, clock, buffer):
+    """Phase by which a state inside the step last attempted is beyond a bound, in the given way."""
+    lag = model.options.layout.lag
+    k, step = buffer[SCRATCH:], clock[TAKEN]
+    behind = dense_output(share, step, y[lag], buffer[STATE, lag], k, lag)
+    return way * (phase_at(clock[TIME] + share * step, behind, clock[WHOLE], model) - bound)
+
+
+@kernel
+def share_at(way, bound, low, high, model, y, clock, buffer):
+    """Share of the step between two, not beyond and beyond a bound, at which the bound is passed."""
+    if beyond(low, way, bound, model, y, clock, buffer) >= 0.0:
+        return low
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if middle <= low or middle >= high:
+            break
+        if beyond(middle, way, bound, model, y, clock, buffer) >= 0.0:
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+@kernel
+def turning_share(model, y, clock, buffer):
+    """Share of the step last attempted at which the reference turns back; 1.0 where it does not."""
+    layout = model.options.layout
+    i, step, k = layout.half + layout.lag, clock[TAKEN], buffer[SCRATCH:]
+    before, after = speed_share(y[i], model), speed_share(buffer[STATE, i], model)
+    if before * after >= 0.0:
+        return 1.0
+    low, high = 0.0, 1.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if middle <= low or middle >= high:
+            break
+        at = speed_share(dense_output(middle, step, y[i], buffer[STATE, i], k, i), model)
+        if at * before > 0.0:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@kernel
+def find_crossing(low, high, near, model, y, clock, buffer):
+    """Put into `clock` what share of the step last attempted counts, and the way over a bound where it ends.
+
+    It may pass a bound on the way to where the reference turns back, and be inside again at its end.
+    """
+    layout = model.options.layout
+    begin_share, turn = 0.0, turning_share(model, y, clock, buffer)
+    clock[SHARE], clock[WAY] = 1.0, 0.0
+    for _ in range(2):
+        for side in range(2):
+            way, bound = 1.0 - 2.0 * side, high if side == 0 else low
+            over = beyond(turn, way, bound, model, y, clock, buffer)
+            if over > near and clock[WAY] == 0.0:
+                clock[SHARE] = share_at(way, bound, begin_share, turn, model, y, clock, buffer)
+                clock[WAY] = way
+            elif over >= -near and turn == 1.0 and clock[WAY] == 0.0:
+                if way * speed_share(buffer[STATE, layout.half + layout.lag], model) > 0.0:
+                    clock[WAY] = way
+        if clock[WAY] != 0.0 or turn == 1.0:
+            break
+        begin_share, turn = turn, 1.0
+
+
+@kernel
+def take_step(end, control, model, y, clock, work, buffer):
+    """Take a step towards a time: `clock` says how much of it counts, and `finish_step` goes there.
+
+    A step of no length is one over the end of the interval. Returns a `Status` and the right-hand sides.
+    """
+    layout = model.options.layout
+    interval, stop, time = truncate(clock[INTERVAL]), truncate(clock[STOP]), clock[TIME]
+    if clock[STEPS] >= control.max_steps * (1.0 + time):
+        return int(rules.TOO_MANY_STEPS), 0
+    evaluations, slip = 0, layout.half + layout.lag
+    if clock[FRESH] > 0.0:
+        evaluations += 1
+        if not begin(model, y, clock, work, buffer):
+            return int(rules.NOT_FINITE), evaluations
+    low, high = lower_bound(interval, stop, control, model), control.stops[interval, stop]
+    near = BEYOND + ROUNDING * time
+    phase = phase_at(time, y[layout.lag], clock[WHOLE], model)
+    rate = speed_share(y[slip], model)
+    acceleration = buffer[SCRATCH, slip] / model.operation.nominal_speed
+    clock[STEPS] += 1.0
+    for side in range(2):
+        way, distance = 1.0 - 2.0 * side, high - phase if side == 0 else phase - low
+        if distance <= near and way * rate * clock[STEP] > near:
+            clock[TAKEN], clock[SHARE], clock[WAY] = 0.0, 0.0, way
+            return Status.DONE.value, evaluations
+    to_bound = minimum(
+        time_to(maximum(high - phase, 0.0), rate, acceleration),
+        time_to(maximum(phase - low, 0.0), -rate, -acceleration),
+    )
+    turning = model.options.sliding == SLIDING_DYNAMIC and rules.resolves_turns(control.atol, model)
+    step, tries = clock[STEP], 0.0
+    while True:
+        uncut_step = step
+        limit = minimum(end - time, maximum(to_bound, near))
+        cut, step = rules.cut_at_stop(0.0, step, limit)
+        if step < rules.MINIMUM_STEP and step < end - time:
+            return int(rules.STEP_TOO_SMALL), evaluations
+        attempt_in_time(step, model, y, clock, work, buffer)
+        evaluations += STAGES - 1
+        new = buffer[STATE]
+        worst, total = rules.collected_errors(buffer[ERROR], y, new, control.atol, control.rtol, layout)
+        error = rules.step_error(worst, total)
+        if error != error or error >= rules.INFINITE:
+            if step < rules.MINIMUM_RETRY:
+                return int(rules.NOT_FINITE), evaluations
+            step *= rules.RETRY
+            continue
+        if error > 1.0:
+            step *= shrinkage(error)
+            continue
+        if rules.unbounded(new, model):
+            return int(rules.UNBOUNDED), evaluations
+        if turning:
+            too_far, shorter = rules.turn_of_friction(step, interval, model, work)
+            if too_far and tries < rules.MOST_TRIES:
+                step, tries = shorter, tries + 1.0
+                continue
+            rules.keep_turned(True, step, interval, model, work)
+        break
+    clock[TAKEN] = step
+    find_crossing(low, high, near, model, y, clock, buffer)
+    wanted = rules.next_step(step * growth(error, clock[LAST_ERROR]), cut, uncut_step)
+    if turning:
+        wanted = minimum(wanted, rules.longest_step(interval, model, work))
+    clock[STEP], clock[LAST_ERROR] = wanted, maximum(error, rules.MINIMUM_ERROR)
+    return Status.DONE.value, evaluations
+
+
+@kernel
+def finish_step(end, control, model, y, clock, work, buffer):
+    """Go to where a step ends, and over the end of the interval there."""
+    layout = model.options.layout
+    share, step, k = clock[SHARE], clock[TAKEN], buffer[SCRATCH:]
+    if share >= 1.0:
+        for i in range(layout.states):
+            y[i] = buffer[STATE, i]
+            buffer[SCRATCH, i] = buffer[SCRATCH + STAGES - 1, i]
+    elif step > 0.0:
+        for i in range(layout.states):
+            y[i] = dense_output(share, step, y[i], buffer[STATE, i], k, i)
+        clock[FRESH] = 1.0
+    time = clock[TIME] + share * step
+    clock[TIME] = end if end - time < rules.MINIMUM_STEP else time
+    if clock[WAY] != 0.0:
+        cross(control, model, y, clock, work)
+
+
+@kernel
+def cross(control, model, y, clock, work):
+    """Go over to the next stop, or interval with the energy that appears or vanishes there; or back."""
+    schedule, count = model.schedule, model.schedule.start.shape[0]
+    interval, stop = truncate(clock[INTERVAL]), truncate(clock[STOP])
+    forwards = clock[WAY] > 0.0
+    if forwards and control.stops[interval, stop] < schedule.end[interval]:
+        clock[STOP] += 1.0
+        return
+    if not forwards and stop > 0:
+        clock[STOP] -= 1.0
+        return
+    following = (interval + 1) % count if forwards else (interval + count - 1) % count
+    _, _, parametric = engagement(following if forwards else interval, y, model, work)
+    y[model.options.layout.mechanical + PARAMETRIC] += clock[WAY] * parametric
+    stop = 0
+    if forwards:
+        if schedule.start[following] <= schedule.start[interval]:
+            clock[WHOLE] += 1.0
+    else:
+        if schedule.start[following] >= schedule.start[interval]:
+            clock[WHOLE] -= 1.0
+        while control.stops[following, stop] < schedule.end[following]:
+            stop += 1
+    clock[INTERVAL], clock[STOP], clock[FRESH] = 1.0 * following, 1.0 * stop, 1.0
+
+
+@kernel
+def advance(until, control, model, y, clock, work, buffer):
+    """March to a time (s); inputs may be other than before. Returns `Status`, steps, right-hand sides."""
+    end = until / nominal_time(model)
+    steps, evaluations = 0, 0
+    clock[FRESH] = 1.0
+    while clock[TIME] < end:
+        status, taken = take_step(end, control, model, y, clock, work, buffer)
+        evaluations += taken
+        if status > 0:
+            return status, steps, evaluations
+        steps += 1
+        finish_step(end, control, model, y, clock, work, buffer)
+    return Status.DONE.value, steps, evaluations
+
+
+@kernel
+def march_by_time(first, rate, control, model, y, clock, work, buffer, out):
+    """March through samples and to the last one; `rate` are those per cycle, `first` the number of the first.
+
+    `out` (sample, state) receives them. Returns `Status`, steps, right-hand sides, samples written.
+    """
+    layout, count = model.options.layout, out.shape[0]
+    end = (first + count - 1) / rate
+    steps, evaluations, written = 0, 0, 0
+    clock[FRESH] = 1.0
+    while written < count:
+        if (first + written) / rate <= clock[TIME]:
+            for i in range(layout.states):
+                out[written, i] = y[i]
+            written += 1
+            continue
+        status, taken = take_step(end, control, model, y, clock, work, buffer)
+        evaluations += taken
+        if status > 0:
+            return status, steps, evaluations, written
+        steps += 1
+        step = clock[TAKEN]
+        while step > 0.0 and written < count:
+            share = ((first + written) / rate - clock[TIME]) / step
+            if share > clock[SHARE]:
+                break
+            for i in range(layout.states):
+                out[written, i] = dense_output(share, step, y[i], buffer[STATE, i], buffer[SCRATCH:], i)
+            written += 1
+        finish_step(end, control, model, y, clock, work, buffer)
+    return Status.DONE.value, steps, evaluations, written
