@@ -131,7 +131,9 @@ def begin(model, y, clock, work, buffer):
     phase = phase_at(clock[TIME], y[layout.lag], whole, model)
     if model.options.sliding == SLIDING_DYNAMIC:
         rules.begin_turning(phase, interval, y, model, work)
-    derivatives(phase, whole, interval, y, model, work, buffer[SCRATCH])
+    for i in range(layout.states):
+        buffer[STATE, i] = y[i]
+    evaluate(0, 1, 0.0, model, y, clock, work, buffer)
     clock[FRESH] = 0.0
     total = 0.0
     for i in range(layout.states):
@@ -140,17 +142,16 @@ def begin(model, y, clock, work, buffer):
 
 
 @kernel
-def attempt_in_time(step, model, y, clock, work, buffer):
-    """Fill the new state and its error; `work` is then as it is at the end of the step."""
+def evaluate(first, end, step, model, y, clock, work, buffer):
+    """Evaluate stages of a step in order; behind the last one the new state and `work` are those of its end."""
     layout = model.options.layout
     stage, k = buffer[STATE], buffer[SCRATCH:]
     interval, whole = truncate(clock[INTERVAL]), clock[WHOLE]
-    for s in range(1, STAGES):
-        stage_state(s, step, y, k, stage, layout)
+    for s in range(first, end):
+        if s > 0:
+            stage_state(s, step, y, k, stage, layout)
         phase = phase_at(clock[TIME] + C[s] * step, stage[layout.lag], whole, model)
         derivatives(phase, whole, interval, stage, model, work, k[s])
-    for i in range(layout.states):
-        buffer[ERROR, i] = step * embedded_difference(k, i)
 
 
 @kernel
@@ -261,9 +262,11 @@ def take_step(end, control, model, y, clock, work, buffer):
         cut, step = rules.cut_at_stop(0.0, step, limit)
         if step < rules.MINIMUM_STEP and step < end - time:
             return int(rules.STEP_TOO_SMALL), evaluations
-        attempt_in_time(step, model, y, clock, work, buffer)
+        evaluate(1, STAGES, step, model, y, clock, work, buffer)
         evaluations += STAGES - 1
-        new = buffer[STATE]
+        new, k = buffer[STATE], buffer[SCRATCH:]
+        for i in range(layout.states):
+            buffer[ERROR, i] = step * embedded_difference(k, i)
         worst, total = rules.collected_errors(buffer[ERROR], y, new, control.atol, control.rtol, layout)
         error = rules.step_error(worst, total)
         if error != error or error >= rules.INFINITE:
