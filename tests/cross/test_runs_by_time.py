@@ -1,6 +1,6 @@
 """Runs by time: gears that stand under load, start, stall against a brake, and are turned back."""
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,80 +8,18 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
 import tribodyn as td
-from tests.support.spring_trains import Gears, scenario_of, spring_model
-from tests.support.train_matrices import Body, Mesh, Train
-from tribodyn.dynamics.recorded.outputs import Sampled, evaluated
-from tribodyn.dynamics.recorded.outputs import sampled as outputs_of
+from tests.support.time_runs import ANGLE, LOAD, RADIUS, SPEED, STIFFNESS, TOTAL, pair, run, springs
 from tribodyn.errors import InputError, InputErrors
-from tribodyn.gears.motion.running import energy_residual
 from tribodyn.record.reader import Record
-from tribodyn.solve.choice import choose_in_time
-from tribodyn.solve.in_time import transient_in_time
-from tribodyn.solve.initial import initial_state
-from tribodyn.solve.transient import SampledStates, Stop, TransientSettings
-from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.batch import BATCH
 from tribodyn.studies.motion.prepare import prepare
 
-#: Inertias of driver and driven gear, kg m²; loads, N m; mesh, N/m.
-DRIVER, DRIVEN, LOAD, STIFFNESS = 2e-2, 4e-3, 20.0, 3e8
-TEETH, RADIUS, SPEED, ANGLE = 30, 0.045, 100.0, np.radians(20.0)
-TOTAL = DRIVER + DRIVEN
 INDUCTION = ([0.0, 40.0, 60.0, 85.0, 95.0, 100.0], [60.0, 52.0, 65.0, 110.0, 60.0, 0.0])
-
-
-class Run(NamedTuple):
-    """A run by time."""
-
-    seen: Sampled
-    states: np.ndarray
-    residual: float  # of its energy, as a share of the largest work
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        return self.seen.whole[name]
-
-
-def springs(duration: str, brake: dict[str, Any] | None = None, **operating: Any) -> PreparedGearbox:
-    """Two equal gears without friction, joined by one spring."""
-    bodies, mesh = (
-        (Body(1.0, DRIVER), Body(1.0, DRIVEN)),
-        Mesh((0, 1), (RADIUS, RADIUS), 0.0, ANGLE, -1, STIFFNESS),
-    )
-    duty = {"source": "torque", "input_speed": f"{SPEED} rad/s", "output_torque": f"{LOAD} N*m"}
-    duty |= {"start_speed": "0 rad/s"} | operating
-    made = scenario_of(Train(bodies, (), (), (mesh,)), [Gears((TEETH, TEETH), 3e-3)], 0.1, duty)
-    clutch = {"clutch": [brake]} if brake else {}
-    return spring_model(made | clutch | {"solver": {"duration": duration}})
-
-
-def run(prepared: PreparedGearbox, method: str = "auto", rtol: float = 1e-9, samples: int = 20) -> Run:
-    model, cycles = prepared.model, prepared.case.solver.cycles
-    state = initial_state(model, "static")
-    method = choose_in_time(method, model, state).method
-    *parts, stop = transient_in_time(model, state, TransientSettings(method, rtol, cycles, 10**6, samples))
-    assert isinstance(stop, Stop)
-    assert stop.reason == ""
-    chunks = [part for part in parts if isinstance(part, SampledStates)]
-    states = np.concatenate([chunk.states for chunk in chunks])
-    seen = outputs_of(evaluated(np.concatenate([chunk.cycles for chunk in chunks]), states, model))
-    stored = seen.whole["stored_energy"][-1] - seen.whole["stored_energy"][0]
-    return Run(seen, states, energy_residual(states[0], states[-1], stored, model.layout))
 
 
 def curve(speeds: list[float], torques: list[float]) -> dict[str, Any]:
     columns = {"speed": {"unit": "rad/s", "values": speeds}, "torque": {"unit": "N*m", "values": torques}}
     return {"torque_speed_curve": columns}
-
-
-def pair(changes: dict[str, Any], duration: str = "20 ms") -> PreparedGearbox:
-    """The shipped involute pair with friction, from rest."""
-    plain = {
-        "operating.start_speed": "0 rad/s",
-        "operating.pinion_torque": "57 N*m",
-        "solver.duration": duration,
-        "mesh.damping_ratio": 0.1,
-    }
-    return prepare(td.scenario("run-up", plain | changes))
 
 
 def test_what_is_in_balance_stands():
@@ -247,7 +185,7 @@ def test_what_has_the_nominal_speed_in_it_is_refused():
 def test_laws_are_finite_where_nothing_moves(law):
     own = {"friction.coefficient": 0.05} if law == "coulomb" else {}
     prepared = pair({"friction.law": law, "operating.pinion_torque": "48.936170 N*m"} | own, "0.2 ms")
-    found = run(prepared, rtol=1e-6)
+    found = run(prepared, "dop853", rtol=1e-6)
     (mesh,) = found.seen.meshes
     loaded = mesh["normal_load"] > 0.0
     assert loaded.any()

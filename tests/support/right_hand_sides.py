@@ -9,7 +9,7 @@ import numpy as np
 from tests.support.compile_fast import ONE_CALL
 from tests.support.states import altered, random_place, random_state
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import Model, with_shared_code
+from tribodyn.dynamics.parameters import Model, OutputDrive, with_shared_code
 from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH
@@ -72,13 +72,18 @@ def assert_right_hand_sides_agree(models: list[Model], rng: np.random.Generator,
 
 
 def at_several_conditions(model: Model, count: int = WIDTH) -> list[Model]:
-    """The model at other speeds, loads and dampings, so that no two lanes are alike."""
+    """The model at other speeds, loads, dampings and inputs, so that no two lanes are alike."""
     share = 1.0 + 0.4 * np.arange(count) / count
     speed, load, damping = model.operation.nominal_speed, model.bodies.load, model.meshes[0].damping
     return [
         altered(
             model,
-            operation={"nominal_speed": speed * s},
+            operation={
+                "nominal_speed": speed * s,
+                "acceleration": 40.0 * s,
+                "output_torque": 3.0 / s,
+                "output_drive": OutputDrive(2e3 * s, 5.0 / s, 1e-3 * s, 1e-3, 0.3 * s, 10.0),
+            },
             bodies={"load": load * s},
             mesh={"damping": damping / s},
         )

@@ -143,7 +143,7 @@ def begin(model, y, clock, work, buffer):
 
 @kernel
 def evaluate(first, end, step, model, y, clock, work, buffer):
-    """Evaluate stages of a step in order; behind the last one the new state and `work` are those of its end."""
+    """Evaluate stages of a step in order; the last one is the new state, and `work` is then of its end."""
     layout = model.options.layout
     stage, k = buffer[STATE], buffer[SCRATCH:]
     interval, whole = truncate(clock[INTERVAL]), clock[WHOLE]
