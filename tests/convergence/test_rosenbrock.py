@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.states import PAIR, TURN_G, random_place, random_state
-from tribodyn.dynamics.parameters import DRIVE_SPEED, with_shared_code
+from tribodyn.dynamics.parameters import DRIVE_SPEED, OutputDrive, with_shared_code
 from tribodyn.solve.choice import STIFF, choose
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.integrator import Status
@@ -81,6 +81,8 @@ def test_it_is_stable_for_every_step(tableau):
 def test_jacobian_is_the_derivative_of_the_right_hand_side(prepared, rng, overrides):
     """Against central differences of all columns, over random states, loaded or apart."""
     model = prepared("crc-23-47", **overrides).model
+    inputs = {"acceleration": 40.0, "output_torque": 5.0, "output_drive": OutputDrive(2e3, 5.0, slip=0.3)}
+    model = model._replace(operation=model.operation._replace(**inputs))
     native = with_shared_code(model)
     layout, states = model.layout, model.layout.states
     work, scale = work_array(model), tolerances_from(model, np.zeros(states), 1.0, 1).atol

@@ -14,15 +14,8 @@ from tribodyn.dynamics.parameters import Model, with_shared_code
 from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.integrator import REASONS, Status
-from tribodyn.solve.march.by_time import (
-    TIME,
-    begun_clock,
-    cycles_at,
-    march_by_time,
-    nominal_time,
-    time_buffer,
-    time_control,
-)
+from tribodyn.solve.march.by_time import begun_clock, march_by_time, time_buffer, time_control
+from tribodyn.solve.march.crossing import TIME, cycles_at, nominal_time
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.right_hand_side import work_array
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings

@@ -11,7 +11,7 @@ from tribodyn.dynamics.parameters import Model, with_shared_code
 from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.integrator import Status
-from tribodyn.solve.march.by_time import cycles_at, nominal_time
+from tribodyn.solve.march.crossing import cycles_at, nominal_time
 from tribodyn.solve.march.step_control import unbounded
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.solve.scipy_integrator import SOLVERS, rtol_of_all, stepped

@@ -11,7 +11,7 @@ from tribodyn.dynamics.parameters import Model
 from tribodyn.dynamics.recorded.extremes import highest_loaded
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import law, truncate
-from tribodyn.solve.march.by_time import INTERVAL, TIME, WHOLE, nominal_time, phase_at
+from tribodyn.solve.march.crossing import INTERVAL, TIME, WHOLE, nominal_time, phase_at
 from tribodyn.solve.march.marching import SCRATCH
 from tribodyn.train.clutches import work_of_clutch
 from tribodyn.train.structure import (
