@@ -7,7 +7,8 @@ import pytest
 
 import tribodyn as td
 from tests.support.time_runs import DRIVEN, LOAD, RADIUS, SPEED, TOTAL, Walker, pair, run, springs
-from tribodyn.dynamics.parameters import BY_TIME, DRIVE_SPEED, Model, OutputDrive
+from tribodyn.dynamics.parameters import BY_TIME, DRIVE_SPEED, Model
+from tribodyn.solve.tolerances import output_shaft
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.prepare import prepare
 
@@ -121,16 +122,14 @@ def test_the_shaft_beside_the_output_holds_its_speed():
     model = springs("20 ms", input_torque="0 N*m", start_speed=f"{SPEED} rad/s").model
     model = model._replace(bodies=model.bodies._replace(load=0.0 * np.asarray(model.bodies.load)))
     walker, drive = Walker.begun(model, 1e-9), 25.0
-    stiffness = 2e3
-    damping = np.sqrt(stiffness * TOTAL)  # half the critical one
     before = walker.to(1e-6)
     begun = walker.y[model.layout.mechanical :].copy()
-    shaft = OutputDrive(stiffness, damping, slip=-20.0)
+    shaft = output_shaft(model)._replace(slip=-20.0)
     after = walker.to(0.1, output_drive=shaft, drive_torque=drive)
     assert after["output_speed"] == pytest.approx(SPEED - 20.0, rel=1e-4)
     assert after["output_torque"] == pytest.approx(drive, rel=1e-3)
     lead = after["output_angle"] - (SPEED - 20.0) * 0.1
-    assert lead == pytest.approx(drive / stiffness, rel=2e-2)
+    assert lead == pytest.approx(drive / shaft.stiffness, rel=2e-2)
     works = walker.y[model.layout.mechanical :] - begun
     assert abs(balance(before, after, works)) < 1e-6 * abs(works[0])
 

@@ -100,7 +100,7 @@ class Operation(NamedTuple):
     motor_slopes: Float[Array, " knot"] = np.zeros(0)
     acceleration: Any = 0.0  # of the reference where its speed is prescribed, rad/s²
     output_torque: Any = 0.0  # constant, on the output against its motion, added to its load, N m
-    output_drive: OutputDrive = OutputDrive()
+    output_drive: Any = OutputDrive()
 
 
 class Model(NamedTuple):

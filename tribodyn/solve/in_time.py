@@ -25,12 +25,16 @@ SAMPLES = 2000
 
 
 class Walk(Protocol):
-    """A walk through time: state, time (cycles of nominal speed) and counts so far."""
+    """A walk through time: state and counts so far."""
 
-    time: float
     y: Float[Array, " state"]
     steps: int
     evaluations: int
+
+    @property
+    def time(self) -> float:
+        """Time it has come to, cycles of nominal speed."""
+        ...
 
     def march(self, first: int, count: int) -> tuple[Status, str]:
         """Go on through so many samples, to the last of them; how it ended, and the solver's own words."""
@@ -87,7 +91,7 @@ class NativeWalk:
 
     @property
     def time(self) -> float:
-        """Cycles of nominal speed."""
+        """See `Walk`."""
         return float(self._clock[TIME])
 
     def march(self, first: int, count: int) -> tuple[Status, str]:

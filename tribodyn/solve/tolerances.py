@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.mesh_motion import motion_of
-from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
+from tribodyn.dynamics.parameters import DRIVE_SPEED, Model, OutputDrive
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
@@ -27,6 +27,9 @@ MINIMUM_DEFLECTION = 1e-9
 #: Scale of the works over the energy transmitted in a mesh cycle: errors of steps add up over the cycle. With
 #: stiff bearings it costs no step.
 SHARE_OF_WORKS = 1.0 / 30.0
+
+#: Frequency of a shaft beside the output over the lowest of a mesh, and its damping ratio.
+SHARE_OF_MESH, DAMPING_RATIO = 0.1, 0.7
 
 
 class StepTolerances(NamedTuple):
@@ -157,6 +160,21 @@ def state_scales(model: Model, state: Float[Array, " state"]) -> Float[Array, " 
     deflection = np.maximum(_loaded(model, state, tables), _least(model))
     energy = [_transmitted(model, m, deflection[m], table.stiffness) for m, table in enumerate(tables)]
     return scales_from(model, tables, deflection, energy)
+
+
+def output_shaft(model: Model) -> OutputDrive:
+    """A shaft that carries the output along at a speed of its own, softer than the meshes and well damped.
+
+    With all that turns it vibrates at a tenth of the lowest frequency of a mesh between its two bodies.
+    """
+    layout, bodies = model.layout, model.bodies
+    squared = min(
+        table_scales(mesh).stiffness / _inertial_mass(model, m) for m, mesh in enumerate(model.meshes)
+    )
+    turned = np.asarray(bodies.ratio) / float(bodies.ratio[layout.output])
+    inertia = float(np.asarray(bodies.inertia) @ turned**2)
+    stiffness = inertia * SHARE_OF_MESH**2 * squared
+    return OutputDrive(stiffness, 2.0 * DAMPING_RATIO * float(np.sqrt(stiffness * inertia)))
 
 
 def _least(model: Model) -> float:

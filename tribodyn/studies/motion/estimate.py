@@ -8,7 +8,7 @@ from tribodyn.cases import cost
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.mesh.table import MeshData
-from tribodyn.solve.methods import IN_TIME
+from tribodyn.solve.methods import AUTO, IN_TIME
 from tribodyn.studies.motion.case import HOUSING, Gearbox
 from tribodyn.studies.motion.record import usual_layout
 
@@ -64,7 +64,7 @@ def marching_of(case: Gearbox, cycles: float, together: bool = True) -> list[cos
         radians = float(mesh.rate) * radians_of(mesh.pair, bearings)
         most = float(solver.max_steps)
         estimates.append(table(mesh.pair.mesh))
-        method = IN_TIME if case.in_time else solver.method
+        method = IN_TIME if case.in_time and solver.method == AUTO else solver.method
         estimates.append(cost.marching(cycles, radians, method, most, samples, together=together))
     return [each._replace(record=0.0) for each in estimates] if together else estimates
 
