@@ -7,6 +7,7 @@ from tests.support.coupled_trains import pushed_by_mesh, random_structure, reduc
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.support.states import random_place, random_state, recorded
 from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import DRIVE_SPEED
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
@@ -75,3 +76,24 @@ def test_energy_balances(coupled_train):
     scale = np.ptp(run["work_in"])
     assert np.ptp(run["work_damping"]) > 1e-4 * scale
     np.testing.assert_allclose(stored, into - into[0], atol=1e-6 * scale)
+
+
+def test_a_prescribed_acceleration_needs_the_torque_that_gives_it(rng):
+    """Driven by a torque, and at a prescribed speed with the acceleration that it gives: one motion."""
+    model = reducer_in_space(**{"operating.source": "torque"})
+    structure = random_structure(model, MODES, np.random.default_rng(3))
+    by_torque = with_couplings(model, [structure], MODES)
+    options = model.options._replace(drive=DRIVE_SPEED)
+    by_speed = with_couplings(model._replace(options=options), [structure], MODES)
+    y, place = random_state(rng, by_torque), random_place(rng, model.schedule)
+    expected, powers = rates(by_torque, y, place)
+    slip, operation = by_torque.layout.half + by_torque.layout.lag, model.operation
+    rate = float(operation.pitch_angle) / (float(operation.nominal_speed) + y[slip])
+    acceleration = expected[slip] / rate
+    assert abs(acceleration) > 1.0
+    moved = by_speed._replace(operation=operation._replace(acceleration=acceleration))
+    found, found_powers = rates(moved, y, place)
+    mechanical = by_torque.layout.mechanical
+    size = np.abs(expected[:mechanical]).max()
+    np.testing.assert_allclose(found[:mechanical], expected[:mechanical], rtol=1e-9, atol=1e-11 * size)
+    assert found_powers[-1] == pytest.approx(powers[-1], rel=1e-8)
