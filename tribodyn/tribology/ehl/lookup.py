@@ -1,5 +1,7 @@
 """Values of a table of solved contacts, as laws read them: polynomials of four variables."""
 
+import linecache
+
 from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum
 
 #: Powers of load and sliding together with twice those of speed and curvature, at most: along load and
@@ -43,7 +45,15 @@ def _nested(powers: tuple[str, ...], terms: list[tuple[int, ...]], first: int) -
 
 
 # written out: no compiler unrolls loops whose length changes, and the processor would wait for each step
-exec(f"def polynomial(table, x, y, z, s):\n    return {_nested(('x', 'y', 'z', 's'), TERMS, 0)}")
+_TEXT = f"def polynomial(table, x, y, z, s):\n    return {_nested(('x', 'y', 'z', 's'), TERMS, 0)}\n"
+_FILE = "<polynomial of a table>"
+linecache.cache[_FILE] = (
+    len(_TEXT),
+    None,
+    _TEXT.splitlines(keepends=True),
+    _FILE,
+)  # for who asks for the source
+exec(compile(_TEXT, _FILE, "exec"))
 polynomial = law(globals()["polynomial"])
 polynomial.__doc__ = "Sum of table[n] x^i y^j z^k s^m over the powers in the order of `TERMS`."
 
