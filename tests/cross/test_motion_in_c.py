@@ -1,0 +1,82 @@
+"""The right-hand side as C code against Python's own arithmetic and the native kernel."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.support.c_code import address, called, compiled, floats, zig_compiler
+from tests.support.helical_motion import HELICAL
+from tests.support.states import random_place, random_state
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import Model, with_shared_code
+from tribodyn.kernels.c import CEntry, translated
+from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
+from tribodyn.studies.motion.prepare import prepare
+from tribodyn.studies.protocol.load import load_scenario
+
+#: Whole cycles before; loads may depend on time.
+CYCLE = 2.0
+
+
+def model_of(name: str, overrides: dict[str, Any]) -> Model:
+    return prepare(load_scenario(name, overrides)).model
+
+
+def in_c(model: Model) -> str:
+    """The right-hand side of a model, and the model."""
+    state = np.zeros(model.layout.states)
+    arguments = (0.0, CYCLE, 0, state, model, work_array(model), state.copy())
+    return translated({"derivatives": CEntry(derivatives, arguments)}, {"model": model}).source
+
+
+def assert_alike(model: Model, library: Any, rng: np.random.Generator, *, native: bool) -> None:
+    """Derivatives and powers at a random state of every interval, those of a run up to eight."""
+    count = model.layout.states
+    shared = with_shared_code(model)
+    for interval in range(min(len(model.schedule.start), 8)):
+        y, phase = random_state(rng, model), float(random_place(rng, model.schedule, interval)[0])
+        expected, found = np.empty(count), np.empty(count)
+        if native:
+            powers = rhs(phase, CYCLE, interval, y, shared, work_array(model), expected)
+        else:
+            plain: dict = {}
+            powers = derivatives(phase, CYCLE, interval, y, model, contacts_of(model), plain)
+            expected[:] = [plain[i] for i in range(count)]
+        arguments = phase, CYCLE, interval, y, address(library, "model"), work_array(model), found
+        powers_in_c = called(library.derivatives, *arguments, result=floats(6))
+        np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-13 * np.abs(expected).max())
+        np.testing.assert_allclose(powers_in_c, powers, rtol=1e-10, atol=1e-13 * np.abs(powers).max())
+
+
+CASES: dict[str, tuple[str, dict[str, Any]]] = {
+    "helical": ("helical-23-47", HELICAL),
+    "two-stage-reducer": ("two-stage-reducer", {}),
+    "planetary": ("planetary-24-84", {}),
+    "xu": ("crc-23-47", {"friction.law": "xu"}),
+    "benedict-kelley, moes": ("crc-23-47", {"friction.law": "benedict-kelley", "film.law": "moes"}),
+    "masjedi-khonsari, dowson-higginson": ("crc-23-47", {"film.law": "dowson-higginson"}),
+    "veciana": ("crc-23-47", {"friction.law": "masjedi-khonsari-veciana"}),
+    "coulomb": ("crc-23-47", {"friction.law": "coulomb", "friction.coefficient": 0.05}),
+    "torque, energy-consistent": (
+        "involute-18-36",
+        {"operating.source": "torque", "mesh.formulation": "energy-consistent"},
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_c_agrees_with_python(case, tmp_path: Path, rng):
+    model = model_of(*CASES[case])
+    assert_alike(model, compiled(in_c(model), tmp_path), rng, native=False)
+
+
+def test_c_agrees_with_the_native_kernel(tmp_path: Path, rng):
+    model = model_of("crc-23-47", {})
+    assert_alike(model, compiled(in_c(model), tmp_path), rng, native=True)
+
+
+def test_zig_compiles_it_without_a_warning(tmp_path: Path, rng):
+    model = model_of("crc-23-47", {})
+    assert_alike(model, compiled(in_c(model), tmp_path, zig_compiler()), rng, native=False)
