@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.drawing.ears import triangles_of
-from tribodyn.drawing.shapes import GearShape, ShaftShape, pieces_of_arc
+from tribodyn.drawing.shapes import GearShape, ShaftShape, pieces_of_arc, turned_about
 from tribodyn.numerics.shapes import Array, Float, Int
 
 
@@ -49,25 +49,26 @@ def _of_gear(shape: GearShape, teeth: int) -> Surface:
     )
     before, after = _normals(shape, pitch)
     heights = np.linspace(-0.5, 0.5, _layers(shape) + 1) * shape.width
+    thinned, even = shape.thinned(heights), np.zeros((len(heights), len(circle) - 1))
     way = -1.0 if shape.internal else 1.0
-    swept = [_swept(shape, teeth, shape.tooth[:-1], way * before, way * after, heights, way)]
+    swept = [_swept(shape, teeth, shape.tooth[:-1], way * before, way * after, heights, thinned[:, :-1], way)]
     if shape.radius:
         radial = circle[:-1] / shape.radius
-        swept.append(_swept(shape, teeth, circle[:-1], -way * radial, -way * radial, heights, -way))
+        swept.append(_swept(shape, teeth, circle[:-1], -way * radial, -way * radial, heights, even, -way))
     parts = [surface for surface, _ in swept]
-    points = np.concatenate([shape.tooth, circle])
-    numbers = np.append(np.arange(count + 1), np.arange(count + 1, len(points))[::-1])
+    numbers = np.append(np.arange(count + 1), np.arange(count + 1, count + 1 + len(circle))[::-1])
     sector = numbers[::-1] if shape.internal else numbers
-    flat = sector[triangles_of(points[sector])]
     # of every tooth: the last points of both lines are the first ones of the next tooth
     tooth = np.arange(shape.teeth)[:, None]
     outline = (np.arange(count + 1) + count * tooth) % (count * shape.teeth)
     inner = (np.arange(len(circle)) + (len(circle) - 1) * tooth) % max(1, (len(circle) - 1) * shape.teeth)
-    every = np.concatenate([outline, count * shape.teeth + inner], axis=1)[:teeth, flat].reshape(-1, 3)
+    every = np.concatenate([outline, count * shape.teeth + inner], axis=1)[:teeth]
     for end, way in ((0, -1.0), (1, 1.0)):
+        points = np.concatenate([turned_about(shape.tooth, thinned[[-end]])[0], circle])
+        flat = every[:, sector[triangles_of(points[sector])]].reshape(-1, 3)
         edges = [surface.point[ends[end]] for surface, ends in swept]
         place = np.concatenate(edges if shape.radius else [*edges, [[0.0, 0.0, heights[-end]]]])
-        parts.append(Surface(place, np.tile([0.0, 0.0, way], (len(place), 1)), every[:, :: int(way)]))
+        parts.append(Surface(place, np.tile([0.0, 0.0, way], (len(place), 1)), flat[:, :: int(way)]))
     return _joined(parts)
 
 
@@ -78,7 +79,8 @@ def _layers(shape: GearShape) -> int:
     # κ² R h²/8 + κ h s/4 of triangles h high and s wide
     twist = abs(shape.twist)
     high = 2.0 * shape.tolerance / (step + np.sqrt(step**2 + 4.0 * radius * shape.tolerance))
-    return max(1, int(np.ceil(twist * shape.width / (2.0 * high))))
+    steps = [each.steps(radius, shape.tolerance / 4.0) for each in shape.modified]
+    return max(1, int(np.ceil(twist * shape.width / (2.0 * high))), *steps)
 
 
 def _normals(shape: GearShape, pitch: float) -> tuple[Float[Array, "point 2"], Float[Array, "point 2"]]:
@@ -105,11 +107,12 @@ def _swept(
     before: Float[Array, "point 2"],
     after: Float[Array, "point 2"],
     heights: Float[Array, " layer"],
+    thinned: Float[Array, "layer point"],
     way: float,
 ) -> tuple[Surface, Int[Array, "end point"]]:
     """A line of a tooth about the whole circumference and along z; `way` < 0: its inside is to the right.
 
-    With the vertices of its points at both ends.
+    `thinned`: by how much its points are turned, rad. With the vertices of its points at both ends.
     """
     edge = np.any(before != after, axis=1)
     # of every point its vertex where the line goes on, behind those of the edges where it comes
@@ -120,7 +123,8 @@ def _swept(
     per_tooth, angles = len(which), 2.0 * np.pi / shape.teeth * np.arange(shape.teeth)
     line, normal = (_turned(each, angles).reshape(-1, 2) for each in (line[which], normal))
     around = len(line)
-    along = _turned(line, shape.twist * heights), _turned(normal, shape.twist * heights)
+    turn = shape.twist * heights[:, None] + np.tile(thinned[:, which], shape.teeth)
+    along = turned_about(line, turn), turned_about(normal, turn)
     # across z, and along the helix: (n, −κ n·(z × p))
     lean = -shape.twist * (normal[:, 1] * line[:, 0] - normal[:, 0] * line[:, 1])
     z = np.broadcast_to(heights[:, None, None], (*along[0].shape[:2], 1))
@@ -140,9 +144,7 @@ def _swept(
 
 
 def _turned(points: Float[Array, "point 2"], angles: Float[Array, " angle"]) -> Float[Array, "angle point 2"]:
-    cosine, sine = np.cos(angles)[:, None], np.sin(angles)[:, None]
-    x, y = points.T
-    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+    return turned_about(points, np.broadcast_to(angles[:, None], (len(angles), len(points))))
 
 
 def shaft_profile(shape: ShaftShape) -> list[tuple[float, float]]:

@@ -192,7 +192,7 @@ def placed_parts(loaded: Loaded, tolerance: float) -> list[PlacedPart]:
             return []
         pair = assembled(loaded.case.pair)
         check(pair.family, pair.drive)
-        return parts_of_pair(pair, tolerance)
+        return parts_of_pair(pair, tolerance, loaded.case.pair.mesh.modifications)
 
 
 def bodies_in_space(record: Record) -> bytes:

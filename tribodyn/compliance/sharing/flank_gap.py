@@ -14,18 +14,17 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
+from tribodyn.geometry.flank_form import along_face, at_the_end, over_profile
 from tribodyn.geometry.helix import normal_slope
 from tribodyn.geometry.modification import (
     FlankModification,
     LeadRelief,
     Misalignment,
     Modifications,
-    Relief,
     broken_flank_rules,
 )
 from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.tooth import thickness_half_angle
-from tribodyn.numerics.curve import check_cover, interpolate
 from tribodyn.numerics.shapes import Array, Float, Int
 
 #: Maximum tip relief, as a share of the tip's thickness: both flanks together then leave half of it.
@@ -81,15 +80,7 @@ def profile_gap(
     """Relief of tips and roots and error of the profile of both flanks, m; shaped like the geometry."""
     total = np.zeros_like(geometry.gap)
     for side, place in zip(SIDES, (geometry.pinion_place, geometry.gear_place), strict=True):
-        flank: FlankModification = getattr(modifications, side)
-        # a pair begins at the pinion's root and the gear's tip
-        first, last = (flank.root, flank.tip) if side == "pinion" else (flank.tip, flank.root)
-        total = total + _relieved(first, place - assembly.r_start) + _relieved(last, assembly.r_end - place)
-        if flank.profile_error is not None:
-            at, error = flank.profile_error
-            check_cover(at, *assembly.roll_limits, f"drive.{side}.modification.profile_error")
-            roll = np.clip(assembly.path.rotation(place), at[0], at[-1])
-            total = total + interpolate(at, error, roll)
+        total = total + over_profile(assembly, side, getattr(modifications, side), place)
     return total
 
 
@@ -114,11 +105,10 @@ def bias_gap(
 
     Over the whole active path and each gear's own face width; the gear's tip is where the path begins.
     """
-    middle, half = (assembly.r_start + assembly.r_end) / 2.0, (assembly.r_end - assembly.r_start) / 2.0
     total = 0.0 * face_position
-    for side, place, to_tip in zip(SIDES, places, (1.0, -1.0), strict=True):
+    for side, place in zip(SIDES, places, strict=True):
         across = face_position / (float(body_of(assembly.drive, side).face_width) / 2.0)
-        total = total + getattr(modifications, side).bias * to_tip * (place - middle) / half * across
+        total = total + at_the_end(assembly, side, getattr(modifications, side), place) * across
     return total
 
 
@@ -202,22 +192,6 @@ def check_modifications(assembly: Assembly, modifications: Modifications) -> Non
     """
     for side in SIDES:
         _check_flank(assembly, getattr(modifications, side), side)
-
-
-def _relieved(relief: Relief, distance: PerContact) -> PerContact:
-    """Relief (m) at a distance (m, along the line of action) from the end of the active profile."""
-    if relief.amount == 0.0:
-        return 0.0 * distance
-    share = np.clip((relief.length - distance) / relief.length, 0.0, 1.0)
-    return relief.amount * share**relief.exponent
-
-
-def along_face(lead: LeadRelief, width: float, position: Float[Array, " slice"]) -> Float[Array, " slice"]:
-    """Relief of a gear (m) at places along its face, m from the middle."""
-    straight = lead.unmodified / 2.0
-    share = np.maximum(np.abs(position) - straight, 0.0) / (width / 2.0 - straight)
-    crowned = lead.crowning * (2.0 * position / width) ** 2 + lead.slope * position / width
-    return crowned + np.where(position < 0.0, lead.start, lead.end) * share**2
 
 
 def _check_flank(assembly: Assembly, flank: FlankModification, side: Side) -> None:

@@ -1,8 +1,8 @@
 """Gears, shafts and trains as solids in a STEP file: AP214, boundary representation.
 
 A product for every shape, and an assembly of its occurrences by their names. Flanks, fillets, root and tip
-are B-splines of degree 3 through points on the exact curves; a helix turns them by splines of degree 5 along
-z, the same control points times those of cosine and sine. Bores and shafts are cylinders, in halves.
+are B-splines of degree 3 through points on the exact curves; where a helix turns them, or modifications vary
+along the face, splines of degree 5 along z go through their sections. Bores and shafts are cylinders.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,7 +18,7 @@ from tribodyn.drawing.surface import shaft_profile
 from tribodyn.exchange.cad.chosen import CHOICES, chosen_parts, listed, tolerance_of
 from tribodyn.exchange.cad.part21 import NOTHING, Edge, Entities, ref
 from tribodyn.exchange.format import SCENARIO, Deviation, ExchangeFormat, Exported, Written, deviation
-from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.shapes import Array
 
 _SCHEMA = "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"
 #: Distance of splines from the exact outlines unless it is set, m.
@@ -27,7 +27,10 @@ _TOLERANCE = 1e-6
 #: one is of points with which they are compared, and by how much it shrinks where splines are too far off.
 _CHORDS, _FINER, _SHRINKS = 10.0, 16.0, 3.0
 _Z, _X = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
-_HELIX_ERROR = 1e-9  # of a spline of the helix, m
+#: Of splines along z, m: of a helix; where modifications bend flanks.
+_HELIX_ERROR, _BEND_ERROR = 1e-9, 5e-8
+#: Heights at which outlines with modifications are compared, over the width from its middle.
+_HEIGHTS = (-0.5, -0.17, 0.29, 0.5)
 
 
 def write(exported: Exported, name: str, choices: Mapping[str, Any]) -> Written:
@@ -48,70 +51,63 @@ def _deviation(parts: Sequence[PlacedPart], finer: Sequence[PlacedPart]) -> Devi
     written, exact = [np.zeros((1, 2))], [np.zeros((1, 2))]
     for part, fine in zip(parts, finer, strict=True):
         if isinstance(part.shape, GearShape) and isinstance(fine.shape, GearShape):
-            for spline, points in zip(_outline(part.shape), _pieces(fine.shape), strict=True):
-                written.append(spline(np.linspace(0.0, 1.0, len(points))))
-                exact.append(points)
+            heights = part.shape.width * np.array(_HEIGHTS if part.shape.modified else [0.0])
+            for own, other in zip(part.shape.section(heights), fine.shape.section(heights), strict=True):
+                splines = map(_through, _pieces(part.shape, own))
+                for spline, points in zip(splines, _pieces(fine.shape, other), strict=True):
+                    written.append(spline(np.linspace(0.0, 1.0, len(points))))
+                    exact.append(points)
     off = np.hypot(*(np.concatenate(written) - np.concatenate(exact)).T)
     largest = float(max(np.max(np.abs(points)) for points in exact))
     return deviation("outlines", "m", off, 0.0 * off, "their points")._replace(largest=largest or 1.0)
 
 
-def _pieces(shape: GearShape) -> list[Float[Array, "point 2"]]:
-    """Points of the smooth pieces of one tooth, the land to the next tooth last."""
+def _pieces(shape: GearShape, tooth: Array) -> list[Array]:
+    """Points of the smooth pieces of one tooth (…, point, 2), the land to the next tooth last."""
     pitch = 2.0 * np.pi / shape.teeth
     turn = np.array([[np.cos(pitch), np.sin(pitch)], [-np.sin(pitch), np.cos(pitch)]])
     first, *_, last = ends = shape.ends
-    pieces = [shape.tooth[a : b + 1] for a, b in pairwise(ends)]
-    return [*pieces, np.concatenate([shape.tooth[last:], shape.tooth[1 : first + 1] @ turn])]
+    pieces = [tooth[..., a : b + 1, :] for a, b in pairwise(ends)]
+    return [*pieces, np.concatenate([tooth[..., last:, :], tooth[..., 1 : first + 1, :] @ turn], axis=-2)]
 
 
-def _outline(shape: GearShape) -> list[BSpline]:
-    """The same as splines over 0 … 1."""
-    return [
-        make_interp_spline(np.linspace(0.0, 1.0, len(points)), points, k=min(3, len(points) - 1))
-        for points in _pieces(shape)
-    ]
+def _through(points: Array) -> BSpline:
+    """A spline over 0 … 1 through the points of a piece (…, point, 2)."""
+    count = points.shape[-2]
+    return make_interp_spline(np.linspace(0.0, 1.0, count), points, k=min(3, count - 1), axis=-2)
 
 
-def _helix(shape: GearShape) -> BSpline:
-    """Cosine and sine of the turn of the outline, and z, over 0 … 1 along the width."""
-    turned, radius = shape.twist * shape.width, float(np.hypot(*shape.tooth.T).max())
+def _along(shape: GearShape) -> BSpline:
+    """The points of a tooth over 0 … 1 along the width."""
     fine = np.linspace(0.0, 1.0, 301)
-
-    def exact(along: Array) -> Array:
-        angle = turned * (along - 0.5)
-        return np.stack([np.cos(angle), np.sin(angle), shape.width * (along - 0.5)], axis=-1)
-
-    if not turned:
-        return make_interp_spline([0.0, 1.0], exact(np.array([0.0, 1.0])), k=1)
-    count = 6
+    heights = shape.width * (fine - 0.5)
+    if not shape.twist and not np.ptp(shape.thinned(heights), axis=0).any():
+        return make_interp_spline([0.0, 1.0], shape.section(heights[[0, -1]]), k=1)
+    count, allowed = 6, _BEND_ERROR if shape.modified else _HELIX_ERROR
     while True:
         along = np.linspace(0.0, 1.0, count)
-        spline = make_interp_spline(along, exact(along), k=5)
-        if radius * np.max(np.abs(spline(fine) - exact(fine))[:, :2]) < _HELIX_ERROR:
+        spline = make_interp_spline(along, shape.section(shape.width * (along - 0.5)), k=5)
+        if np.max(np.abs(spline(fine) - shape.section(heights))) < allowed:
             return spline
-        count += 2
+        count += 2 + count // 4 * bool(shape.modified)
 
 
 def _gear(out: Entities, shape: GearShape) -> list[int]:
     """Faces of a gear."""
-    helix, splines = _helix(shape), _outline(shape)
-    cosine, sine, z = helix.c.T
-    splines = [
-        spline
-        for spline, points in zip(splines, _pieces(shape), strict=True)
-        if np.hypot(*np.ptp(points, axis=0)) > 1e-9
-    ]
+    along = _along(shape)
+    z = shape.width * (np.array([along.t[k + 1 : k + 1 + along.k].mean() for k in range(len(along.c))]) - 0.5)
+    pieces = zip(_pieces(shape, along.c), _pieces(shape, shape.tooth), strict=True)
+    splines = [_through(piece) for piece, points in pieces if np.hypot(*np.ptp(points, axis=0)) > 1e-9]
     corners, grids = [], []
     for tooth in range(shape.teeth):
         angle = 2.0 * np.pi / shape.teeth * tooth
+        turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
         for spline in splines:
-            x, y = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]) @ spline.c.T
-            along = [np.outer(x, cosine) - np.outer(y, sine), np.outer(x, sine) + np.outer(y, cosine)]
-            grid = np.stack([*along, np.broadcast_to(z, along[0].shape)], axis=-1)
+            places = spline.c @ turn  # of points along the outline, and along the width
+            grid = np.concatenate([places, np.broadcast_to(z, places.shape[:-1])[..., None]], axis=-1)
             grids.append((spline, grid))
             ends = [out.vertex(grid[0, end]) for end in (0, -1)]
-            curve = out.spline(grid[0], int(helix.k), helix.t)
+            curve = out.spline(grid[0], int(along.k), along.t)
             corners.append(out.edge(curve, *ends))
     faces, loops = [], [list[Edge](), list[Edge]()]
     for (spline, grid), left, right in zip(grids, corners, [*corners[1:], corners[0]], strict=True):
@@ -121,7 +117,7 @@ def _gear(out: Entities, shape: GearShape) -> list[int]:
         )
         loops[0].append(low)
         loops[1].append(high)
-        surface = out.spline_surface(grid, spline, helix)
+        surface = out.spline_surface(grid, spline, along)
         faces.append(_side(out, surface, (low, right, high, left), outwards=not shape.internal))
     half = shape.width / 2.0
     circles = [list[Edge](), list[Edge]()]

@@ -14,7 +14,6 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.compliance.sharing.flank_gap import along_face
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import at_pitch_point
 from tribodyn.compliance.sharing.tooth_field import tooth_field
@@ -22,6 +21,7 @@ from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.body import rack_outline, tooth_outline
 from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.geometry.families import family
+from tribodyn.geometry.flank_form import along_face
 from tribodyn.geometry.path import position
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure, panel_title
 from tribodyn.studies.load_contact import stress

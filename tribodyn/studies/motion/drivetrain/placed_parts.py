@@ -2,8 +2,16 @@
 
 from collections.abc import Sequence
 
-from tribodyn.drawing.shapes import GearShape, PlacedPart, ShaftShape, gear_shape
-from tribodyn.geometry.drive import Side
+from tribodyn.drawing.shapes import (
+    GearShape,
+    ModifiedFlank,
+    PlacedPart,
+    ShaftShape,
+    gear_shape,
+    modified_flank,
+    pushes_above,
+)
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.limits.checks import check
 from tribodyn.studies.motion.assembly import assemblies, phases
 from tribodyn.studies.motion.case import BodyData, Gearbox
@@ -23,14 +31,14 @@ def placed_parts(case: Gearbox, tolerance: float) -> list[PlacedPart]:
         check(pairs[0].family, pairs[0].drive)
     teeth, heights = phases(case, pairs).teeth, _heights(case)
     path = pairs[0].path
-    shapes: dict[tuple[int, Side, float], GearShape] = {}
+    shapes: dict[tuple[object, ...], GearShape] = {}
     carriers = {body: case.bodies[each.members[CARRIER]] for each in case.sets for body in each.planets}
     found = []
     for number, gear in enumerate(case.gears):
-        mesh, side = gear.meshes[0]
-        key = pairs.index(pairs[mesh]), side, gear.face_width
+        (mesh, side), (key, flanks) = gear.meshes[0], _flanks(case, number, pairs)
+        key = gear.face_width, *key
         if key not in shapes:
-            shapes[key] = gear_shape(pairs[mesh], side, tolerance)
+            shapes[key] = gear_shape(pairs[mesh], side, tolerance, flanks)
         x, y = case.bodies[gear.body].centre
         if y != y:  # of a pair they are as far apart as its path of contact says
             y = float(path.pinion_pitch_radius + path.gear_pitch_radius)
@@ -52,6 +60,29 @@ def placed_parts(case: Gearbox, tolerance: float) -> list[PlacedPart]:
         name, turns = _other(shaft.name, found), _turns(case.bodies[shaft.points[0][0]])
         found.append(PlacedPart(name, shape, (*shaft.centre, shaft.start), 0.0, "shaft", turns))
     return found
+
+
+def _flanks(
+    case: Gearbox, number: int, pairs: Sequence[Assembly]
+) -> tuple[list[object], tuple[ModifiedFlank | None, ModifiedFlank | None]]:
+    """A key that gears of one shape share, and both flanks of a gear, each by the mesh in which it drives.
+
+    The back flanks are those of the first mesh that says something of them.
+    """
+    gear, key, front, back = case.gears[number], [], dict[bool, ModifiedFlank](), dict[bool, ModifiedFlank]()
+    for mesh, side in gear.meshes:
+        own = case.meshes[mesh]
+        carried = _turns(case.bodies[own.carrier]) if own.carrier >= 0 else 0.0
+        above = pushes_above(side, _turns(case.bodies[gear.body]) - carried)
+        way = -float(case.bodies[own.driver].sense)  # from its pair's +z the driver turns clockwise
+        taken = getattr(own.pair.mesh.modifications, side)
+        key.append((pairs.index(pairs[mesh]), side, above, way))
+        if (flank := modified_flank(pairs[mesh], side, taken, way)) is not None:
+            front.setdefault(above, flank)
+            if taken.both_flanks:
+                back.setdefault(not above, flank)
+    both = back | front
+    return key, (both.get(False), both.get(True))
 
 
 def _turns(body: BodyData) -> float:
