@@ -39,6 +39,7 @@ CONTENTS = {
         "compare",
         "report",
         "export",
+        "cad",
         "rexs",
         "extending",
     ],

@@ -48,7 +48,7 @@ class GearShape(NamedTuple):
 
 
 class ShaftShape(NamedTuple):
-    """A shaft of cylinders from z = 0 on."""
+    """A shaft of cylinders from z = 0 on, or a ring."""
 
     length: tuple[float, ...]  # this and the next two: of every section, m
     radius: tuple[float, ...]
@@ -72,7 +72,7 @@ class PlacedPart(NamedTuple):
     shape: GearShape | ShaftShape  # one object for equal parts
     centre: tuple[float, float, float]  # of its own frame, m
     angle: float  # of its own x axis, counter-clockwise, rad
-    fill: str  # "pinion", "gear", "ring" or "shaft"
+    fill: str  # "pinion", "gear", "ring", "shaft" or "bearing"
     turns: float = 0.0  # counter-clockwise for each turn of the first body; of a planet in space, not its pin
     orbits: float = 0.0  # of its centre about an axis, a planet's
     axis: tuple[float, float] = (0.0, 0.0)  # that axis, m

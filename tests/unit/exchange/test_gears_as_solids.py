@@ -85,7 +85,7 @@ def test_a_train_is_an_assembly_of_its_parts(tmp_path: Path):
     """Gears and shafts stand where they are; planets are one product, used three times."""
     reducer = tmp_path / "reducer.step"
     printed = invoke("export", "industrial-reducer", "--to", "step", "-o", reducer, "--set", "tolerance=5 um")
-    assert "7 parts" in printed
+    assert "13 parts" in printed
     solids = Solids(reducer)
     parts = {part.name: part for part in placed_parts(load("industrial-reducer"), 1e-4)}
     assert list(solids.faces()) == list(parts)

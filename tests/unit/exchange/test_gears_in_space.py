@@ -151,7 +151,7 @@ def test_teeth_of_a_train_touch_and_do_not_overlap(name: str, pairs: list[tuple[
 def test_a_train_is_read_back_in_its_places(tmp_path: Path):
     file = tmp_path / "reducer.glb"
     printed = invoke("export", "industrial-reducer", "--to", "gltf", "-o", file, "--set", "tolerance=50 um")
-    assert "7 parts: pinion-1, wheel-1" in printed
+    assert "13 parts: pinion-1, wheel-1" in printed
     nodes, parts = read(file), parts_of("industrial-reducer")
     assert list(nodes) == list(parts)
     for name, node in nodes.items():
@@ -185,6 +185,27 @@ def test_a_shaft_is_its_cylinders(tmp_path: Path):
     sections = zip(shape.length, shape.radius, shape.bore, strict=True)
     exact = np.pi * sum(length * (r**2 - b**2) for length, r, b in sections)
     assert volume_within(surface.point, surface.triangle) == pytest.approx(exact, rel=1e-4)
+
+
+def test_bearings_are_rings_on_their_shafts():
+    """As wide as their rollers, from the shaft to beyond the circle through their middles."""
+    parts, shafts = parts_of("industrial-reducer"), load("industrial-reducer").case.system.shafts
+    for shaft in shafts:
+        drawn = parts[shaft.name]
+        assert isinstance(drawn.shape, ShaftShape)
+        for number, bearing in enumerate(shaft.drawing.bearing, 1):
+            part = parts[f"bearing {shaft.name}-{number}"]
+            ring = part.shape
+            assert isinstance(ring, ShaftShape)
+            assert part.turns == 0.0
+            assert ring.length == (bearing.roller_length,)
+            assert part.centre[:2] == drawn.centre[:2]
+            assert part.centre[2] + ring.length[0] / 2 == pytest.approx(shaft.start + bearing.position)
+            assert ring.bore[0] in drawn.shape.radius
+            assert ring.bore[0] < bearing.pitch_diameter / 2 < ring.radius[0]
+            surface = surface_of(ring)
+            exact = np.pi * (ring.radius[0] ** 2 - ring.bore[0] ** 2) * bearing.roller_length
+            assert volume_within(surface.point, surface.triangle) == pytest.approx(exact, rel=1e-3)
 
 
 def test_equal_parts_share_a_mesh_and_records_are_taken_too(tmp_path: Path):

@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from tribodyn.drawing.shapes import (
     GearShape,
     ModifiedFlank,
@@ -13,6 +15,7 @@ from tribodyn.drawing.shapes import (
 )
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.limits.checks import check
+from tribodyn.input.tables.drawn_bearings import BearingOfShaft, friction_data, sized
 from tribodyn.studies.motion.assembly import assemblies, phases
 from tribodyn.studies.motion.case import BodyData, Gearbox
 from tribodyn.train.planetary import CARRIER, RAVIGNEAUX, SUN
@@ -59,7 +62,27 @@ def placed_parts(case: Gearbox, tolerance: float) -> list[PlacedPart]:
         )
         name, turns = _other(shaft.name, found), _turns(case.bodies[shaft.points[0][0]])
         found.append(PlacedPart(name, shape, (*shaft.centre, shaft.start), 0.0, "shaft", turns))
+        for number, bearing in enumerate(shaft.drawing.bearing, start=1):
+            if (ring := _bearing(bearing, shape)) is not None:
+                place = (*shaft.centre, shaft.start + bearing.position - sum(ring.length) / 2.0)
+                found.append(PlacedPart(f"bearing {shaft.name}-{number}", ring, place, 0.0, "bearing"))
     return found
+
+
+def _bearing(bearing: BearingOfShaft, shaft: ShaftShape) -> ShaftShape | None:
+    """A rolling bearing as a ring on its shaft, as wide as its rolling elements; of springs none."""
+    inside, outside = sized(bearing), friction_data(bearing)
+    if outside is None or outside.outside_diameter is None:
+        return None
+    width = inside.roller_length or inside.element_diameter or 0.0
+    width += (bearing.row_distance or width) * (outside.rows - 1)
+    ends = np.append(0.0, np.cumsum(shaft.length))
+    near = (ends[:-1] < bearing.position + width / 2.0) & (ends[1:] > bearing.position - width / 2.0)
+    under = np.array(shaft.radius)[near]
+    radius = float(under.max(initial=0.0))
+    if not radius < outside.outside_diameter / 2.0:
+        return None
+    return ShaftShape((width,), (outside.outside_diameter / 2.0,), (radius,), shaft.tolerance)
 
 
 def _flanks(
