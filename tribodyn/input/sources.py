@@ -151,7 +151,11 @@ def read_text(path: Path, most: int, *, of_spreadsheet: bool = False) -> str:
 
 def read_toml(path: Path) -> dict[str, Any]:
     """Return the data of a TOML file; a syntax error names its line."""
-    text = read_text(path, MOST_TOML)
+    return toml_of(read_text(path, MOST_TOML), path)
+
+
+def toml_of(text: str, path: Path) -> dict[str, Any]:
+    """Return the data of the text of a TOML file, as `read_toml` does."""
     try:
         return parsed(text)
     except TooMuch as error:

@@ -194,6 +194,28 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
 
     The data of `resolved` may have been changed since; they are not changed here but for a missing name.
     """
+    return sound(resolved, path).loaded()
+
+
+class SoundScenario(NamedTuple):
+    """A scenario that has passed schema and rules."""
+
+    data: dict[str, Any]
+    study: Study
+    scenario: Any  # its tables
+    path: Path
+    origins: Origins
+
+    def loaded(self) -> Loaded:
+        """Its case, for which laws may have to be chosen; raises InputError where that cannot be made."""
+        toml = tomli_w.dumps(self.data)
+        digest = hashlib.sha256(toml.encode()).hexdigest()
+        case: CaseHead = self.study.case(in_force(self.scenario), toml, digest)
+        return Loaded(case, self.study, self.path, self.origins)
+
+
+def sound(resolved: Resolved, path: Path) -> SoundScenario:
+    """Hold a scenario's file against schema and rules; arguments and errors as of `loaded_from`."""
     data, origins, unresolved = resolved
     origins = origins.over(data)  # the grid of a sweep changes values
     data.setdefault("name", _name_of(path.stem) or "scenario")
@@ -222,9 +244,7 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     # of a key whose value only its family knows to be a file
     if errors := unresolved or list(broken_rules(study, scenario)):
         raise _located(errors, origins)
-    toml = tomli_w.dumps(data)
-    case: CaseHead = study.case(in_force(scenario), toml, hashlib.sha256(toml.encode()).hexdigest())
-    return Loaded(case, study, path, origins)
+    return SoundScenario(data, study, scenario, path, origins)
 
 
 def loaded_around(
