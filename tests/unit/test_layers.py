@@ -68,6 +68,7 @@ MAY_IMPORT["studies"] = set(MAY_IMPORT) - {"studies"}
 MAY_IMPORT["grid"] = set(MAY_IMPORT) - {"grid"}
 MAY_IMPORT["identification"] = set(MAY_IMPORT) - {"identification"}
 MAY_IMPORT["validation"] = set(MAY_IMPORT) - {"validation"}
+MAY_IMPORT["app"] = set(MAY_IMPORT) - {"app"}
 MAY_IMPORT["interface"] = set(MAY_IMPORT) - {"interface"}
 MAY_IMPORT["cli"] = set(MAY_IMPORT) - {"cli", "interface"}
 
@@ -146,6 +147,23 @@ def test_drawing_takes_of_the_pictures_of_results_their_style_and_the_gears_alon
         if folder(arrow.importer) == "drawing" and folder(arrow.imported) == "post"
     }
     assert taken <= {"tribodyn.post.style", "tribodyn.post.figures.gears_in_mesh"}
+
+
+def test_the_page_to_design_on_is_opened_by_its_verb_and_from_python_alone():
+    """What it needs is an extra: nothing else may import it, and those two only when they are called."""
+    users = [arrow for arrow in imports(ROOT) if folder(arrow.imported) == "app" != folder(arrow.importer)]
+    assert {arrow.importer for arrow in users} <= {"tribodyn.cli.page", "tribodyn.interface.explore"}
+
+
+def test_the_core_of_the_page_knows_no_library_of_pages():
+    found = [
+        f"{arrow.importer}:{arrow.line} imports {arrow.imported}"
+        for arrow in imports(ROOT)
+        if arrow.importer.startswith("tribodyn.app.core")
+        and (arrow.imported.split(".")[0] == "nicegui" or arrow.imported.startswith("tribodyn.app"))
+        and not arrow.imported.startswith("tribodyn.app.core")
+    ]
+    assert found == []
 
 
 def test_no_circle_by_file():

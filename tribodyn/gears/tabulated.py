@@ -93,7 +93,7 @@ def _tabulated(case: LubricatedCase) -> Tabulated:
     assembly = assembled(case)
     back, torque = case.mesh.backlash is not None, case.operating.gear_torque
     mesh, remark = with_slices(assembly, case.materials, case.mesh, torque)
-    cycle = mesh_cycle_of(assembly, case.materials, mesh, torque, back)
+    cycle = opened(dataclasses.replace(case, mesh=mesh), assembly, coarse=False)
     masses = [(body.mass, body.inertia) for body in case.masses]
     pinion, gear = body_masses(assembly, masses, [material.density for material in case.materials])
 

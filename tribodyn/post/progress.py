@@ -1,9 +1,11 @@
 """A progress bar with rate and time left, for what takes more than a second.
 
 It is drawn on a terminal (of stderr) or in a notebook; anywhere else, as in a script whose output is kept,
-only what is going to take longer than a minute is said beforehand, in a line on stderr.
+only what is going to take longer than a minute is said beforehand, in a line on stderr. A program that starts
+this one gets lines of `MARK`, the share done and what is done, where it sets `LINES` in the environment.
 """
 
+import os
 import sys
 import threading
 from collections.abc import Callable, Iterator
@@ -16,6 +18,9 @@ from tribodyn.numerics.processes.work import foretold, listened, watched
 PATIENCE = 1.0  # s
 #: The same between two pictures of the bar in a notebook.
 NOTEBOOK_PAUSE = 0.5  # s
+
+#: Variable of the environment that asks for lines, what they begin with, and seconds between two of them.
+LINES, MARK, LINE_PAUSE = "TRIBODYN_PROGRESS", "\x1eprogress", 0.1
 
 Report = Callable[[float], None]
 """Takes the fraction done, 0 … 1."""
@@ -39,6 +44,10 @@ def progress_bar(label: str, total: float = 100.0, unit: str = "%") -> Iterator[
 
     `total` is what there is to do, in `unit`, for the rate that is shown.
     """
+    if os.environ.get(LINES):
+        with _in_lines(label) as report:
+            yield report
+        return
     notebook = _notebook()
     if not (notebook or sys.stderr.isatty()):
         with foretold(lambda what: print(f"{label}: {what}", file=sys.stderr, flush=True)):
@@ -87,6 +96,21 @@ def progress_bar(label: str, total: float = 100.0, unit: str = "%") -> Iterator[
         patience.cancel()
         patience.join()
         bar.stop()
+
+
+@contextmanager
+def _in_lines(label: str) -> Iterator[Report]:
+    """Write the share done in lines, what is said of it behind."""
+    said = 0.0
+
+    def write(fraction: float, what: str = label) -> None:
+        nonlocal said
+        if perf_counter() - said >= LINE_PAUSE or fraction >= 1.0:
+            said = perf_counter()
+            print(MARK, f"{fraction:.4f}", what, file=sys.stderr, flush=True)
+
+    with foretold(lambda what: print(f"{label}: {what}", file=sys.stderr, flush=True)):
+        yield write
 
 
 def _notebook() -> bool:

@@ -41,7 +41,7 @@ class Variant:
     text: str
 
 
-class Change(NamedTuple):
+class KeyChange(NamedTuple):
     """What differs between two states at a key; None: nothing is written there."""
 
     key: str
@@ -80,7 +80,7 @@ class Document:
 
     @classmethod
     def new(cls, kind: str, path: Path) -> "Document":
-        """A commented scenario of a kind to begin with, as ``tribodyn init`` writes it; "": the usual kind."""
+        """A commented scenario of a kind to begin with, as ``tribodyn init`` writes it; "": the usual one."""
         return cls(filled(kind or DEFAULT, path.stem), path)
 
     @classmethod
@@ -209,13 +209,13 @@ class Document:
             raise InputError("variant", quoted(name), "no such variant", rule)
         self._go_on(variant.text)
 
-    def changes(self, variant: Variant | None = None) -> list[Change]:
+    def changes(self, variant: Variant | None = None) -> list[KeyChange]:
         """What is written otherwise than in a variant; None: than in the file that was opened or saved."""
         before = (self._saved or "") if variant is None else variant.text
         then = dict(leaves(data_of(before, self.path)[0]))
         now = dict(leaves(self.written()))
         return [
-            Change(key, then.get(key), now.get(key))
+            KeyChange(key, then.get(key), now.get(key))
             for key in dict.fromkeys((*then, *now))
             if then.get(key) != now.get(key)
         ]
@@ -293,7 +293,7 @@ class Document:
         found = findings(written, self.path) if broken is None else None
         if found is None:
             return _Read({}, resolve_table({}, self.path, {}, table_of), Message.each(broken), broken)
-        return _Read(written, found.resolved, found.messages, None)
+        return _Read(written, found.resolved, Message.each(found.error), None)
 
 
 class _Read(NamedTuple):
@@ -303,4 +303,3 @@ class _Read(NamedTuple):
     resolved: Resolved
     messages: tuple[Message, ...]
     broken: InputError | None
-

@@ -10,7 +10,6 @@ from types import UnionType
 from typing import Any, Literal, Union, get_args, get_origin
 
 import tomli_w
-from pydantic.fields import FieldInfo
 
 from tribodyn.gears.plausibility import USUAL, UsualRange
 from tribodyn.input.quantity import InUnit, Names, Reference, Table, meaning
@@ -133,7 +132,9 @@ def without_none(annotation: Any) -> Any:
     return annotation
 
 
-def _sort(annotation: Any, in_unit: InUnit | None, reference: Reference | None) -> tuple[Sort, tuple[str, ...]]:
+def _sort(
+    annotation: Any, in_unit: InUnit | None, reference: Reference | None
+) -> tuple[Sort, tuple[str, ...]]:
     """How a value is written, and what there is to choose from."""
     origin = get_origin(annotation)
     if origin in (tuple, list):
@@ -156,9 +157,12 @@ def _ends(annotation: Any, metadata: list[Any]) -> tuple[float | None, float | N
     marks = [*metadata]
     for part in _annotated(annotation):
         marks += getattr(part, "metadata", ())
-    low = [getattr(mark, end) for mark in marks for end in ("ge", "gt") if getattr(mark, end, None) is not None]
-    high = [getattr(mark, end) for mark in marks for end in ("le", "lt") if getattr(mark, end, None) is not None]
-    return (float(max(low)) if low else None), (float(min(high)) if high else None)
+
+    def given(*names: str) -> list[float]:
+        ends = (getattr(mark, name, None) for mark in marks for name in names)
+        return [float(end) for end in ends if end is not None]
+
+    return max(given("ge", "gt"), default=None), min(given("le", "lt"), default=None)
 
 
 def _annotated(annotation: Any) -> Iterator[Any]:

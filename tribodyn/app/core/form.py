@@ -40,7 +40,7 @@ Step = str | int
 
 
 @dataclass(frozen=True)
-class Field:
+class FormField:
     """A value of the scenario, as a form shows it."""
 
     path: str  # dotted key, for `Document.set`
@@ -66,20 +66,20 @@ class Field:
 
 
 @dataclass(frozen=True)
-class Group:
+class FormGroup:
     """A table of the scenario."""
 
     path: str
     label: str
     about: str
     level: int  # tables that it lies in
-    fields: tuple[Field, ...]
+    fields: tuple[FormField, ...]
     present: bool  # whether the scenario, or a model that it names, has the table
     optional: bool  # whether it may be taken out
     one_of: str  # key of the list or the named tables that it is one of; "": of none
 
 
-def form_of(document: Document) -> tuple[Group, ...]:
+def form_of(document: Document) -> tuple[FormGroup, ...]:
     """The form of a document, in the order of the schema; what is wrong with values is not looked at."""
     written, whole = document.written(), document.resolved.data
     first = _shown_first(document.kind)
@@ -87,7 +87,7 @@ def form_of(document: Document) -> tuple[Group, ...]:
     return tuple(form.groups(_Place(table_of(whole), whole, written)))
 
 
-def written_as(field: Field, text: str, unit: str = "") -> Any:
+def written_as(field: FormField, text: str, unit: str = "") -> Any:
     """What the text of an input, with the unit beside it, is for `Document.set`."""
     text = text.strip()
     if field.kind == "quantity":
@@ -102,7 +102,7 @@ def in_unit(text: str, unit: str, to: str) -> str:
     return converted(text, unit, to)
 
 
-def _choice(field: Field, text: str) -> Any:
+def _choice(field: FormField, text: str) -> Any:
     """A choice as TOML has it: a whole number where the schema has those."""
     number = toml_value(text)
     of_numbers = isinstance(number, int) and field.kind == "choice" and not isinstance(field.value, str)
@@ -148,10 +148,10 @@ class _Form:
     of_pair: bool | None
     first: frozenset[str]
 
-    def groups(self, place: _Place) -> Iterator[Group]:
+    def groups(self, place: _Place) -> Iterator[FormGroup]:
         """The group of a table, and those of the tables in it."""
         whole, written = _table(place.whole), _table(place.written)
-        fields: list[Field] = [*self._model(place)]
+        fields: list[FormField] = [*self._model(place)]
         inside: list[_Place] = []
         known = set()
         for name, field in place.table.model_fields.items():
@@ -174,7 +174,7 @@ class _Form:
                 inside.append(_Place(held, value, written.get(key), path, **more))
             else:
                 fields.append(self._field(_of_law(place.table, whole, key, value), path, value, written))
-        yield Group(
+        yield FormGroup(
             _dotted(place.path),
             _label(place.path),
             place.about,
@@ -207,10 +207,12 @@ class _Form:
             return
         single = next((one.table for one in tables if one.held is None), None)
         if single is not None:
-            reference = next((one for one in parts_of(field) if isinstance(one, Reference) and one.folder), None)
+            reference = next(
+                (one for one in parts_of(field) if isinstance(one, Reference) and one.folder), None
+            )
             yield _Place(single, whole, own, path, about, not field.is_required(), "", reference)
 
-    def _model(self, place: _Place) -> Iterator[Field]:
+    def _model(self, place: _Place) -> Iterator[FormField]:
         """The choice of a model that a table may be like."""
         if place.reference is None:
             return
@@ -220,7 +222,7 @@ class _Form:
         of = type_of_model(place.reference)
         yield self._field(of, key, name, {key[-1]: name} if name is not None else {})
 
-    def _shape(self, path: tuple[Step, ...], whole: Mapping[str, Any], written: Any) -> Iterator[Field]:
+    def _shape(self, path: tuple[Step, ...], whole: Mapping[str, Any], written: Any) -> Iterator[FormField]:
         """What the family of the teeth needs."""
         name, values = whole.get("family"), _table(whole.get(path[-1]))
         if isinstance(name, str) and name in FAMILIES:
@@ -228,11 +230,13 @@ class _Form:
             for one in FAMILIES[name].parameters:
                 yield self._field(of_parameter(one), (*path, one.name), values.get(one.name), own)
 
-    def _field(self, of: FieldType, path: tuple[Step, ...], value: Any, written: Mapping[str, Any]) -> Field:
-        value = of.default if value is None else value
+    def _field(
+        self, of: FieldType, path: tuple[Step, ...], value: Any, written: Mapping[str, Any]
+    ) -> FormField:
+        value = written.get(path[-1], of.default if value is None else value)
         shown, unit = parts_of_quantity(value) if of.kind == "quantity" else (as_toml(value), "")
         given, origin, usual = path[-1] in written, self.origins.of(path), of.usual
-        return Field(
+        return FormField(
             path=_dotted(path),
             label=of.label,
             about=of.about,

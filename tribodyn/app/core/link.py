@@ -29,7 +29,7 @@ def unpacked(link: str) -> tuple[str, dict[str, str]]:
         code = link.strip().removeprefix(_FORM)
         if code == link.strip():
             raise ValueError("another form")
-        pressed = base64.urlsafe_b64decode(code + "=" * (-len(code) % 4))
+        pressed = base64.b64decode(code + "=" * (-len(code) % 4), altchars=b"-_", validate=True)
         opened = zlib.decompressobj()
         content = opened.decompress(pressed, MOST_TOML)
         if opened.unconsumed_tail or not opened.eof:

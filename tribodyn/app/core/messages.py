@@ -40,11 +40,11 @@ class Message(NamedTuple):
         return (cls(error.key, str(error), value, error.rule, error.remedy, error.file),)
 
 
-class Findings(NamedTuple):
+class TextFindings(NamedTuple):
     """A scenario's data with everything that they name, what is wrong with them, and else its tables."""
 
     resolved: Resolved
-    messages: tuple[Message, ...]
+    error: InputError | None
     sound: SoundScenario | None
 
 
@@ -56,14 +56,14 @@ def data_of(text: str, path: Path) -> tuple[dict[str, Any], InputError | None]:
         return {}, error
 
 
-def findings(written: Mapping[str, Any], path: Path) -> Findings:
+def findings(written: Mapping[str, Any], path: Path) -> TextFindings:
     """Hold a scenario's data against schema and rules; what they name is looked for as from a file there."""
     try:
         resolved = resolve_table(copy.deepcopy(dict(written)), path, {}, table_of)
     except InputError as error:  # of a scenario within this one
-        return Findings(Resolved(dict(written), Origins(str(path)), [error]), Message.each(error), None)
+        return TextFindings(Resolved(dict(written), Origins(str(path)), [error]), error, None)
     try:
         found = sound(Resolved(copy.deepcopy(resolved.data), *resolved[1:]), path)
     except InputError as error:
-        return Findings(resolved, Message.each(error), None)
-    return Findings(resolved, (), found)
+        return TextFindings(resolved, error, None)
+    return TextFindings(resolved, None, found)

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
+from tribodyn.post.page.motion import key_rolls as key_rolls
 from tribodyn.post.style import PALETTE, QUIET
 
 PINION_FILL, GEAR_FILL = "#dcebf5", "#f6e6da"
@@ -24,18 +25,6 @@ class GearsInMesh(NamedTuple):
     tip_radii: tuple[float, float]
     key_points: dict[str, tuple[float, float]]  # name, as mathematical text, -> (x, y)
     outside: tuple[float, float] = (0.0, 0.0)  # outer radii of pinion and gear where they are internal
-
-
-def key_rolls(start: float, end: float, pitch: float) -> dict[str, float]:
-    """Roll angles (rad) of the key points in order: B_g, C_p, P, C_g, B_p as Liu & Ni name them.
-
-    From `start` to `end` of contact with `pitch` between pairs, < 0 of an internal pinion; C_p and C_g only
-    where one and two pairs alternate.
-    """
-    rolls = {"B_g": start, "P": 0.0, "B_p": end}
-    if 1.0 < (end - start) / pitch < 2.0:
-        rolls |= {"C_p": end - pitch, "C_g": start + pitch}
-    return dict(sorted(rolls.items(), key=lambda item: item[1] / pitch))
 
 
 def placed(

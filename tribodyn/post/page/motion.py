@@ -50,6 +50,18 @@ def turning_teeth(shape: Mapping[str, Any], pinion_teeth: float) -> dict[str, An
     return {"frames": None, "turning": True} | _teeth(shape, places)
 
 
+def key_rolls(start: float, end: float, pitch: float) -> dict[str, float]:
+    """Roll angles (rad) of the key points in order: B_g, C_p, P, C_g, B_p as Liu & Ni name them.
+
+    From `start` to `end` of contact with `pitch` between pairs, < 0 of an internal pinion; C_p and C_g only
+    where one and two pairs alternate.
+    """
+    rolls = {"B_g": start, "P": 0.0, "B_p": end}
+    if 1.0 < (end - start) / pitch < 2.0:
+        rolls |= {"C_p": end - pitch, "C_g": start + pitch}
+    return dict(sorted(rolls.items(), key=lambda item: item[1] / pitch))
+
+
 class _Places(NamedTuple):
     """Roll angle of the pinion over the samples; contact point (NaN: no contact) and α of every pair."""
 

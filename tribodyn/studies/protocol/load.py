@@ -210,7 +210,8 @@ class SoundScenario(NamedTuple):
         """Its case, for which laws may have to be chosen; raises InputError where that cannot be made."""
         toml = tomli_w.dumps(self.data)
         digest = hashlib.sha256(toml.encode()).hexdigest()
-        case: CaseHead = self.study.case(in_force(self.scenario), toml, digest)
+        with self.origins.naming():
+            case: CaseHead = self.study.case(in_force(self.scenario), toml, digest)
         return Loaded(case, self.study, self.path, self.origins)
 
 
