@@ -20,7 +20,7 @@ PATIENCE = 1.0  # s
 NOTEBOOK_PAUSE = 0.5  # s
 
 #: Variable of the environment that asks for lines, what they begin with, and seconds between two of them.
-LINES, MARK, LINE_PAUSE = "TRIBODYN_PROGRESS", "\x1eprogress", 0.1
+LINES, MARK, LINE_PAUSE = "TRIBODYN_PROGRESS", "@progress", 0.1
 
 Report = Callable[[float], None]
 """Takes the fraction done, 0 … 1."""

@@ -121,3 +121,12 @@ def test_long_assessments_and_searches_say_so_before_they_begin(scenario: str, k
         STUDIES[case.kind].run(case, tmp_path / "no-such-folder" / "record.h5", allow_large=True)
     assert len(said) == 1
     assert re.fullmatch(r"takes about .* and [\d.]+ (s|minutes|hours) of one core", said[0])
+
+
+def test_a_program_that_asks_for_lines_gets_the_share_done():
+    said = piped("import os\nos.environ['TRIBODYN_PROGRESS'] = 'lines'" + SLOWLY)
+    lines = [line.split(" ", 2) for line in said.splitlines()]
+    assert {(mark, label) for mark, _, label in lines} == {("@progress", "slow work")}
+    shares = [float(share) for _, share, _ in lines]
+    assert shares == sorted(shares)
+    assert shares[-1] == 0.5
