@@ -57,21 +57,34 @@ def table(name: str, numbers: np.ndarray) -> Iterator[str]:
 
 
 def _rows(numbers: np.ndarray, depth: int) -> Iterator[str]:
-    indent = "    " * depth
-    if numbers.ndim > 1:
+    """Rows of an array; of zeros alone only the first, as C takes the rest for zero."""
+    indent = " " * depth
+    if not numbers.any() and not np.signbit(numbers).any():
+        zero = "0.0" if numbers.dtype.kind == "f" else "0"
+        yield f"{indent}{'{' * (numbers.ndim - 1)}{zero}{'}' * (numbers.ndim - 1)}"
+    elif numbers.ndim > 2:
         for row in numbers:
             yield f"{indent}{{"
             yield from _rows(row, depth + 1)
             yield f"{indent}}},"
-        return
-    line = indent
-    for number in numbers.tolist():
-        text = f"{literal(number)},"
-        if len(line) + len(text) > LONGEST and line.strip():
-            yield line.rstrip()
-            line = indent
-        line += f"{text} "
-    yield line.rstrip()
+    elif numbers.ndim == 2:
+        for row in numbers:
+            yield from _wrapped(f"{{{_joined(row)}}},", indent)
+    else:
+        yield from _wrapped(_joined(numbers), indent)
+
+
+def _joined(numbers: np.ndarray) -> str:
+    texts = map(repr, numbers.tolist()) if np.isfinite(numbers).all() else map(literal, numbers.tolist())
+    return ", ".join("0" if text == "0.0" else text for text in texts)
+
+
+def _wrapped(text: str, indent: str) -> Iterator[str]:
+    while len(text) > LONGEST:
+        end = text.rfind(" ", 0, LONGEST)
+        yield indent + text[:end]
+        text = text[end + 1 :]
+    yield indent + text
 
 
 def needed_by(kind: CType) -> list[CType]:

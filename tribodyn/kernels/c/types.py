@@ -29,11 +29,12 @@ class CArray:
     item: CNumber
     shape: tuple[int | None, ...]  # None: read when the code runs
     written: bool = False
+    with_lengths: bool = False  # a struct that has its lengths, where those of several records differ
 
     @property
     def is_pointer(self) -> bool:
         """Whether a pointer to its rows is all that it takes."""
-        return None not in self.shape[1:]
+        return not self.with_lengths
 
     @property
     def struct(self) -> str:
@@ -163,7 +164,7 @@ def _common_of_two(a: CType, b: CType) -> CType | None:
         return None if None in items else CTuple(tuple(items))
     if isinstance(a, CArray) and isinstance(b, CArray) and len(a.shape) == len(b.shape) and a.item == b.item:
         shape = tuple(x if x == y else None for x, y in zip(a.shape, b.shape, strict=True))
-        return CArray(a.item, shape, a.written and b.written)
+        return CArray(a.item, shape, a.written, with_lengths=True) if a.written is b.written else None
     if isinstance(a, CRecord) and isinstance(b, CPointer) and a is b.record:
         return a
     if isinstance(b, CRecord) and isinstance(a, CPointer) and b is a.record:

@@ -21,6 +21,7 @@ from tribodyn.kernels.c.types import (
 from tribodyn.kernels.c.unit import CFunction, Unit, define
 
 _FIELD = re.compile(r"(?:\.|->)([A-Za-z_]\w*)")
+_CALL = re.compile(r"(?<!\.)(?<!->)\b([A-Za-z_]\w*)\(")
 _OPENING = """/* {title} */
 #ifndef {guard}
 #define {guard}
@@ -180,7 +181,7 @@ def reached(unit: Unit) -> list[CFunction]:
     def reach(function: CFunction) -> None:
         if function.name in order:
             return
-        for name in sorted(names_in("\n".join(function.lines)) & by_name.keys()):
+        for name in sorted(set(_CALL.findall("\n".join(function.lines))) & by_name.keys()):
             if name != function.name:
                 reach(by_name[name])
         order[function.name] = function
