@@ -6,7 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.bearings_in_time import shafts_of
 from tests.support.c_code import address, called, compiled, floats, zig_compiler
+from tests.support.drawn_shafts import ROLLER
 from tests.support.helical_motion import HELICAL
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.equations import derivatives
@@ -50,6 +52,18 @@ def assert_alike(model: Model, library: Any, rng: np.random.Generator, *, native
         np.testing.assert_allclose(powers_in_c, powers, rtol=1e-10, atol=1e-13 * np.abs(powers).max())
 
 
+#: A shaft with play under a light load.
+LIGHT = {
+    "friction.law": "coulomb",
+    "friction.coefficient": 0.06,
+    "shaft.0.stiffness": "2e5 N*m/rad",
+    "shaft.0.damping_ratio": 0.05,
+    "shaft.0.law": "play",
+    "shaft.0.play": "0.02 deg",
+    "operating.output_torque": "20 N*m",
+    "operating.output_torque_harmonics": [{"amplitude": "60 N*m", "frequency": "300 Hz"}],
+    "mesh.backlash": "0.1 mm",
+}
 CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "helical": ("helical-23-47", HELICAL),
     "two-stage-reducer": ("two-stage-reducer", {}),
@@ -59,6 +73,17 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "masjedi-khonsari, dowson-higginson": ("crc-23-47", {"film.law": "dowson-higginson"}),
     "veciana": ("crc-23-47", {"friction.law": "masjedi-khonsari-veciana"}),
     "coulomb": ("crc-23-47", {"friction.law": "coulomb", "friction.coefficient": 0.05}),
+    "clutch": ("clutch-flywheel", {}),
+    "own teeth": ("run-out-25-51", {"solver.cycles": 5}),
+    "ball and roller bearings in time": (
+        "involute-23-47",
+        {"friction.law": "none", "shaft": shafts_of(ROLLER, "in-time")},
+    ),
+    "play under a load that varies": ("two-stage-reducer", LIGHT),
+    "three meshes, energy-consistent": (
+        "two-pinions-bull-gear",
+        {"mesh.formulation": "energy-consistent", "friction.law": "iso-14179-1", "mesh.backlash": "20 um"},
+    ),
     "torque, energy-consistent": (
         "involute-18-36",
         {"operating.source": "torque", "mesh.formulation": "energy-consistent"},
