@@ -23,17 +23,17 @@ from tribodyn.exchange.rexs.file.model import (
     Value,
 )
 from tribodyn.exchange.rexs.file.xml_file import decoded, read_xml
+from tribodyn.exchange.xml_tree import MOST_BYTES, TOO_LARGE, bounded_content
 
-#: Bytes of a file, also when unpacked, and files in a ZIP.
-MOST_BYTES, MOST_PACKED = 64 * 2**20, 1000
-_TOO_LARGE = f"larger than {MOST_BYTES >> 20} MiB"
+#: Files in a ZIP.
+MOST_PACKED = 1000
 _VERSION = re.compile(r"(\d{1,3})\.(\d{1,3})(\.\d{1,3})*")
 
 
 def read_model(path: Path) -> RexsModel:
     """The gearbox in a file; InputError where it is broken, hostile, of another schema, or no whole."""
     file = str(path)
-    content = _content(path, file)
+    content = bounded_content(path)
     if content[:2] == b"PK":
         content = _unpacked(content, file)
     start = content.lstrip(b"\xef\xbb\xbf\xff\xfe\0 \t\r\n")[:1]
@@ -44,20 +44,6 @@ def read_model(path: Path) -> RexsModel:
     else:
         raise InputError("file", None, "neither XML nor JSON nor ZIP", "name a file of REXS", file)
     return _model(data, file)
-
-
-def _content(path: Path, file: str) -> bytes:
-    try:
-        if not path.is_file():
-            raise InputError("file", None, "no such file", "check the path", file)
-        with path.open("rb") as stream:
-            content = stream.read(MOST_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise InputError("file", None, f"cannot be read: {reason.lower()}", "", file) from None
-    if len(content) > MOST_BYTES:
-        raise InputError("file", None, _TOO_LARGE, "leave results out of the file", file)
-    return content
 
 
 def _unpacked(content: bytes, file: str) -> bytes:
@@ -83,7 +69,7 @@ def _unpacked(content: bytes, file: str) -> bytes:
         why = printable(" ".join(str(error).split()))[:200] or type(error).__name__
         raise InputError("file", None, f"a broken ZIP: {why}", "pack it again", file) from None
     if len(found) > MOST_BYTES:
-        raise InputError(models[0].filename, None, f"unpacked {_TOO_LARGE}", "leave results out of it", file)
+        raise InputError(models[0].filename, None, f"unpacked {TOO_LARGE}", "leave results out of it", file)
     return found
 
 

@@ -1,15 +1,13 @@
-"""REXS as XML, read without entities, document types and anything outside the text."""
+"""REXS as XML: its elements, and how arrays are packed."""
 
 import base64
 import binascii
 import struct
 from typing import Any
-from xml.parsers import expat
 
-from tribodyn.errors import InputError, quoted
+from tribodyn.errors import quoted
+from tribodyn.exchange.xml_tree import XmlElement, read_tree
 
-#: Elements of a file, and inside each other.
-MOST_ELEMENTS, DEEPEST = 2_000_000, 12
 #: Element -> those that it may stand in.
 _PLACES = {
     "model": {""},
@@ -32,78 +30,20 @@ _PLACES = {
 _CODES = {"int32": "i", "float32": "f", "float64": "d"}
 
 
-class XmlElement:
-    """An element: its name, attributes, text, and what stands in it."""
-
-    __slots__ = ("attributes", "children", "name", "pieces")
-
-    def __init__(self, name: str, attributes: dict[str, str]) -> None:
-        self.name, self.attributes = name, attributes
-        self.pieces: list[str] = []
-        self.children: list[XmlElement] = []
-
-    @property
-    def text(self) -> str:
-        """Its own, without what stands in it."""
-        return "".join(self.pieces).strip()
-
-    def of(self, name: str) -> list["XmlElement"]:
-        """What stands in it under a name."""
-        return [child for child in self.children if child.name == name]
-
-
 def read_xml(content: bytes, file: str) -> dict[str, Any]:
     """The `model` of a file as its JSON would have it; InputError where it is no REXS."""
-    return _model(_tree(content, file))
+    return _model(read_tree(content, file, _fault, "REXS"))
 
 
-def _tree(content: bytes, file: str) -> XmlElement:
-    parser = expat.ParserCreate()
-    top = XmlElement("", {})
-    above = [top]
-    count = 0
-
-    def refuse(rule: str, remedy: str) -> None:
-        raise InputError(f"line {parser.CurrentLineNumber}", None, rule, remedy, file)
-
-    def begin(name: str, attributes: dict[str, str]) -> None:
-        nonlocal count
-        count += 1
-        if count == 1 and name != "model":
-            what = "the schema, not a gearbox" if name == "rexsSchema" else "no file of REXS"
-            refuse(
-                f"its first element is {quoted(name)}: {what}", "name a file whose first element is <model>"
-            )
-        if name not in _PLACES or above[-1].name not in _PLACES[name]:
-            where = f"<{above[-1].name}>" if above[-1].name else "the file"
-            refuse(f"<{name}> does not belong in {where}", "write it again as REXS 1.0 to 2.0.0")
-        if count > MOST_ELEMENTS or len(above) > DEEPEST:
-            refuse(f"more than {MOST_ELEMENTS} elements", "leave results out of the file")
-        element = XmlElement(name, attributes)
-        above[-1].children.append(element)
-        above.append(element)
-
-    def end(_: str) -> None:
-        above.pop()
-
-    def text(data: str) -> None:
-        above[-1].pieces.append(data)
-
-    def declared(*_: Any) -> None:
-        refuse("declares a document type or entities, which REXS has not", "take <!DOCTYPE …> out")
-
-    parser.buffer_text = True
-    parser.StartElementHandler, parser.EndElementHandler = begin, end
-    parser.CharacterDataHandler = text
-    parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = declared
-    try:
-        parser.Parse(content, True)
-    except expat.ExpatError as error:
-        rule = f"not XML: {expat.ErrorString(error.code)}"
-        raise InputError(f"line {error.lineno}", None, rule, "write the file again", file) from None
-    except (LookupError, ValueError) as error:  # an encoding that nobody knows
-        raise InputError("file", None, f"not XML: {error}", "write the file as UTF-8", file) from None
-    return top.children[0]
+def _fault(name: str, around: str) -> tuple[str, str] | None:
+    """What is wrong with where an element stands."""
+    if not around and name != "model":
+        what = "the schema, not a gearbox" if name == "rexsSchema" else "no file of REXS"
+        return f"its first element is {quoted(name)}: {what}", "name a file whose first element is <model>"
+    if name not in _PLACES or around not in _PLACES[name]:
+        where = f"<{around}>" if around else "the file"
+        return f"<{name}> does not belong in {where}", "write it again as REXS 1.0 to 2.0.0"
+    return None
 
 
 def _model(element: XmlElement) -> dict[str, Any]:
