@@ -7,7 +7,7 @@ have a decimal point, between semicolons or tabs also a comma. What could be rea
 
 import csv
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -86,6 +86,51 @@ def read_curve(
     """
     due = list(columns) or list(example)
     example = ",".join(f"{name} [unit]" for name in due)
+    file, first, titles, lines = _opened(path, key, example)
+    heads = [_HEADER.match(cell) for cell in titles]
+    names_there = [head["name"] for head in heads if head]
+    header = {head["name"]: (head["unit"], index) for index, head in enumerate(heads) if head}
+    if not columns:
+        unread = next((cell for cell, head in zip(titles, heads, strict=True) if not head), None)
+        if unread is not None or len(header) < max(2, len(heads)):
+            rule = (
+                "two columns at least, none twice" if unread is None else f"{quoted(unread)} names no column"
+            )
+            raise file.bad(first, rule, f"begin the file with {example}, … ")
+        due = list(header)
+    for name in due:
+        if name not in header:
+            raise file.bad(first, f'no column "{name} [unit]" in the header', f"write {example}")
+        if names_there.count(name) > 1:
+            raise file.bad(first, f'"{name}" names more than one column', "leave the others out")
+    rows = [file.of_width(number, line, len(titles)) for number, line in lines]
+    return _values(file, rows, {name: header[name] for name in due})
+
+
+def read_words(path: Path, key: str, words: Collection[str], example: str) -> dict[str, Any]:
+    """Return all columns of a CSV file, some of which have words, in small letters, and no unit.
+
+    `words` are the names of these in small letters; numbers may stand in a column without a unit too.
+    """
+    file, first, titles, lines = _opened(path, key, example)
+    header: dict[str, tuple[str, int]] = {}
+    for place, cell in enumerate(titles):
+        head = _HEADER.match(cell)
+        name, unit = (head["name"], head["unit"].strip()) if head else (cell.strip(), "")
+        if not re.fullmatch(r"\w+", name) or name in header:
+            rule = f"{quoted(name)} names {'more than one' if name in header else 'no'} column"
+            raise file.bad(first, rule, f"begin the file with {example}")
+        header[name] = unit, place
+    rows = [file.of_width(number, line, len(titles)) for number, line in lines]
+    texts = {name: place for name, (_, place) in header.items() if name.lower() in words}
+    found = _values(file, rows, {name: head for name, head in header.items() if name not in texts})
+    for name, place in texts.items():
+        found[name] = {"unit": "", "values": [row.cells[place].strip().lower() for row in rows]}
+    return found
+
+
+def _opened(path: Path, key: str, example: str) -> tuple[_File, int, list[str], list[tuple[int, str]]]:
+    """A file, the number of its header's line, titles of columns, and lines of rows."""
     file = _File(path, key)
     lines = [
         (number, line)
@@ -106,31 +151,22 @@ def read_curve(
     if len(lines) > MOST_POINTS + 1:
         raise file.bad(lines[MOST_POINTS + 1][0], f"more than {MOST_POINTS} points", "leave some out")
     titles, count = _titles(file, lines)
-    first = lines[0][0]
-    heads = [_HEADER.match(cell) for cell in titles]
-    names_there = [head["name"] for head in heads if head]
-    header = {head["name"]: (head["unit"], index) for index, head in enumerate(heads) if head}
-    if not columns:
-        unread = next((cell for cell, head in zip(titles, heads, strict=True) if not head), None)
-        if unread is not None or len(header) < max(2, len(heads)):
-            rule = (
-                "two columns at least, none twice" if unread is None else f"{quoted(unread)} names no column"
-            )
-            raise file.bad(first, rule, f"begin the file with {example}, … ")
-        due = list(header)
-    for name in due:
-        if name not in header:
-            raise file.bad(first, f'no column "{name} [unit]" in the header', f"write {example}")
-        if names_there.count(name) > 1:
-            raise file.bad(first, f'"{name}" names more than one column', "leave the others out")
-    rows = [file.of_width(number, line, len(titles)) for number, line in lines[count:]]
-    places = {name: header[name][1] for name in due}
+    return file, lines[0][0], titles, lines[count:]
+
+
+def _values(
+    file: _File, rows: list[_CsvRow], columns: Mapping[str, tuple[str, int]]
+) -> dict[str, dict[str, Any]]:
+    """Numbers of columns, given by their unit and place."""
+    places = {name: place for name, (_, place) in columns.items()}
     commas = _decimal_commas(file, rows, places)
-    values = {
-        name: [_number(file, row, row.cells[place], name, commas) for row in rows]
-        for name, place in places.items()
+    return {
+        name: {
+            "unit": unit,
+            "values": [_number(file, row, row.cells[place], name, commas) for row in rows],
+        }
+        for name, (unit, place) in columns.items()
     }
-    return {name: {"unit": header[name][0], "values": values[name]} for name in due}
 
 
 def _titles(file: _File, lines: list[tuple[int, str]]) -> tuple[list[str], int]:
