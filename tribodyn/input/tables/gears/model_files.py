@@ -90,6 +90,9 @@ class Modification(quantity.Table):
         quantity.csv_file("error", as_list=True),
     ] = ()
     tooth_errors: Annotated[FlankErrors, quantity.csv_file("tooth", "height", "face", "error")] | None = None
+    tooth_errors_back: (
+        Annotated[FlankErrors, quantity.csv_file("tooth", "height", "face", "error")] | None
+    ) = None
     tooth_formula: quantity.Text | None = Field(None, examples=["5 * sin(2 * pi * i / z)"])
     both_flanks: quantity.Switch = False
 

@@ -44,6 +44,8 @@ from tribodyn.standards.flank_tolerances import FlankTolerances
 
 #: Error of a tooth over the module, at most.
 LARGEST = 0.25
+#: Keys with tables of errors.
+_TABLES = "tooth_errors", "tooth_errors_back"
 
 ToothSampleNumber = Annotated[int, Field(strict=True, ge=0, le=2**31 - 1), Draws()] | None
 
@@ -87,8 +89,11 @@ def _of_gear(
         yield RunOut(gear.teeth, gear.eccentricity, angles[0], gear.wobble, angles[1], gear.face_width)
     if table.pitch_errors:
         yield PitchErrors(tuple(table.pitch_errors), placed)
+    back = table.tooth_errors_back
     if table.tooth_errors is not None:
-        yield measured(table.tooth_errors, flanks)
+        yield measured(table.tooth_errors, flanks if back is None else (placed,))
+    if back is not None:
+        yield measured(back, tuple(flank for flank in BOTH_FLANKS if flank != placed))
     if table.tooth_formula is not None:
         yield FormulaErrors(table.tooth_formula, gear.teeth, gear.face_width, flanks)
     if sample is not None and allowed is not None:
@@ -114,8 +119,9 @@ def differing(drive: DriveTable) -> Iterator[tuple[str, str]]:
             yield f"drive.{side}.eccentricity", shown_length(gear.eccentricity)
         if gear.wobble:
             yield f"drive.{side}.wobble", f"{gear.wobble:.3g} rad"
-        if gear.modification.tooth_errors is not None:
-            yield f"drive.{side}.modification.tooth_errors", "a table"
+        for key in _TABLES:
+            if getattr(gear.modification, key) is not None:
+                yield f"drive.{side}.modification.{key}", "a table"
         if gear.modification.tooth_formula is not None:
             yield f"drive.{side}.modification.tooth_formula", f'"{gear.modification.tooth_formula}"'
 
@@ -147,8 +153,12 @@ def broken_own_teeth(drive: DriveTable, sample: int | None) -> Iterator[InputErr
         if gear.internal and gear.wobble:
             rule, shown = "internal pairs are even along the face", f"{gear.wobble:.3g} rad"
             yield InputError(f"drive.{side}.wobble", shown, rule, "leave it out")
-        if table.tooth_errors is not None:
-            yield from _broken_table(f"{key}.tooth_errors", table.tooth_errors, gear)
+        for name in _TABLES:
+            if (errors := getattr(table, name)) is not None:
+                yield from _broken_table(f"{key}.{name}", errors, gear)
+        if table.both_flanks and table.tooth_errors_back is not None:
+            rule, remedy = "contradicts both_flanks = true", "leave one of them out"
+            yield InputError(f"{key}.tooth_errors_back", "a table", rule, remedy)
         if table.tooth_formula is not None:
             yield from _broken_formula(f"{key}.tooth_formula", table.tooth_formula, gear, drive.module)
         for name, size in _sizes(gear):
@@ -168,8 +178,9 @@ def _sizes(gear: Gear) -> Iterator[tuple[str, float]]:
     yield "eccentricity", gear.eccentricity
     yield "wobble", gear.wobble * gear.face_width / 2.0
     yield "modification.pitch_errors", max(map(abs, table.pitch_errors), default=0.0)
-    if table.tooth_errors is not None:
-        yield "modification.tooth_errors", float(np.max(np.abs(table.tooth_errors.in_si()[3])))
+    for name in _TABLES:
+        if (errors := getattr(table, name)) is not None:
+            yield f"modification.{name}", float(np.max(np.abs(errors.in_si()[3])))
 
 
 def _broken_formula(key: str, formula: str, gear: Gear, module: float) -> Iterator[InputError]:
