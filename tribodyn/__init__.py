@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from tribodyn.geometry.families import Family
     from tribodyn.interface import standards as standards
     from tribodyn.interface.drive import GearPair, NamedGear, constraints, drive, gear
-    from tribodyn.interface.exchange import export, import_scenario
+    from tribodyn.interface.exchange import export, import_measured, import_scenario
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
     from tribodyn.interface.identify import Identified, identify
     from tribodyn.interface.line_contact import line_contact
@@ -90,6 +90,7 @@ __all__ = [
     "gear",
     "gradient",
     "identify",
+    "import_measured",
     "import_scenario",
     "line_contact",
     "map",
@@ -133,6 +134,7 @@ _PLACES = {
     "gear": "tribodyn.interface.drive",
     "gradient": "tribodyn.interface.gradient",
     "identify": "tribodyn.interface.identify",
+    "import_measured": "tribodyn.interface.exchange",
     "import_scenario": "tribodyn.interface.exchange",
     "line_contact": "tribodyn.interface.line_contact",
     "open": "tribodyn.interface.sweep:open_result",

@@ -30,7 +30,10 @@ IMPORT_EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn import\n"
     "  tribodyn import gearbox.rexs -o gearbox.toml\n"
-    "\b\nWithout a file the formats are listed. What was not used, and what is missing, is printed."
+    "  tribodyn import measured.gde\n"
+    "  tribodyn import profile.csv pitch.csv --into drive.toml --gear pinion\n"
+    "\b\nWithout a file the formats are listed. What was not used, and what is missing, is printed.\n"
+    "A measured gear is evaluated by ISO 1328-1, and put into a scenario with --into and --gear."
 )
 
 
@@ -74,8 +77,26 @@ def export(
 
 
 def import_(
-    file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="A file of another program.")] = None,
+    file: Annotated[
+        list[Path] | None,
+        typer.Argument(metavar="[FILE]...", help="A file of another program; several of one measured gear."),
+    ] = None,
     *,
+    into: Annotated[
+        str | None,
+        typer.Option(
+            "--into",
+            help="Scenario that a measured gear goes into.",
+            autocompletion=scenarios_and_records,
+        ),
+    ] = None,
+    gear: Annotated[
+        str, typer.Option("--gear", metavar="NAME", help="The gear of it that was measured.")
+    ] = "",
+    datum: Annotated[
+        str,
+        typer.Option("--datum", metavar="END", help="End of its face that is the datum face: start or end."),
+    ] = "",
     from_: Annotated[
         str | None,
         typer.Option(
@@ -88,20 +109,35 @@ def import_(
     force: ReplaceOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Make a scenario of a file of another program."""
+    """Make a scenario of a file of another program, or put a measured gear into one."""
     from tribodyn.cli.printing import print_files, print_json, print_prose
     from tribodyn.errors import InputError
     from tribodyn.numerics.files.output_files import check_output, write_output
     from tribodyn.studies import handed_over
 
-    if file is None:
+    if not file:
         _list(handed_over.readers(), json)
         return
-    target = output or Path(f"{file.stem}.toml")
+    if into is not None or handed_over.format_of(file[0], from_).measure is not None:
+        done = handed_over.import_measured(file, into, gear, datum, output, from_, force=force)
+        if json:
+            print_json(done.as_dict())
+            return
+        for line in (*done.evaluation.lines(), *done.remarks):
+            print_prose(line)
+        print_files("file", done.files)
+        return
+    if len(file) > 1 or gear or datum:
+        what = (
+            "one file makes a scenario" if len(file) > 1 else "a gear is measured, not made into a scenario"
+        )
+        raise InputError("import", str(file[-1]), what, "add --into SCENARIO, or leave it out")
+    (file_,) = file
+    target = output or Path(f"{file_.stem}.toml")
     if target.suffix != ".toml":
         raise InputError("--output", str(target), "a scenario ends in .toml", f'write "{target.stem}.toml"')
     check_output(target, force)
-    imported = handed_over.read_scenario(file, from_)
+    imported = handed_over.read_scenario(file_, from_)
     write_output(target, imported.toml, force=force)
     if json:
         print_json({"files": [str(target)], "remarks": list(imported.remarks), **imported.details})

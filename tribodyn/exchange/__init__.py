@@ -18,6 +18,8 @@ FORMATS: Registry[ExchangeFormat] = Registry(
         "step": "tribodyn.exchange.cad.step:FORMAT",
         "gltf": "tribodyn.exchange.cad.gltf:FORMAT",
         "rexs": "tribodyn.exchange.rexs.rexs_format:FORMAT",
+        "gde": "tribodyn.exchange.gde.gde_format:FORMAT",
+        "gear-csv": "tribodyn.gears.measured.machine_tables:FORMAT",
     },
     "tribodyn.formats",
     ExchangeFormat,

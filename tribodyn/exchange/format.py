@@ -11,6 +11,7 @@ import numpy as np
 
 from tribodyn.drawing.shapes import PlacedPart
 from tribodyn.errors import InputError
+from tribodyn.exchange.measured_gear import MeasuredGear
 from tribodyn.record.loss_map import LossMap
 
 #: What can be exported.
@@ -26,6 +27,8 @@ class Exported(NamedTuple):
     map: LossMap | None = None
     #: distance of chords from exact surfaces at most, m -> gears and shafts in their places
     parts: Callable[[float], list[PlacedPart]] | None = None
+    #: name of a gear and its datum face ("": the first with deviations, the start) -> as it would be measured
+    measured: Callable[[str, str], MeasuredGear] | None = None
 
     @property
     def sort(self) -> str:
@@ -118,7 +121,7 @@ class ExchangeFormat:
 
     `write(exported, name, choices)` gets what is exported, the name of the output without its ending, and
     what was chosen, in SI units; it returns the contents of the files. `read(path)` makes a scenario of a
-    file, and raises InputError where it cannot.
+    file, `measure(path)` a measured gear, and both raise InputError where they cannot.
     """
 
     name: str
@@ -127,4 +130,5 @@ class ExchangeFormat:
     takes: tuple[str, ...] = ()  # of `MAP`, `RECORD`, `SCENARIO`, what it can write
     write: Callable[[Exported, str, Mapping[str, Any]], Written] | None = None
     read: Callable[[Path], Imported] | None = None
+    measure: Callable[[Path], MeasuredGear] | None = None
     choices: Mapping[str, FormatChoice] = field(default_factory=lambda: MappingProxyType({}))

@@ -1,6 +1,6 @@
 """Files of other programs from Python."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +9,7 @@ from tribodyn.interface.result import Run
 from tribodyn.interface.scenario import public
 from tribodyn.studies import handed_over
 from tribodyn.studies.handed_over import HandedOver
+from tribodyn.studies.measured_flanks import MeasuredImport
 
 
 @public
@@ -73,3 +74,48 @@ def import_scenario(path: str | Path, format: str | None = None) -> Imported:
         Of a file that cannot be read, or holds what no scenario can.
     """
     return handed_over.read_scenario(Path(path), format)
+
+
+@public
+def import_measured(
+    files: str | Path | Sequence[str | Path],
+    into: str | Path | None = None,
+    gear: str = "",
+    *,
+    datum: str = "start",
+    output: str | Path | None = None,
+    format: str | None = None,
+    force: bool = False,
+) -> MeasuredImport:
+    """Evaluate a measured gear by ISO 1328-1, and put it into a scenario.
+
+    Parameters
+    ----------
+    files : path, or several of one gear
+        Files of a gear measuring machine; nothing else is read.
+    into : scenario's name or path, optional
+        Where the gear belongs; without one nothing is written.
+    gear : str
+        Its name there: ``"pinion"``, ``"gear"``, or that of a train.
+    datum : str
+        End of its face that is the datum face: ``"start"``, at the most negative z, or ``"end"``.
+    output : path, optional
+        The scenario that is written, tables beside it; default: that of `into` with ``-measured``.
+    format : str, optional
+        Name of the files' format; default: by their endings.
+    force : bool
+        Replace also files that tribodyn did not make.
+
+    Returns
+    -------
+    MeasuredImport
+        `evaluation`: deviations of every flank, m, and their classes; `files` that were written; `remarks`.
+
+    Raises
+    ------
+    InputError
+        Of a file that cannot be read, or is of another gear; of a file that is in the way.
+    """
+    paths = [files] if isinstance(files, (str, Path)) else files
+    to = None if output is None else Path(output)
+    return handed_over.import_measured([Path(p) for p in paths], into, gear, datum, to, format, force=force)

@@ -2,7 +2,7 @@
 
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -29,6 +29,8 @@ from tribodyn.numerics.files.output_files import check_output, write_output
 from tribodyn.record.loss_map import is_map, loss_map
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord, open_any
+from tribodyn.studies import measured_flanks
+from tribodyn.studies.measured_flanks import MeasuredImport, measuring
 from tribodyn.studies.protocol.load import Loaded, load, load_data
 
 #: Distance of triangles from the exact surfaces on a page, m.
@@ -62,7 +64,7 @@ def writers() -> dict[str, ExchangeFormat]:
 
 def readers() -> dict[str, ExchangeFormat]:
     """Formats that can be read, by name."""
-    return {name: each for name, each in FORMATS.items() if each.read is not None}
+    return {name: each for name, each in FORMATS.items() if each.read is not None or each.measure is not None}
 
 
 def export(
@@ -108,6 +110,15 @@ def export(
 
 def read_scenario(path: Path, name: str | None = None) -> Imported:
     """Make a scenario of a file of another program, of a format that its ending tells, or that is named."""
+    form = format_of(path, name)
+    if form.read is None:
+        rule, remedy = f"{form.name} holds a measured gear, no scenario", "add --into SCENARIO --gear NAME"
+        raise InputError("import", str(path), rule, remedy)
+    return form.read(path)
+
+
+def format_of(path: Path, name: str | None = None) -> ExchangeFormat:
+    """The format of a file that is read, by its ending or by name; InputError where there is none."""
     known = readers()
     if name is not None:
         form = _named(name, "import", known)
@@ -123,8 +134,28 @@ def read_scenario(path: Path, name: str | None = None) -> Imported:
         form = found
     if not is_file(path):
         raise InputError("import", str(path), "no such file", "name a file")
-    assert form.read is not None
-    return form.read(path)
+    return form
+
+
+def import_measured(
+    paths: Sequence[Path],
+    into: str | Path | None,
+    gear: str = "",
+    datum: str = "",
+    output: Path | None = None,
+    name: str | None = None,
+    *,
+    force: bool = False,
+) -> MeasuredImport:
+    """Put the measurement of a gear, of one file or several, into a scenario; see `measured_flanks`."""
+    found = []
+    for path in paths:
+        form = format_of(path, name)
+        if form.measure is None:
+            rule = f"{form.name} holds no measured gear"
+            raise InputError("import", str(path), rule, "leave --into out, or name a file of a measurement")
+        found.append((path, form.measure(path)))
+    return measured_flanks.import_measured(found, into, gear, datum, output, force=force)
 
 
 def _named(name: str, verb: str, known: Mapping[str, ExchangeFormat]) -> ExchangeFormat:
@@ -154,7 +185,8 @@ def _source(source: str | Path, overrides: Mapping[str, Any], form: ExchangeForm
     path = Path(source)
     if str(source).endswith(".toml") or not (is_file(path) or path.suffix in (".h5", ".hdf5")):
         loaded = load(source, overrides)
-        return Exported(loaded.path, tomllib.loads(loaded.case.toml), parts=partial(placed_parts, loaded))
+        data, parts = tomllib.loads(loaded.case.toml), partial(placed_parts, loaded)
+        return Exported(loaded.path, data, parts=parts, measured=measuring(loaded))
     for key in overrides:
         remedy = f"one of {', '.join(form.choices)}" if form.choices else "omit it"
         raise InputError(

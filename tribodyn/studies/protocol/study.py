@@ -67,12 +67,11 @@ class Study:
     run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; ``quantities_of(case)
                   -> dict``, those of a case without a record (optional: to be swept)
     report        ``REPORTED``, heading -> quantities of the summary; ``sentences(record)``, how far it is
-                  to be trusted; ``verdict(record)``, what a reader asks first (optional: that of gears);
-                  ``SWEPT``, quantities that a sweep keeps, and ``SWEEP_TABLE``, those that it prints (both
-                  optional); ``SHORT``, short names of quantities, ``PANELS``, datasets that a page shows at
-                  first, ``TOP``, quantities at the top of what is printed as JSON (all optional); of a
-                  record ``tables`` of its parts, ``maps`` over the face, ``profiles`` at the cursor, and its
-                  ``mechanism``, bodies in motion, ``solid``, what bends and turns in space (all optional)
+                  to be trusted; optional ``verdict(record)``, what a reader asks first (else that of gears);
+                  ``SWEPT``, quantities that a sweep keeps; ``SWEEP_TABLE``, those that it prints; ``SHORT``,
+                  short names of quantities; ``PANELS``, datasets that a page shows at first; ``TOP``, what
+                  stands at the top of JSON; of a record ``tables`` of its parts, ``maps`` over the face,
+                  ``profiles`` at the cursor, ``mechanism``, bodies in motion, ``solid``, bodies in space
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `protocol.batch.Batch`
@@ -83,11 +82,12 @@ class Study:
     heat          ``HEAT``, case -> its thermal network, or None (optional; heat.part): `cases.heat_part`
     derivatives   ``DIFFERENTIABLE``, called as `derivatives.differentiable.Differentiable` (its default)
     placed_parts  ``placed_parts(case, tolerance)``, as `drawing.shapes` (optional; drivetrain.placed_parts)
+    mounted_gears ``mounted_gears(case)``, by name, to be set beside a measurement (optional)
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional; figures)
     verbs         ``VERBS``, verbs and Python functions (optional), see `protocol.verb`; ``RUN_PROPERTIES``,
                   a class, of ``tribodyn`` too, of what its runs have beside those of a `Run` (optional)
-    template      ``template.toml``, or the kind's name: a commented scenario in which TITLE stands for its
-                  title, see `protocol.load.filled`; of a study in a single module its attribute ``TEMPLATE``
+    template      ``template.toml``, or the kind's name, a commented scenario as `protocol.load.filled` takes
+                  it; of a study in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
 
     Parameters
@@ -155,10 +155,9 @@ class Study:
 
         title = {"title": case.title}
         data = {**title, **in_si(checked.data), **title, "estimate": as_data(estimate)}
-        remarks = checked.remarks
-        if share_of_limits(estimate) >= WORTH_SAYING:
-            remarks = (*remarks, f"A run takes about {described(estimate)}.")
-        return checked._replace(data=data, remarks=remarks)
+        much = share_of_limits(estimate) >= WORTH_SAYING
+        said = (f"A run takes about {described(estimate)}.",) if much else ()
+        return checked._replace(data=data, remarks=(*checked.remarks, *said))
 
     def run(
         self,
@@ -171,10 +170,7 @@ class Study:
         resume: bool = False,
         client: Any = None,
     ) -> RunResult:
-        """Run a case and write its record; arguments, result and errors as of `protocol.run.run`.
-
-        An efficiency in the summary that cannot be is None, see `record.withheld_efficiency`.
-        """
+        """Run a case, as `protocol.run.run` does; an efficiency that cannot be is withheld."""
         if resume and not self.resumes:
             raise InputError("--resume", None, f"{self.about}: such a run cannot go on", "omit it")
         estimate = self.estimate(case)
@@ -220,8 +216,7 @@ class Study:
 
     def swept(self) -> "Mapping[str, Quantity]":
         """Quantities that a sweep keeps of every case, by name; none: such a study cannot be swept."""
-        swept = self._part("report", "SWEPT", optional=True) or ()
-        return {quantity.name: quantity for quantity in swept}
+        return {quantity.name: quantity for quantity in self._part("report", "SWEPT", optional=True) or ()}
 
     def quantity(self, name: str) -> "Quantity | None":
         """A quantity that its summary or its sweeps have, by name."""
@@ -283,6 +278,10 @@ class Study:
     def placed_parts(self) -> "Callable[[Any, float], list[Any]] | None":
         """(case, tolerance) -> its gears and shafts in space; None: those of its pair, if it has one."""
         return self._part("placed_parts", "placed_parts", optional=True)
+
+    def mounted_gears(self) -> "Callable[[Any], Mapping[str, Any]] | None":
+        """Case -> its gears as a measurement is set beside them; None: their teeth are all alike."""
+        return self._part("mounted_gears", "mounted_gears", optional=True)
 
     def differentiable(self, case: Any, of: Sequence[str], wrt: Sequence[str]) -> Any:
         """Quantities of a case as a function of its numbers: a `Differentiable`, or what serves as one."""

@@ -1,0 +1,1 @@
+"""Measured gears: files of measuring machines to and from the deviations of single teeth."""
