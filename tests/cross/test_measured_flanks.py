@@ -98,7 +98,7 @@ def test_pitch_of_an_eccentric_gear_is_felt_as_its_eccentricity(side: str, datum
     for flank, clockwise in ((RIGHT, 1.0), (LEFT, -1.0)):
         normal = teeth + clockwise * (np.pi / (2 * z) + np.pi / 2 - alpha)
         index[flank] = clockwise * size * np.cos(angle - normal) / np.cos(alpha)
-    found = opened(MeasuredGear(index=index), side, tmp_path, datum)
+    found = opened(MeasuredGear(pitch=index), side, tmp_path, datum)
     expected = shift(side, size, EDGE[datum] * angle)
     # over a pair's time of contact, 1.6 pitches, the direction turns by as much
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=size * 2.0 * np.pi * 0.9 / z)

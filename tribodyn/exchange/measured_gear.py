@@ -70,7 +70,7 @@ class MeasuredGear(NamedTuple):
     nominal: NominalGear = NominalGear()
     traces: tuple[FlankTrace, ...] = ()
     #: cumulative pitch deviations F_pi by flank
-    index: Mapping[str, Float[Array, " tooth"]] = MappingProxyType({})
+    pitch: Mapping[str, Float[Array, " tooth"]] = MappingProxyType({})
     radial: Float[Array, " gap"] | None = None  # readings of runout, positive outwards
     diameter: float | None = None  # measuring circle of pitch; None: the reference circle
     name: str = ""
@@ -82,13 +82,12 @@ class MeasuredGear(NamedTuple):
 
     def beside(self, other: "MeasuredGear") -> "MeasuredGear":
         """What two files say of one gear; the second is asked where the first says nothing."""
-        nominal = NominalGear(
-            *(a if a is not None else b for a, b in zip(self.nominal, other.nominal, strict=True))
-        )
+        said = {name: value for name, value in self.nominal._asdict().items() if value is not None}
+        nominal = other.nominal._replace(**said)
         return MeasuredGear(
             nominal,
             self.traces + other.traces,
-            {**other.index, **self.index},
+            {**other.pitch, **self.pitch},
             other.radial if self.radial is None else self.radial,
             other.diameter if self.diameter is None else self.diameter,
             self.name or other.name,

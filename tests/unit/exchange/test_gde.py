@@ -56,9 +56,9 @@ def same(one: MeasuredGear, two: MeasuredGear) -> None:
         assert (a.evaluated or 0.0) == pytest.approx(b.evaluated or 0.0, rel=1e-11)
         np.testing.assert_allclose(a.place, b.place, rtol=1e-11)
         np.testing.assert_allclose(a.deviation, b.deviation, rtol=1e-11, atol=1e-18)
-    assert one.index.keys() == two.index.keys()
-    for flank in one.index:
-        np.testing.assert_allclose(one.index[flank], two.index[flank], rtol=1e-11)
+    assert one.pitch.keys() == two.pitch.keys()
+    for flank in one.pitch:
+        np.testing.assert_allclose(one.pitch[flank], two.pitch[flank], rtol=1e-11)
 
 
 def test_what_is_written_is_read_again(tmp_path: Path):
@@ -122,7 +122,7 @@ def test_angles_and_diameters_of_the_involute(tmp_path: Path):
 def test_single_pitch_deviations_are_added_up(tmp_path: Path):
     single = '<single_pitch_deviation unit="um">1 -2 4 -3</single_pitch_deviation>'
     text = gde(f"<pitch><flank>r</flank>{single}</pitch>")
-    assert read(written(tmp_path, text)).index[RIGHT] == pytest.approx([1e-6, -1e-6, 3e-6, 0.0], abs=1e-15)
+    assert read(written(tmp_path, text)).pitch[RIGHT] == pytest.approx([1e-6, -1e-6, 3e-6, 0.0], abs=1e-15)
 
 
 BOMB = '<!DOCTYPE x [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">]>'

@@ -75,14 +75,14 @@ WIDE = "tooth;F_p_left;F_p_right;r\n;um;um;mm\n1;2;0;0,005\n2;-1;4;0,006\n3;3;-2
 def test_pitch_and_runout_tooth_by_tooth(text: str, tmp_path: Path):
     found = read(written(tmp_path, text))
     for flank, index in INDEX.items():
-        assert found.index[flank] == pytest.approx(index, abs=1e-15)
+        assert found.pitch[flank] == pytest.approx(index, abs=1e-15)
     assert found.radial == pytest.approx([5e-6, 6e-6, 4e-6])
 
 
 def test_single_pitch_deviations_close_round_the_gear(tmp_path: Path):
     """Of 3, −1 and 1 µm a third of what is left over, 1 µm, is taken off each."""
     found = read(written(tmp_path, "tooth,f_p_left [um]\n1,3\n2,-1\n3,1\n"))
-    assert found.index[LEFT] == pytest.approx([2e-6, 0.0, 0.0], abs=1e-15)
+    assert found.pitch[LEFT] == pytest.approx([2e-6, 0.0, 0.0], abs=1e-15)
 
 
 @pytest.mark.parametrize(

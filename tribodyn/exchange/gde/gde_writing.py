@@ -46,7 +46,7 @@ def _nominal(gear: MeasuredGear) -> Iterator[str]:
 def _measured(gear: MeasuredGear) -> Iterator[str]:
     for trace in gear.traces:
         yield from _trace(trace)
-    for flank, index in gear.index.items():
+    for flank, index in gear.pitch.items():
         yield f"<{words.PITCHES[0]}>"
         yield f"  <{words.FLANK[0]}>{flank}</{words.FLANK[0]}>"
         if gear.diameter is not None:

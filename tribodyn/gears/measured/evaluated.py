@@ -126,8 +126,8 @@ def _traces(measured: MeasuredGear, nominal: NominalGear, edition: int) -> Itera
 
 def _rest(measured: MeasuredGear) -> Iterator[FlankDeviation]:
     for flank in FLANKS:
-        if flank in measured.index:
-            single, total = pitch_deviations(measured.index[flank])
+        if flank in measured.pitch:
+            single, total = pitch_deviations(measured.pitch[flank])
             yield FlankDeviation("single_pitch", flank, single, {})
             yield FlankDeviation("total_pitch", flank, total, {})
     if measured.radial is not None:

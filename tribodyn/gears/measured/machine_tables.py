@@ -186,7 +186,7 @@ def _pitch(table: _Columns) -> MeasuredGear:
             index[flank] = ordered
         else:
             index.setdefault(flank, index_of_single(ordered))
-    return MeasuredGear(index=index, radial=radial, remarks=table.remarks())
+    return MeasuredGear(pitch=index, radial=radial, remarks=table.remarks())
 
 
 def _pitch_columns(

@@ -108,7 +108,7 @@ def _run_out(radial: Float[Array, " gap"], gear: MountedGear, datum: str) -> Run
 
 
 def _check_teeth(measured: MeasuredGear, gear: MountedGear, file: str) -> None:
-    counts = {f"pitch deviations of the {flank} flanks": index for flank, index in measured.index.items()}
+    counts = {f"pitch deviations of the {flank} flanks": index for flank, index in measured.pitch.items()}
     if measured.radial is not None:
         counts["readings of runout"] = measured.radial
     for what, values in counts.items():
@@ -135,7 +135,7 @@ class _Converting:
 
     def index(self, flank: int) -> Float[Array, " tooth"] | None:
         """What every tooth's flank lacks by its pitch, without the eccentricity; None: not measured."""
-        found = self.measured.index.get(self.gear.side(flank, self.datum))
+        found = self.measured.pitch.get(self.gear.side(flank, self.datum))
         if found is None:
             return None
         diameter = self.measured.diameter
