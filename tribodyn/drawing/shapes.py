@@ -10,7 +10,7 @@ import numpy as np
 from tribodyn.drawing.modified import Modified, modified
 from tribodyn.geometry.assembly import Assembly, half_angles
 from tribodyn.geometry.body import ToothOutline, half_profile, tooth_outline
-from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius
+from tribodyn.geometry.drive import SIDES, BodyMass, Side, body_of, reference_radius
 from tribodyn.geometry.modification import UNMODIFIED, FlankModification, Modifications
 from tribodyn.numerics.elementary import tan
 from tribodyn.numerics.shapes import Array, Float
@@ -22,7 +22,7 @@ _ARC = 3
 
 
 class GearShape(NamedTuple):
-    """A gear without hub and web: one tooth, repeated about the axis and swept along it."""
+    """A gear without a hub: one tooth, repeated about the axis and swept along it, and what is inside."""
 
     #: points of one tooth on the exact curve, from the middle of a gap counter-clockwise to the middle of the
     #: next, m; its axis of symmetry is x
@@ -36,6 +36,16 @@ class GearShape(NamedTuple):
     twist: float  # of the outline along z, counter-clockwise seen from +z, rad/m: right-hand where > 0
     tolerance: float  # distance of chords from the curve, m
     modified: tuple[Modified, ...] = ()  # what turns its points
+    web: tuple[float, float] = (0.0, 0.0)  # inner radius of the rim and thickness of the web, m; 0: a disc
+
+    @property
+    def inside(self) -> tuple[tuple[float, float], ...]:
+        """Corners of half a section beside the bore, radius and z, m, upwards; of a ring its outside."""
+        (rim, web), half = self.web, self.width / 2.0
+        if not rim:
+            return (self.radius, -half), (self.radius, half)
+        lower = (rim, -half), (rim, -web / 2.0), (self.radius, -web / 2.0)
+        return *lower, *((radius, -z) for radius, z in reversed(lower))
 
     def thinned(self, z: Float[Array, " height"]) -> Float[Array, "height point"]:
         """Rotation of its points by modifications, counter-clockwise, rad, at heights, m."""
@@ -83,10 +93,12 @@ def gear_shape(
     side: Side,
     tolerance: float,
     flanks: tuple[ModifiedFlank | None, ModifiedFlank | None] = (None, None),
+    stated: BodyMass = BodyMass(),
 ) -> GearShape:
     """A gear of a pair of plain numbers; chords leave the outline by half the tolerance (m) at most.
 
-    The other half is left to what the helix adds. `flanks`: at the lower and the upper angles of a tooth.
+    The other half is left to what the helix adds. `flanks`: at the lower and the upper angles of a tooth. A
+    body is a rim with a web where both are `stated`.
     """
     body, tooth = body_of(assembly.drive, side), assembly.tooth(side)
     allowed = tolerance / 2.0
@@ -110,13 +122,14 @@ def gear_shape(
     edges = ends[1:] if tooth.overrun > 0.0 else ends[2:]
     pinion_twist = float(tan(assembly.drive.helix_angle) / reference_radius(assembly.drive, "pinion"))
     ratio = float(assembly.drive.pinion.teeth / assembly.drive.gear.teeth)
+    bore, rim = abs(float(body.bore_radius)), float(shape.root_radius) - (stated.rim or np.inf)
     return GearShape(
         tooth=np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=-1),
         corners=tuple(sorted(edges + [len(radius) - 1 - end for end in edges])),
         ends=tuple(sorted(ends + [len(radius) - 1 - end for end in ends])),
         teeth=abs(round(float(body.teeth))),
         internal=bool(body.teeth < 0),
-        radius=abs(float(body.bore_radius)),
+        radius=bore,
         width=float(body.face_width),
         twist=pinion_twist if side == "pinion" else -pinion_twist * ratio,
         tolerance=tolerance,
@@ -125,6 +138,7 @@ def gear_shape(
             for upper, each in enumerate(flanks)
             if each is not None
         ),
+        web=(rim, stated.web) if stated.web and rim > bore else (0.0, 0.0),
     )
 
 
@@ -192,13 +206,16 @@ def modified_flank(
 
 
 def parts_of_pair(
-    assembly: Assembly, tolerance: float, modifications: Modifications = UNMODIFIED
+    assembly: Assembly,
+    tolerance: float,
+    modifications: Modifications = UNMODIFIED,
+    stated: tuple[BodyMass, BodyMass] = (BodyMass(), BodyMass()),
 ) -> list[PlacedPart]:
     """The gears of a pair while teeth touch at the pitch point; y from the pinion's axis to the gear's."""
     apart = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
     ring = {side for side in SIDES if body_of(assembly.drive, side).teeth < 0}
     parts = []
-    for side, half, upwards in zip(SIDES, half_angles(assembly), (1.0, -1.0), strict=True):
+    for side, body, half, upwards in zip(SIDES, stated, half_angles(assembly), (1.0, -1.0), strict=True):
         direction = np.pi / 2.0 * (-upwards if side in ring else upwards) + half
         turns = -1.0 if side == "pinion" else float(assembly.drive.pinion.teeth / assembly.drive.gear.teeth)
         taken = getattr(modifications, side)
@@ -206,7 +223,7 @@ def parts_of_pair(
         flanks = front, front if taken.both_flanks else None
         if pushes_above(side, turns):
             flanks = flanks[1], flanks[0]
-        shape = gear_shape(assembly, side, tolerance, flanks)
+        shape = gear_shape(assembly, side, tolerance, flanks, body)
         centre = (0.0, 0.0 if side == "pinion" else apart, 0.0)
         fill = "ring" if side in ring else side
         parts.append(PlacedPart(side, shape, centre, float(direction), fill, turns))

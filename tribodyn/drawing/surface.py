@@ -42,34 +42,65 @@ def volume(surface: Surface) -> float:
 def _of_gear(shape: GearShape, teeth: int) -> Surface:
     """All points, and the triangles of so many teeth."""
     pitch, count = 2.0 * np.pi / shape.teeth, len(shape.tooth) - 1
-    pieces = pieces_of_arc(pitch, shape.radius, shape.tolerance / 2) if shape.radius else 1
+    end = shape.inside[0][0]
+    pieces = pieces_of_arc(pitch, end, shape.tolerance / 2) if end else 1
     arc = np.linspace(-0.5, 0.5, pieces + 1) * pitch
-    circle = (
-        shape.radius * np.stack([np.cos(arc), np.sin(arc)], axis=-1) if shape.radius else np.zeros((1, 2))
-    )
+    unit = np.stack([np.cos(arc), np.sin(arc)], axis=-1) if end else np.zeros((1, 2))
     before, after = _normals(shape, pitch)
     heights = np.linspace(-0.5, 0.5, _layers(shape) + 1) * shape.width
-    thinned, even = shape.thinned(heights), np.zeros((len(heights), len(circle) - 1))
+    thinned = shape.thinned(heights)
     way = -1.0 if shape.internal else 1.0
-    swept = [_swept(shape, teeth, shape.tooth[:-1], way * before, way * after, heights, thinned[:, :-1], way)]
-    if shape.radius:
-        radial = circle[:-1] / shape.radius
-        swept.append(_swept(shape, teeth, circle[:-1], -way * radial, -way * radial, heights, even, -way))
-    parts = [surface for surface, _ in swept]
-    numbers = np.append(np.arange(count + 1), np.arange(count + 1, count + 1 + len(circle))[::-1])
+    around = _swept(shape, teeth, shape.tooth[:-1], way * before, way * after, heights, thinned[:, :-1], way)
+    parts, edges = [around[0]], [[around[0].point[around[1][end]]] for end in (0, 1)]
+    if end:
+        inside, rims = _inside(shape, teeth, unit[:-1], len(heights) - 1)
+        parts += inside
+        for edge, rim in zip(edges, rims, strict=True):
+            edge.append(rim)
+    numbers = np.append(np.arange(count + 1), np.arange(count + 1, count + 1 + len(unit))[::-1])
     sector = numbers[::-1] if shape.internal else numbers
     # of every tooth: the last points of both lines are the first ones of the next tooth
     tooth = np.arange(shape.teeth)[:, None]
     outline = (np.arange(count + 1) + count * tooth) % (count * shape.teeth)
-    inner = (np.arange(len(circle)) + (len(circle) - 1) * tooth) % max(1, (len(circle) - 1) * shape.teeth)
+    inner = (np.arange(len(unit)) + (len(unit) - 1) * tooth) % max(1, (len(unit) - 1) * shape.teeth)
     every = np.concatenate([outline, count * shape.teeth + inner], axis=1)[:teeth]
-    for end, way in ((0, -1.0), (1, 1.0)):
-        points = np.concatenate([turned_about(shape.tooth, thinned[[-end]])[0], circle])
+    for upper, way in ((0, -1.0), (1, 1.0)):
+        points = np.concatenate([turned_about(shape.tooth, thinned[[-upper]])[0], end * unit])
         flat = every[:, sector[triangles_of(points[sector])]].reshape(-1, 3)
-        edges = [surface.point[ends[end]] for surface, ends in swept]
-        place = np.concatenate(edges if shape.radius else [*edges, [[0.0, 0.0, heights[-end]]]])
+        place = np.concatenate(edges[upper] if end else [*edges[upper], [[0.0, 0.0, heights[-upper]]]])
         parts.append(Surface(place, np.tile([0.0, 0.0, way], (len(place), 1)), flat[:, :: int(way)]))
     return _joined(parts)
+
+
+def _inside(
+    shape: GearShape, teeth: int, unit: Float[Array, "point 2"], layers: int
+) -> tuple[list[Surface], tuple[Float[Array, "point 3"], Float[Array, "point 3"]]]:
+    """The side of the bore, by a tooth's part of a circle of radius 1; and its points at both ends."""
+    way, found, ends = -1.0 if shape.internal else 1.0, [], []
+
+    def swept(radius: float, *heights: float) -> tuple[Surface, Int[Array, "end point"]]:
+        even = np.zeros((len(heights), len(unit)))
+        return _swept(shape, teeth, radius * unit, -way * unit, -way * unit, np.array(heights), even, -way)
+
+    for (r, z), (s, y) in pairwise(shape.inside):
+        if r == s:
+            if r:
+                steps = max(1, int(np.ceil(layers * (y - z) / shape.width)))
+                surface, edges = swept(r, *np.linspace(z, y, steps + 1))
+                found.append(surface)
+                ends += [surface.point[edge] for edge in edges]
+            continue
+        # a face of the web: below it goes in, above out
+        (outer, _), (inner, _) = swept(max(r, s), z), swept(min(r, s), z)
+        points, count = np.concatenate([outer.point, inner.point]), len(outer.point)
+        a = np.arange(teeth * len(unit))
+        b = (a + 1) % count
+        corners = ((a, b, a + count),) if min(r, s) == 0.0 else ((a, b, b + count), (a, b + count, a + count))
+        triangles = np.concatenate([np.stack(corner, axis=-1) for corner in corners])
+        up = 1.0 if s > r else -1.0
+        normals = np.tile([0.0, 0.0, up], (len(points), 1))
+        found.append(Surface(points, normals, triangles[:, :: int(up)]))
+    return found, (ends[0], ends[-1])
 
 
 def _layers(shape: GearShape) -> int:

@@ -224,7 +224,8 @@ def placed_parts(loaded: Loaded, tolerance: float) -> list[PlacedPart]:
             return []
         pair = assembled(loaded.case.pair)
         check(pair.family, pair.drive)
-        return parts_of_pair(pair, tolerance, loaded.case.pair.mesh.modifications)
+        case = loaded.case.pair
+        return parts_of_pair(pair, tolerance, case.mesh.modifications, case.masses)
 
 
 def bodies_in_space(record: Record) -> bytes:

@@ -15,7 +15,7 @@ from tribodyn.drawing.shapes import GearShape, PlacedPart, ShaftShape, parts_of_
 from tribodyn.drawing.surface import surface_of
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.body import gear_polygon, section_area_and_inertia, tooth_outline
-from tribodyn.geometry.drive import SIDES, body_of
+from tribodyn.geometry.drive import SIDES, BodyMass, body_of
 from tribodyn.geometry.families import family
 from tribodyn.studies.drive_file import load_drive
 from tribodyn.studies.handed_over import placed_parts
@@ -177,6 +177,27 @@ def test_a_gear_without_a_bore_and_one_that_is_undercut_are_closed():
     surface = surface_of(pinion.shape)
     assert np.any(np.all(surface.point[:, :2] == 0.0, axis=1))
     volume_within(surface.point, surface.triangle)
+
+
+@pytest.mark.parametrize(("name", "bore"), [("liu-ni-crc-23-47", "25 mm"), ("helical-23-47", "0 mm")])
+def test_between_rim_and_bore_there_is_a_web(name: str, bore: str):
+    """What a disc has more is a ring on either side; normals are those of the triangles."""
+    model = load_drive(name, {"drive.gear.bore_radius": bore, "drive.pinion.face_width": "8 mm"})
+    assembly = assemble(family(model.family), model.drive)
+    made = BodyMass(rim=12e-3, web=6e-3)
+    disc, rim = (
+        parts_of_pair(assembly, 4e-6, stated=(BodyMass(), each))[1].shape for each in (BodyMass(), made)
+    )
+    assert isinstance(rim, GearShape)
+    surfaces = surface_of(disc), surface_of(rim)
+    volumes = [volume_within(surface.point, surface.triangle) for surface in surfaces]
+    inside = float(assembly.tooth("gear").root_radius) - 12e-3
+    rings = np.pi * (inside**2 - rim.radius**2) * (rim.width - 6e-3)
+    assert volumes[0] - volumes[1] == pytest.approx(rings, rel=1e-4)
+    one, two, three = np.moveaxis(surfaces[1].point[surfaces[1].triangle], 1, 0)
+    flat = np.cross(two - one, three - one)
+    flat /= np.linalg.norm(flat, axis=1)[:, None]
+    assert np.all(np.einsum("ni,ni->n", flat, surfaces[1].normal[surfaces[1].triangle[:, 1]]) > 0.99)
 
 
 def test_a_shaft_is_its_cylinders(tmp_path: Path):

@@ -119,14 +119,13 @@ def _gear(out: Entities, shape: GearShape) -> list[int]:
         loops[1].append(high)
         surface = out.spline_surface(grid, spline, along)
         faces.append(_side(out, surface, (low, right, high, left), outwards=not shape.internal))
-    half = shape.width / 2.0
-    circles = [list[Edge](), list[Edge]()]
-    if shape.radius:
-        circles = [_circle(out, shape.radius, height) for height in (-half, half)]
-        faces += _cylinder(out, shape.radius, *circles, outwards=shape.internal)
-    for height, outline, circle in zip((-half, half), loops, circles, strict=True):
+    corners = shape.inside if shape.internal else shape.inside[::-1]
+    circles = [_circle(out, r, z) if r else [] for r, z in corners]
+    faces += _turned(out, corners, circles)
+    ends = (circles[0], circles[-1])[:: 1 if shape.internal else -1]
+    for height, outline, circle in zip((-0.5, 0.5), loops, ends, strict=True):
         outer, inner = (circle, outline) if shape.internal else (outline, circle)
-        faces.append(_flat(out, height, outer, inner, upwards=height > 0.0))
+        faces.append(_flat(out, height * shape.width, outer, inner, upwards=height > 0.0))
     return faces
 
 
@@ -134,10 +133,15 @@ def _shaft(out: Entities, shape: ShaftShape) -> list[int]:
     """Faces of a shaft."""
     profile = shaft_profile(shape)
     circles = [_circle(out, r, z) if r else [] for r, z in profile]
+    return _turned(out, [*profile, profile[0]], [*circles, circles[0]])
+
+
+def _turned(
+    out: Entities, corners: Sequence[tuple[float, float]], circles: Sequence[Sequence[Edge]]
+) -> list[int]:
+    """Faces by corners of half a section, radius and z; along z outside, back inside; their circles."""
     faces = []
-    for number, (r, z) in enumerate(profile):
-        after = (number + 1) % len(profile)
-        (s, w), both = profile[after], (circles[number], circles[after])
+    for (r, z), (s, w), *both in zip(corners, corners[1:], circles, circles[1:], strict=False):
         if r == s and r:
             faces += _cylinder(out, r, *(both if w > z else both[::-1]), outwards=w > z)
         elif r != s:

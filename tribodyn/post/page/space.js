@@ -209,15 +209,26 @@ const space = (function () {
       const ratio = Math.min(2, window.devicePixelRatio || 1), width = Math.round((canvas.clientWidth || 900) * ratio), height = Math.round((canvas.clientHeight || 560) * ratio);
       if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
       draw(parts, view, turned, colors);
-      const flat = project(camera(view, width / height), canvas.clientWidth, canvas.clientHeight);
-      for (const part of parts) {
-        const { centre } = placed(part, turned), { up } = camera(view, 1), middle = (part.mesh.low + part.mesh.high) / 2;
-        part.label.hidden = !part.visible || !$("space-named").checked;
-        const across = Math.hypot(up[0], up[1]) || 1, [x, y] = flat([centre[0] + part.mesh.radius * up[0] / across, centre[1] + part.mesh.radius * up[1] / across, centre[2] + middle]);
-        part.label.style.transform = `translate(${x}px, ${y}px) translate(-50%, -100%)`;
-      }
+      named(camera(view, width / height));
       canvas.dataset.view = JSON.stringify([view.yaw, view.pitch, view.distance / view.fitted, ...view.target]);
       canvas.dataset.turned = String(turned);
+    }
+    // names above their parts, those nearer to the eye first; none over another but of the one that is pointed at
+    function named(seen) {
+      const flat = project(seen, canvas.clientWidth, canvas.clientHeight), across = Math.hypot(seen.up[0], seen.up[1]) || 1, taken = [];
+      const places = parts.map((part) => {
+        const { centre } = placed(part, turned), z = centre[2] + (part.mesh.low + part.mesh.high) / 2;
+        return [part, [centre[0] + part.mesh.radius * seen.up[0] / across, centre[1] + part.mesh.radius * seen.up[1] / across, z]];
+      });
+      const far = ([part, place]) => part === marked ? 0 : Math.hypot(...place.map((one, k) => one - seen.eye[k]));
+      for (const [part, place] of places.sort((one, other) => far(one) - far(other))) {
+        part.label.hidden = !part.visible || !($("space-named").checked || part === marked);
+        if (part.label.hidden) continue;
+        const [x, y] = flat(place), half = part.label.offsetWidth / 2, high = part.label.offsetHeight;
+        part.label.style.transform = `translate(${x - half}px, ${y - high}px)`;
+        part.label.hidden = taken.some(([u, v, wide]) => Math.abs(x - u) < half + wide && Math.abs(y - v) < high);
+        if (!part.label.hidden) taken.push([x, y, half]);
+      }
     }
     const redraw = () => { if (!waits) { waits = true; requestAnimationFrame(picture); } };
     const fit = () => { fitted(parts, view, (canvas.clientWidth || 900) / (canvas.clientHeight || 560), turned); redraw(); };

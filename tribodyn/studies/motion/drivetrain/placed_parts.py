@@ -39,9 +39,9 @@ def placed_parts(case: Gearbox, tolerance: float) -> list[PlacedPart]:
     found = []
     for number, gear in enumerate(case.gears):
         (mesh, side), (key, flanks) = gear.meshes[0], _flanks(case, number, pairs)
-        key = gear.face_width, *key
+        key = gear.face_width, gear.stated, *key
         if key not in shapes:
-            shapes[key] = gear_shape(pairs[mesh], side, tolerance, flanks)
+            shapes[key] = gear_shape(pairs[mesh], side, tolerance, flanks, gear.stated)
         x, y = case.bodies[gear.body].centre
         if y != y:  # of a pair they are as far apart as its path of contact says
             y = float(path.pinion_pitch_radius + path.gear_pitch_radius)
