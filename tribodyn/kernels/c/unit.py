@@ -86,14 +86,19 @@ class Unit:
         self._names.add(f"{wanted[-1]}_{number}")
         return f"{wanted[-1]}_{number}"
 
-    def constant(self, name: str, value: Any) -> str:
-        """The name of a number that has one in capitals; "" where its text serves."""
-        name = name.lstrip("_")
-        if not name.isupper() or len(name) < 3 or name in _MACROS or value != value or value < 0:
+    def constant(self, name: str, value: Any, module: str) -> str:
+        """The name of a number that has one in capitals; "" where its text serves.
+
+        With the module's before it where it is private, or stands for another number elsewhere.
+        """
+        if not name.isupper() or len(name) < 3 or value != value or value < 0 or value >= 1e300:
             return ""
-        if self.constants.setdefault(name, value) != value:
-            return ""
-        return name if type(self.constants[name]) is type(value) and abs(value) < 1e300 else ""
+        whole = f"{module.upper()}_{name.lstrip('_')}"
+        for wanted in (whole,) if name.startswith("_") or name in _MACROS else (name, whole):
+            known = self.constants.setdefault(wanted, value)
+            if type(known) is type(value) and known == value:
+                return wanted
+        return ""
 
     def function(self, function: FunctionType, kinds: tuple[CType, ...]) -> CFunction:
         """The C function for arguments of such types."""

@@ -90,7 +90,7 @@ def signature(function: CFunction) -> str:
         if result
         else f"void {function.name}({parameters})"
     )
-    return whole if function.exported else f"static {whole}"
+    return whole if function.exported else f"static inline {whole}"
 
 
 def _parameter(name: str, kind: CType) -> str:

@@ -112,7 +112,8 @@ class Expressions:
     def _named(self, name: str, value: Any) -> Value:
         """A value from outside the function; a number by its name."""
         if number_type(value) in (WHOLE, DOUBLE):
-            return Known(python_number(value), self.unit.constant(name, python_number(value)))
+            number = python_number(value)
+            return Known(number, self.unit.constant(name, number, self.source.module))
         return Known(value)
 
     def _of_Tuple(self, node: ast.Tuple) -> Value:
