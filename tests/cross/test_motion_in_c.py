@@ -1,7 +1,8 @@
-"""The right-hand side as C code against Python's own arithmetic and the native kernel."""
+"""Right-hand side and march by time as C code against Python's own arithmetic and the native kernels."""
 
+import ctypes
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -11,9 +12,14 @@ from tests.support.c_code import address, called, compiled, floats, zig_compiler
 from tests.support.drawn_shafts import ROLLER
 from tests.support.helical_motion import HELICAL
 from tests.support.states import random_place, random_state
+from tests.support.time_runs import Walker, pair
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import Model, with_shared_code
 from tribodyn.kernels.c import CEntry, translated
+from tribodyn.solve.integrator import Status
+from tribodyn.solve.march.by_time import advance, time_buffer
+from tribodyn.solve.march.crossing import INTERVAL, STEPS, WHOLE
+from tribodyn.solve.march.time_outputs import outputs, time_outputs
 from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
 from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
@@ -105,3 +111,38 @@ def test_c_agrees_with_the_native_kernel(tmp_path: Path, rng):
 def test_zig_compiles_it_without_a_warning(tmp_path: Path, rng):
     model = model_of("crc-23-47", {})
     assert_alike(model, compiled(in_c(model), tmp_path, zig_compiler()), rng, native=False)
+
+
+class Answer(ctypes.Structure):
+    """What `advance` returns: status, steps, right-hand sides."""
+
+    _fields_: ClassVar[Any] = [(name, ctypes.c_int64) for name in ("status", "steps", "evaluations")]
+
+
+def test_a_march_by_time_in_c_takes_the_steps_of_the_native_one(tmp_path: Path):
+    """Past pairs that come and go, from call to call; with its outputs."""
+    walker = Walker.begun(pair({"operating.start_speed": "150 rad/s"}).model)
+    model, control = walker.model, walker.control
+    y, clock, work, buffer = (
+        walker.y.copy(),
+        walker.clock.copy(),
+        work_array(model),
+        time_buffer(model.layout),
+    )
+    out = np.zeros(len(time_outputs(model)))
+    entries = {
+        "advance": CEntry(advance, (0.0, control, model, y, clock, work, buffer)),
+        "outputs": CEntry(outputs, (model, y, clock, work, buffer, out)),
+    }
+    source = translated(entries, {"model": model, "control": control}).source
+    library = compiled(source, tmp_path)
+    places = [address(library, name) for name in ("control", "model")]
+    for time in (4e-3, 9e-3, 1.5e-2):
+        expected = walker.to(time)
+        found = called(library.advance, time, *places, y, clock, work, buffer, result=Answer)
+        assert found[0] == Status.DONE.value
+        called(library.outputs, places[1], y, clock, work, buffer, out)
+        np.testing.assert_allclose(y, walker.y, rtol=1e-9, atol=1e-11 * np.abs(walker.y).max())
+        np.testing.assert_array_equal(clock[[WHOLE, INTERVAL, STEPS]], walker.clock[[WHOLE, INTERVAL, STEPS]])
+        np.testing.assert_allclose(out, list(expected.values()), rtol=1e-7, atol=1e-9 * np.abs(out).max())
+    assert clock[WHOLE] > 3
