@@ -39,7 +39,7 @@ MAY_IMPORT["quantities"] = {"numerics"}
 MAY_IMPORT["record"] = {"numerics", "signals", "quantities"}
 MAY_IMPORT["post"] = {"numerics", "signals", "quantities", "record"}
 MAY_IMPORT["drawing"] = {"numerics", "geometry", "post"}
-MAY_IMPORT["exchange"] = {"numerics", "train", "record", "drawing"}
+MAY_IMPORT["exchange"] = {"numerics", "train", "dynamics", "kernels", "solve", "record", "drawing"}
 MAY_IMPORT["input"] = {
     "exchange",
     "train",

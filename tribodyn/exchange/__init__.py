@@ -17,6 +17,7 @@ FORMATS: Registry[ExchangeFormat] = Registry(
         "c": "tribodyn.exchange.maps.c:FORMAT",
         "step": "tribodyn.exchange.cad.step:FORMAT",
         "gltf": "tribodyn.exchange.cad.gltf:FORMAT",
+        "fmu": "tribodyn.exchange.fmu.fmu_format:FORMAT",
         "rexs": "tribodyn.exchange.rexs.rexs_format:FORMAT",
         "gde": "tribodyn.exchange.gde.gde_format:FORMAT",
         "gear-csv": "tribodyn.gears.measured.machine_tables:FORMAT",

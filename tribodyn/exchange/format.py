@@ -10,12 +10,35 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.drawing.shapes import PlacedPart
+from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import InputError
 from tribodyn.exchange.measured_gear import MeasuredGear
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.loss_map import LossMap
 
 #: What can be exported.
 MAP, RECORD, SCENARIO = "the record of a map", "the record of a run", "a scenario"
+
+#: What is prescribed at an end of a gearbox that is moved on in time.
+TORQUE, SPEED = "torque", "speed"
+
+
+class GearboxInTime(NamedTuple):
+    """A gearbox as a model to be moved on in time; what is prescribed at its ends stands in the operation."""
+
+    model: Model
+    starts: Mapping[float, Float[Array, " state"]]  # speed of the input, rad/s -> state at the start
+    start_speed: float  # of the input in the scenario, rad/s
+    output_torque: float  # of the load on the output at the start, N m
+    rtol: float
+    max_steps: int  # in a reference cycle of nominal speed
+    duration: float  # of the scenario's run, s
+    meshes: tuple[str, ...]  # names
+    ends: tuple[str, str]  # names of the bodies at input and output
+    oil_temperature: float | None  # of the oil that enters the meshes, K; None: not known
+    #: temperature of that oil, K -> the model with surfaces and laws there; None: `remarks` say why not
+    at_temperature: Callable[[float], Model] | None = None
+    remarks: tuple[str, ...] = ()  # what of the scenario is left out
 
 
 class Exported(NamedTuple):
@@ -29,6 +52,8 @@ class Exported(NamedTuple):
     parts: Callable[[float], list[PlacedPart]] | None = None
     #: name of a gear and its datum face ("": the first with deviations, the start) -> as it would be measured
     measured: Callable[[str, str], MeasuredGear] | None = None
+    #: what is prescribed at input and output, `TORQUE` or `SPEED` -> model
+    in_time: Callable[[str, str], GearboxInTime] | None = None
 
     @property
     def sort(self) -> str:

@@ -18,6 +18,7 @@ from tribodyn.exchange.format import (
     ExchangeFormat,
     Exported,
     FormatChoice,
+    GearboxInTime,
     Imported,
 )
 from tribodyn.gears.prepare import assembled
@@ -185,8 +186,13 @@ def _source(source: str | Path, overrides: Mapping[str, Any], form: ExchangeForm
     path = Path(source)
     if str(source).endswith(".toml") or not (is_file(path) or path.suffix in (".h5", ".hdf5")):
         loaded = load(source, overrides)
-        data, parts = tomllib.loads(loaded.case.toml), partial(placed_parts, loaded)
-        return Exported(loaded.path, data, parts=parts, measured=measuring(loaded))
+        return Exported(
+            loaded.path,
+            tomllib.loads(loaded.case.toml),
+            parts=partial(placed_parts, loaded),
+            measured=measuring(loaded),
+            in_time=partial(_in_time, loaded),
+        )
     for key in overrides:
         remedy = f"one of {', '.join(form.choices)}" if form.choices else "omit it"
         raise InputError(
@@ -209,7 +215,18 @@ def _source(source: str | Path, overrides: Mapping[str, Any], form: ExchangeForm
         summary,
         losses,
         lambda tolerance: placed_parts(load_data(scenario, path.stem), tolerance),
+        in_time=lambda drive, load: _in_time(load_data(scenario, path.stem), drive, load),
     )
+
+
+def _in_time(loaded: Loaded, drive: str, load: str) -> GearboxInTime:
+    """A scenario as a model to be moved on in time."""
+    make = loaded.study.in_time()
+    if make is None:
+        rule = f"is of the kind {loaded.study.kind}, which has no motion in time"
+        raise InputError("export", str(loaded.path), rule, "name a gear-pair or a gear-train")
+    with loaded.naming():
+        return make(loaded.case, drive, load)
 
 
 def placed_parts(loaded: Loaded, tolerance: float) -> list[PlacedPart]:

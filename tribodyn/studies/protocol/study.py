@@ -9,15 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
-from tribodyn.cases.cost import (
-    WORTH_SAYING,
-    Estimate,
-    as_data,
-    described,
-    refuse_large,
-    say_beforehand,
-    share_of_limits,
-)
+from tribodyn.cases import cost
 from tribodyn.cases.results import CaseHead as CaseHead
 from tribodyn.cases.results import CheckResult as CheckResult
 from tribodyn.cases.results import Progress as Progress
@@ -30,6 +22,7 @@ if TYPE_CHECKING:
     from tribodyn.cases.assessment_part import Contribution, WholeDrive
     from tribodyn.cases.heat_part import GearboxHeat
     from tribodyn.cases.loss_part import GearboxLosses
+    from tribodyn.exchange.format import GearboxInTime
     from tribodyn.input.quantity import Table
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.quantities.quantity import Quantity, Reported
@@ -45,6 +38,7 @@ _ALSO_IN = {
     "losses": ("losses.part",),
     "heat": ("heat.part",),
     "placed_parts": ("drivetrain.placed_parts",),
+    "in_time": ("drivetrain.in_time",),
     "sweep_figures": ("figures",),
     "page": ("figures",),
 }
@@ -83,6 +77,8 @@ class Study:
     derivatives   ``DIFFERENTIABLE``, called as `derivatives.differentiable.Differentiable` (its default)
     placed_parts  ``placed_parts(case, tolerance)``, as `drawing.shapes` (optional; drivetrain.placed_parts)
     mounted_gears ``mounted_gears(case)``, by name, to be set beside a measurement (optional)
+    in_time       ``in_time(case, drive, load)``, an `exchange.format.GearboxInTime` whose ends have a torque
+                  or a speed as input (optional; drivetrain.in_time)
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional; figures)
     verbs         ``VERBS``, verbs and Python functions (optional), see `protocol.verb`; ``RUN_PROPERTIES``,
                   a class, of ``tribodyn`` too, of what its runs have beside those of a `Run` (optional)
@@ -137,10 +133,10 @@ class Study:
         own = files.joinpath(f"{self.kind}.toml")
         return (own if own.is_file() else files.joinpath("template.toml")).read_text(encoding="utf-8")
 
-    def estimate(self, case: Any) -> Estimate:
+    def estimate(self, case: Any) -> cost.Estimate:
         """What a run of a case takes; nothing, where the study does not say."""
         estimate = self._part("estimate", "estimate", optional=True)
-        return estimate(case) if estimate else Estimate()
+        return estimate(case) if estimate else cost.Estimate()
 
     def check(self, case: Any, *, allow_large: bool = False) -> CheckResult:
         """Check a case and say what it describes, and what a run takes where that is much, without a run.
@@ -149,14 +145,14 @@ class Study:
         `allow_large` permits.
         """
         estimate = self.estimate(case)
-        refuse_large(estimate, allow_large)
+        cost.refuse_large(estimate, allow_large)
         checked = self._part("check", "check")(case)
         from tribodyn.quantities.quantity import in_si
 
         title = {"title": case.title}
-        data = {**title, **in_si(checked.data), **title, "estimate": as_data(estimate)}
-        much = share_of_limits(estimate) >= WORTH_SAYING
-        said = (f"A run takes about {described(estimate)}.",) if much else ()
+        data = {**title, **in_si(checked.data), **title, "estimate": cost.as_data(estimate)}
+        much = cost.share_of_limits(estimate) >= cost.WORTH_SAYING
+        said = (f"A run takes about {cost.described(estimate)}.",) if much else ()
         return checked._replace(data=data, remarks=(*checked.remarks, *said))
 
     def run(
@@ -174,8 +170,8 @@ class Study:
         if resume and not self.resumes:
             raise InputError("--resume", None, f"{self.about}: such a run cannot go on", "omit it")
         estimate = self.estimate(case)
-        refuse_large(estimate, allow_large)
-        say_beforehand(estimate)
+        cost.refuse_large(estimate, allow_large)
+        cost.say_beforehand(estimate)
         how = {"resume": resume, "client": client} if self.resumes else {}
         try:
             result = self._part("run", "run")(case, output, force=force, progress=progress, **how)
@@ -282,6 +278,10 @@ class Study:
     def mounted_gears(self) -> "Callable[[Any], Mapping[str, Any]] | None":
         """Case -> its gears as a measurement is set beside them; None: their teeth are all alike."""
         return self._part("mounted_gears", "mounted_gears", optional=True)
+
+    def in_time(self) -> "Callable[[Any, str, str], GearboxInTime] | None":
+        """(case, what drives, what loads) -> a model to be moved on in time; None: its cases are none."""
+        return self._part("in_time", "in_time", optional=True)
 
     def differentiable(self, case: Any, of: Sequence[str], wrt: Sequence[str]) -> Any:
         """Quantities of a case as a function of its numbers: a `Differentiable`, or what serves as one."""

@@ -1,0 +1,367 @@
+/* FMI 3.0 for co-simulation: the functions of the standard over an instance.
+ *
+ * Names, types and values are those of "Functional Mock-up Interface Specification", version 3.0.
+ */
+#include "instance.c"
+
+#include <stdbool.h>
+
+#if defined(FMI3_OVERRIDE_FUNCTION_PREFIX) && defined(FMI3_ACTUAL_FUNCTION_PREFIX)
+#define PREFIX FMI3_ACTUAL_FUNCTION_PREFIX
+#elif !defined(FMI3_OVERRIDE_FUNCTION_PREFIX) && defined(FMI3_FUNCTION_PREFIX)
+#define PREFIX FMI3_FUNCTION_PREFIX
+#endif
+#if defined(PREFIX)
+#define JOINED(prefix, name) prefix##name
+#define NAMED(prefix, name) JOINED(prefix, name)
+#define FUNCTION(name) NAMED(PREFIX, name)
+#else
+#define FUNCTION(name) name
+#endif
+
+#if defined(_WIN32)
+#define EXPORTED __declspec(dllexport)
+#elif defined(__GNUC__)
+#define EXPORTED __attribute__((visibility("default")))
+#else
+#define EXPORTED
+#endif
+
+typedef void *fmi3Instance;
+typedef void *fmi3InstanceEnvironment;
+typedef void *fmi3FMUState;
+typedef uint32_t fmi3ValueReference;
+typedef float fmi3Float32;
+typedef double fmi3Float64;
+typedef int8_t fmi3Int8;
+typedef uint8_t fmi3UInt8;
+typedef int16_t fmi3Int16;
+typedef uint16_t fmi3UInt16;
+typedef int32_t fmi3Int32;
+typedef uint32_t fmi3UInt32;
+typedef int64_t fmi3Int64;
+typedef uint64_t fmi3UInt64;
+typedef bool fmi3Boolean;
+typedef char fmi3Char;
+typedef const fmi3Char *fmi3String;
+typedef uint8_t fmi3Byte;
+typedef const fmi3Byte *fmi3Binary;
+typedef bool fmi3Clock;
+typedef int fmi3Status; /* the first values are those of `enum status` */
+typedef int fmi3DependencyKind;
+typedef int fmi3IntervalQualifier;
+
+typedef void (*fmi3LogMessageCallback)(fmi3InstanceEnvironment, fmi3Status, fmi3String, fmi3String);
+typedef void (*fmi3IntermediateUpdateCallback)(
+    fmi3InstanceEnvironment, fmi3Float64, fmi3Boolean, fmi3Boolean, fmi3Boolean, fmi3Boolean, fmi3Boolean *,
+    fmi3Float64 *);
+typedef void (*fmi3ClockUpdateCallback)(fmi3InstanceEnvironment);
+typedef void (*fmi3LockPreemptionCallback)(void);
+
+static void report(const struct instance *one, enum status status, const char *category, const char *message)
+{
+    if (one->logger != NULL)
+        ((fmi3LogMessageCallback)one->logger)(one->environment, (fmi3Status)status, category, message);
+}
+
+#define DECLARED(type, name) EXPORTED type FUNCTION(name)
+
+DECLARED(const char *, fmi3GetVersion)(void)
+{
+    return "3.0";
+}
+
+DECLARED(fmi3Status, fmi3SetDebugLogging)(
+    fmi3Instance one, fmi3Boolean on, size_t count, const fmi3String names[])
+{
+    return (fmi3Status)set_logging(one, on, count, names);
+}
+
+/* A new instance; NULL, and the reason is logged, where something is `wrong`. */
+static struct instance *made(
+    fmi3String name, fmi3String given, const char *wrong, fmi3Boolean logging,
+    fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger)
+{
+    struct instance *one = instantiated(name);
+    if (one == NULL)
+        return NULL;
+    one->report = report;
+    one->logger = (void (*)(void))logger;
+    one->environment = environment;
+    one->logs_steps = logging;
+    if (wrong == NULL && (given == NULL || strcmp(given, token) != 0))
+        wrong = "the instantiation token is not that of this FMU";
+    if (wrong == NULL)
+        return one;
+    failed(one, "%s", wrong);
+    release(one);
+    return NULL;
+}
+
+DECLARED(fmi3Instance, fmi3InstantiateCoSimulation)(
+    fmi3String name, fmi3String given, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
+    fmi3Boolean events, fmi3Boolean early, const fmi3ValueReference required[], size_t count,
+    fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger, fmi3IntermediateUpdateCallback update)
+{
+    const char *wrong = NULL;
+    (void)resources;
+    (void)visible;
+    (void)early;
+    (void)required;
+    (void)update;
+    if (events)
+        wrong = "fmi3InstantiateCoSimulation: this FMU has no event mode";
+    else if (count > 0)
+        wrong = "fmi3InstantiateCoSimulation: this FMU has no intermediate updates";
+    return made(name, given, wrong, logging, environment, logger);
+}
+
+DECLARED(fmi3Instance, fmi3InstantiateModelExchange)(
+    fmi3String name, fmi3String given, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
+    fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger)
+{
+    (void)resources;
+    (void)visible;
+    return made(
+        name, given, "fmi3InstantiateModelExchange: this FMU is for co-simulation alone", logging,
+        environment, logger);
+}
+
+DECLARED(fmi3Instance, fmi3InstantiateScheduledExecution)(
+    fmi3String name, fmi3String given, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
+    fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger, fmi3ClockUpdateCallback update,
+    fmi3LockPreemptionCallback lock, fmi3LockPreemptionCallback unlock)
+{
+    (void)resources;
+    (void)visible;
+    (void)update;
+    (void)lock;
+    (void)unlock;
+    return made(
+        name, given, "fmi3InstantiateScheduledExecution: this FMU is for co-simulation alone", logging,
+        environment, logger);
+}
+
+DECLARED(void, fmi3FreeInstance)(fmi3Instance one)
+{
+    release(one);
+}
+
+DECLARED(fmi3Status, fmi3EnterInitializationMode)(
+    fmi3Instance one, fmi3Boolean given, fmi3Float64 tolerance, fmi3Float64 start, fmi3Boolean ends,
+    fmi3Float64 stop)
+{
+    (void)ends;
+    (void)stop;
+    if (refused(one, "fmi3EnterInitializationMode", INSTANTIATED, INSTANTIATED)
+        || set_experiment(one, start, given, tolerance) != OK)
+        return ERROR;
+    enter(one, INITIALIZING);
+    return OK;
+}
+
+DECLARED(fmi3Status, fmi3ExitInitializationMode)(fmi3Instance one)
+{
+    if (refused(one, "fmi3ExitInitializationMode", INITIALIZING, INITIALIZING))
+        return ERROR;
+    start_if_due(one);
+    enter(one, STEPPING);
+    return OK;
+}
+
+DECLARED(fmi3Status, fmi3Terminate)(fmi3Instance one)
+{
+    if (refused(one, "fmi3Terminate", STEPPING, STEPPING))
+        return ERROR;
+    enter(one, TERMINATED);
+    return OK;
+}
+
+DECLARED(fmi3Status, fmi3Reset)(fmi3Instance one)
+{
+    reset(one);
+    return OK;
+}
+
+DECLARED(fmi3Status, fmi3GetFloat64)(
+    fmi3Instance one, const fmi3ValueReference references[], size_t count, fmi3Float64 values[],
+    size_t value_count)
+{
+    size_t i;
+    if (value_count != count)
+        return (fmi3Status)failed(one, "fmi3GetFloat64: all variables are scalars");
+    for (i = 0; i < count; i++)
+        if (get_value(one, references[i], &values[i]) != OK)
+            return ERROR;
+    return OK;
+}
+
+DECLARED(fmi3Status, fmi3SetFloat64)(
+    fmi3Instance one, const fmi3ValueReference references[], size_t count, const fmi3Float64 values[],
+    size_t value_count)
+{
+    size_t i;
+    if (value_count != count)
+        return (fmi3Status)failed(one, "fmi3SetFloat64: all variables are scalars");
+    for (i = 0; i < count; i++)
+        if (set_value(one, references[i], values[i]) != OK)
+            return ERROR;
+    return OK;
+}
+
+/* Variables of other types: there are none. */
+#define WITHOUT(name, type)                                                                              \
+    DECLARED(fmi3Status, name)(                                                                          \
+        fmi3Instance one, const fmi3ValueReference references[], size_t count, type values[],            \
+        size_t value_count)                                                                              \
+    {                                                                                                    \
+        (void)references;                                                                                \
+        (void)values;                                                                                    \
+        (void)value_count;                                                                               \
+        return count == 0 ? OK : (fmi3Status)failed(one, #name ": all variables are of type Float64");   \
+    }
+#define WITHOUT_BOTH(type)                      \
+    WITHOUT(fmi3Get##type, fmi3##type)          \
+    WITHOUT(fmi3Set##type, const fmi3##type)
+
+WITHOUT_BOTH(Float32)
+WITHOUT_BOTH(Int8)
+WITHOUT_BOTH(UInt8)
+WITHOUT_BOTH(Int16)
+WITHOUT_BOTH(UInt16)
+WITHOUT_BOTH(Int32)
+WITHOUT_BOTH(UInt32)
+WITHOUT_BOTH(Int64)
+WITHOUT_BOTH(UInt64)
+WITHOUT_BOTH(Boolean)
+WITHOUT_BOTH(String)
+
+DECLARED(fmi3Status, fmi3GetFMUState)(fmi3Instance one, fmi3FMUState *state)
+{
+    return (fmi3Status)get_state(one, state);
+}
+
+DECLARED(fmi3Status, fmi3SetFMUState)(fmi3Instance one, fmi3FMUState state)
+{
+    return (fmi3Status)set_state(one, state);
+}
+
+DECLARED(fmi3Status, fmi3FreeFMUState)(fmi3Instance one, fmi3FMUState *state)
+{
+    (void)one;
+    if (state != NULL) {
+        free(*state);
+        *state = NULL;
+    }
+    return OK;
+}
+
+DECLARED(fmi3Status, fmi3SerializedFMUStateSize)(fmi3Instance one, fmi3FMUState state, size_t *size)
+{
+    (void)one;
+    (void)state;
+    *size = serialized_size();
+    return OK;
+}
+
+DECLARED(fmi3Status, fmi3SerializeFMUState)(
+    fmi3Instance one, fmi3FMUState state, fmi3Byte bytes[], size_t size)
+{
+    return (fmi3Status)serialize(one, state, bytes, size);
+}
+
+DECLARED(fmi3Status, fmi3DeserializeFMUState)(
+    fmi3Instance one, const fmi3Byte bytes[], size_t size, fmi3FMUState *state)
+{
+    return (fmi3Status)deserialize(one, bytes, size, state);
+}
+
+DECLARED(fmi3Status, fmi3DoStep)(
+    fmi3Instance one, fmi3Float64 from, fmi3Float64 size, fmi3Boolean no_return, fmi3Boolean *events,
+    fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *reached)
+{
+    enum status status;
+    (void)no_return;
+    if (events != NULL)
+        *events = false;
+    if (terminate != NULL)
+        *terminate = false;
+    if (early != NULL)
+        *early = false;
+    status = refused(one, "fmi3DoStep", STEPPING, STEPPING) ? ERROR : step(one, from, size);
+    if (reached != NULL)
+        *reached = values_of(one)[0];
+    return (fmi3Status)status;
+}
+
+/* What this FMU does not have: its flags in modelDescription.xml say so. */
+#define UNSUPPORTED(name, parameters)                                       \
+    DECLARED(fmi3Status, name) parameters                                   \
+    {                                                                       \
+        return (fmi3Status)failed(one, #name ": this FMU does not have it"); \
+    }
+#define STANDARD_3 fmi3Instance one
+#define OF_VARIABLES fmi3Instance one, const fmi3ValueReference references[], size_t count
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#endif
+
+UNSUPPORTED(fmi3GetBinary, (OF_VARIABLES, size_t sizes[], fmi3Binary values[], size_t value_count))
+UNSUPPORTED(
+    fmi3SetBinary, (OF_VARIABLES, const size_t sizes[], const fmi3Binary values[], size_t value_count))
+UNSUPPORTED(fmi3GetClock, (OF_VARIABLES, fmi3Clock values[]))
+UNSUPPORTED(fmi3SetClock, (OF_VARIABLES, const fmi3Clock values[]))
+UNSUPPORTED(
+    fmi3GetNumberOfVariableDependencies, (STANDARD_3, fmi3ValueReference reference, size_t *dependencies))
+UNSUPPORTED(
+    fmi3GetVariableDependencies,
+    (STANDARD_3, fmi3ValueReference dependent, size_t elements[], fmi3ValueReference independents[],
+     size_t of_independents[], fmi3DependencyKind kinds[], size_t dependencies))
+#define DERIVATIVE                                                                                       \
+    (STANDARD_3, const fmi3ValueReference unknown[], size_t unknowns, const fmi3ValueReference known[],  \
+     size_t knowns, const fmi3Float64 seed[], size_t seeds, fmi3Float64 sensitivity[],                   \
+     size_t sensitivities)
+UNSUPPORTED(fmi3GetDirectionalDerivative, DERIVATIVE)
+UNSUPPORTED(fmi3GetAdjointDerivative, DERIVATIVE)
+UNSUPPORTED(
+    fmi3GetOutputDerivatives, (OF_VARIABLES, const fmi3Int32 orders[], fmi3Float64 values[], size_t value_count))
+UNSUPPORTED(fmi3EnterConfigurationMode, (STANDARD_3))
+UNSUPPORTED(fmi3ExitConfigurationMode, (STANDARD_3))
+UNSUPPORTED(fmi3EnterStepMode, (STANDARD_3))
+
+/* Events and clocks. */
+UNSUPPORTED(fmi3EnterEventMode, (STANDARD_3))
+UNSUPPORTED(
+    fmi3GetIntervalDecimal, (OF_VARIABLES, fmi3Float64 intervals[], fmi3IntervalQualifier qualifiers[]))
+UNSUPPORTED(
+    fmi3GetIntervalFraction,
+    (OF_VARIABLES, fmi3UInt64 counters[], fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[]))
+UNSUPPORTED(fmi3GetShiftDecimal, (OF_VARIABLES, fmi3Float64 shifts[]))
+UNSUPPORTED(fmi3GetShiftFraction, (OF_VARIABLES, fmi3UInt64 counters[], fmi3UInt64 resolutions[]))
+UNSUPPORTED(fmi3SetIntervalDecimal, (OF_VARIABLES, const fmi3Float64 intervals[]))
+UNSUPPORTED(
+    fmi3SetIntervalFraction, (OF_VARIABLES, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]))
+UNSUPPORTED(fmi3SetShiftDecimal, (OF_VARIABLES, const fmi3Float64 shifts[]))
+UNSUPPORTED(fmi3SetShiftFraction, (OF_VARIABLES, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]))
+UNSUPPORTED(fmi3EvaluateDiscreteStates, (STANDARD_3))
+UNSUPPORTED(
+    fmi3UpdateDiscreteStates,
+    (STANDARD_3, fmi3Boolean *needed, fmi3Boolean *terminate, fmi3Boolean *nominals, fmi3Boolean *values,
+     fmi3Boolean *defined, fmi3Float64 *next))
+UNSUPPORTED(
+    fmi3ActivateModelPartition, (STANDARD_3, fmi3ValueReference reference, fmi3Float64 activation))
+
+/* Model exchange. */
+UNSUPPORTED(fmi3EnterContinuousTimeMode, (STANDARD_3))
+UNSUPPORTED(
+    fmi3CompletedIntegratorStep,
+    (STANDARD_3, fmi3Boolean unset, fmi3Boolean *enter_event_mode, fmi3Boolean *terminate))
+UNSUPPORTED(fmi3SetTime, (STANDARD_3, fmi3Float64 time))
+UNSUPPORTED(fmi3SetContinuousStates, (STANDARD_3, const fmi3Float64 states[], size_t count))
+UNSUPPORTED(fmi3GetContinuousStateDerivatives, (STANDARD_3, fmi3Float64 derivatives[], size_t count))
+UNSUPPORTED(fmi3GetEventIndicators, (STANDARD_3, fmi3Float64 indicators[], size_t count))
+UNSUPPORTED(fmi3GetContinuousStates, (STANDARD_3, fmi3Float64 states[], size_t count))
+UNSUPPORTED(fmi3GetNominalsOfContinuousStates, (STANDARD_3, fmi3Float64 nominals[], size_t count))
+UNSUPPORTED(fmi3GetNumberOfEventIndicators, (STANDARD_3, size_t *count))
+UNSUPPORTED(fmi3GetNumberOfContinuousStates, (STANDARD_3, size_t *count))
