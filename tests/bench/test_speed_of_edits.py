@@ -64,10 +64,8 @@ def verb(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def live():
-    live = Live()
-    yield live
-    live.close()
+def live(tmp_path_factory):
+    return Live(tmp_path_factory.mktemp("live"))
 
 
 @pytest.mark.parametrize("dragged", DRAGGED)

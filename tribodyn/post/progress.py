@@ -45,8 +45,8 @@ def progress_bar(label: str, total: float = 100.0, unit: str = "%") -> Iterator[
     `total` is what there is to do, in `unit`, for the rate that is shown.
     """
     if os.environ.get(LINES):
-        with _in_lines(label) as report:
-            yield report
+        with _in_lines(label) as in_lines:
+            yield in_lines
         return
     notebook = _notebook()
     if not (notebook or sys.stderr.isatty()):
@@ -103,11 +103,11 @@ def _in_lines(label: str) -> Iterator[Report]:
     """Write the share done in lines, what is said of it behind."""
     said = 0.0
 
-    def write(fraction: float, what: str = label) -> None:
+    def write(fraction: float) -> None:
         nonlocal said
         if perf_counter() - said >= LINE_PAUSE or fraction >= 1.0:
             said = perf_counter()
-            print(MARK, f"{fraction:.4f}", what, file=sys.stderr, flush=True)
+            print(MARK, f"{fraction:.4f}", label, file=sys.stderr, flush=True)
 
     with foretold(lambda what: print(f"{label}: {what}", file=sys.stderr, flush=True)):
         yield write

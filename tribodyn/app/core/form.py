@@ -33,6 +33,7 @@ from tribodyn.input.names import named_in, speaks_of_pair, worded
 from tribodyn.input.quantity import LIKE, Column, Columns, FamilyShape, Reference, meaning
 from tribodyn.input.resolve import toml_value
 from tribodyn.input.schema import EACH, Inner, inner_tables, parts_of, tagged
+from tribodyn.studies import DEFAULT, STUDIES
 from tribodyn.studies.protocol.load import filled, table_of
 from tribodyn.tribology.law import AUTO
 
@@ -112,11 +113,7 @@ def _choice(field: FormField, text: str) -> Any:
 @cache
 def _shown_first(kind: str) -> frozenset[str]:
     """Names of keys that the template of a kind has."""
-    try:
-        data = tomllib.loads(filled(kind, "x"))
-    except (KeyError, tomllib.TOMLDecodeError):
-        return frozenset()
-    return frozenset(_names(data))
+    return frozenset(_names(tomllib.loads(filled(kind if kind in STUDIES else DEFAULT, "x"))))
 
 
 def _names(data: Any) -> Iterator[str]:
@@ -220,18 +217,19 @@ class _Form:
         name = own if isinstance(own, str) else _table(own).get(LIKE)
         key = (*place.path, LIKE) if isinstance(own, Mapping) else place.path
         of = type_of_model(place.reference)
-        yield self._field(of, key, name, {key[-1]: name} if name is not None else {})
+        given: Mapping[Step, Any] = {} if name is None else {key[-1]: name}
+        yield self._field(of, key, name, given)
 
     def _shape(self, path: tuple[Step, ...], whole: Mapping[str, Any], written: Any) -> Iterator[FormField]:
         """What the family of the teeth needs."""
-        name, values = whole.get("family"), _table(whole.get(path[-1]))
+        name, values = whole.get("family"), _table(whole.get(str(path[-1])))
         if isinstance(name, str) and name in FAMILIES:
-            own = _table(written.get(path[-1]))
+            own = _table(written.get(str(path[-1])))
             for one in FAMILIES[name].parameters:
                 yield self._field(of_parameter(one), (*path, one.name), values.get(one.name), own)
 
     def _field(
-        self, of: FieldType, path: tuple[Step, ...], value: Any, written: Mapping[str, Any]
+        self, of: FieldType, path: tuple[Step, ...], value: Any, written: Mapping[Any, Any]
     ) -> FormField:
         value = written.get(path[-1], of.default if value is None else value)
         shown, unit = parts_of_quantity(value) if of.kind == "quantity" else (as_toml(value), "")

@@ -5,7 +5,6 @@ that do not change them. What is wrong with a scenario is part of the result, as
 """
 
 import math
-import tempfile
 import threading
 from collections.abc import Callable
 from contextlib import suppress
@@ -19,6 +18,8 @@ from tribodyn.app.core.messages import Message, data_of, findings
 from tribodyn.app.core.motion import motion_of
 from tribodyn.app.core.shown import tables_of
 from tribodyn.app.core.slow_rotation import at_torques, slow_rotation
+from tribodyn.app.core.strength import strength_of
+from tribodyn.cases.assessment_part import Meshing
 from tribodyn.errors import InputError, OutputError, SimulationError, quoted
 from tribodyn.gears.prepare import assembled
 from tribodyn.input.tables.duty import in_force
@@ -29,7 +30,7 @@ from tribodyn.studies.protocol.load import Loaded, SoundScenario
 from tribodyn.tribology.friction import FRICTION_LAWS
 
 #: In the order in which they are computed.
-STAGES = ("geometry", "static", "motion", "torques", "check")
+STAGES = ("geometry", "static", "motion", "torques", "strength", "check")
 #: Scenarios whose cases are kept, as one is edited and compared with others.
 KEPT = 8
 #: A law that brings the film with it that it reads.
@@ -50,17 +51,13 @@ class LiveRequest:
 
 
 class Live:
-    """Computes stages of scenarios, one after the other, in one process."""
+    """Computes stages of scenarios, one after the other, in one process; runs are recorded in a folder."""
 
-    def __init__(self) -> None:
-        self._scratch = tempfile.TemporaryDirectory(prefix="tribodyn-")
+    def __init__(self, scratch: Path) -> None:
+        self._scratch = scratch
         self._sound: dict[tuple[str, str], SoundScenario] = {}
         self._plain: dict[tuple[str, str], Gearbox] = {}
         self._loaded: dict[tuple[str, str], Loaded] = {}
-
-    def close(self) -> None:
-        """Remove what was written on the way."""
-        self._scratch.cleanup()
 
     def compute(self, stage: str, request: LiveRequest) -> dict[str, Any]:
         """The result of a stage; that of a scenario that is wrong says what is.
@@ -110,6 +107,15 @@ class Live:
             found = at_torques(pair, assembled(pair), shares)
         return _names(case, number) | (found or {"warnings": [_UNLOADED]})
 
+    def _strength(self, request: LiveRequest) -> dict[str, Any]:
+        """What `strength_of` has of the mesh."""
+        sound, case, number = self._unchosen(request)
+        whole = sound.study.whole()
+        with sound.origins.naming():
+            pair = case.meshes[number].pair
+            turns = whole.meshes(case)[number].meshing if whole is not None else (Meshing(), Meshing())
+            return _names(case, number) | strength_of(pair, assembled(pair), turns)
+
     def _check(self, request: LiveRequest) -> dict[str, Any]:
         """`tables`, `details` and `remarks` as ``tribodyn check`` prints them, and its `data`, SI."""
         loaded = self._case(request)
@@ -133,8 +139,7 @@ class Live:
         while beside.is_alive():  # in short waits, so that a newer request is heard
             beside.join(0.02)
         with loaded.naming():
-            record = Path(self._scratch.name) / "motion.h5"
-            return _names(loaded.case, number) | motion_of(loaded, record, number)
+            return _names(loaded.case, number) | motion_of(loaded, self._scratch / "motion.h5", number)
 
     def _unchosen(self, request: LiveRequest) -> tuple[SoundScenario, Gearbox, int]:
         """The scenario of a text, its gearbox before laws are chosen, and the number of the mesh."""
@@ -175,6 +180,7 @@ _STAGES: dict[str, Callable[[Live, LiveRequest], dict[str, Any]]] = {
     "torques": Live._torques,
     "check": Live._check,
     "motion": Live._motion,
+    "strength": Live._strength,
 }
 
 

@@ -8,7 +8,8 @@ import struct
 import sys
 import threading
 from collections.abc import Iterator
-from typing import Any, BinaryIO, NamedTuple
+from pathlib import Path
+from typing import IO, Any, BinaryIO, NamedTuple
 
 from tribodyn.app.core.live import Live, LiveRequest
 
@@ -35,12 +36,12 @@ def line_of(number: int, stages: tuple[str, ...], request: LiveRequest) -> bytes
     return json.dumps([number, stages, vars(request)]).encode() + b"\n"
 
 
-def serve() -> None:
-    """Answer the requests that come in until the input ends."""
+def serve(scratch: str) -> None:
+    """Answer the requests that come in until the input ends; runs are recorded in a folder of its caller."""
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is no answer
     sys.stdout = sys.stderr
-    _Serving(answers).run()
+    _Serving(answers).run(Live(Path(scratch)))
 
 
 class _Serving:
@@ -54,9 +55,8 @@ class _Serving:
         self._at_work = False
         self._main = threading.get_ident()
 
-    def run(self) -> None:
+    def run(self, live: Live) -> None:
         """Compute for ever; the process ends with its input."""
-        live = Live()
         self._answer(READY, -1, None)
         threading.Thread(target=self._read, daemon=True).start()
         while True:
@@ -104,7 +104,7 @@ class _Serving:
         self._answers.flush()
 
 
-def answers_in(stream: BinaryIO) -> Iterator[tuple[str, int, Any]]:
+def answers_in(stream: IO[bytes]) -> Iterator[tuple[str, int, Any]]:
     """Answers of such a process until it ends: what they are, number of the request, content."""
     while len(head := stream.read(HEAD.size)) == HEAD.size:
         content = stream.read(HEAD.unpack(head)[0])

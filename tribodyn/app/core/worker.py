@@ -4,6 +4,7 @@ import asyncio
 import threading
 from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
+from tempfile import TemporaryDirectory
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
@@ -34,7 +35,8 @@ class Worker:
         self._asked_at = 0.0
         self._tell: Tell | None = None
         self._finished: Callable[[], None] | None = None
-        self._closed, self._ready = False, False
+        self._closed = False
+        self._scratch = TemporaryDirectory(prefix="tribodyn-")
         self._start()
         threading.Thread(target=self._watch, daemon=True).start()
 
@@ -81,14 +83,16 @@ class Worker:
             self._closed = True
             self._end_asked()
             child.end(self._process)
+        self._scratch.cleanup()
 
     def _start(self) -> None:
+        self._ready = False
         # the module beside this one
-        self._process = child.start(f"{__package__}.serving:serve")
+        self._process = child.start(f"{__package__}.serving:serve", self._scratch.name)
         threading.Thread(target=self._listen, args=(self._process,), daemon=True).start()
 
     def _send(self) -> None:
-        with suppress(OSError):  # it has ended: who listens to it starts another one
+        with suppress(OSError, ValueError):  # it has ended: who listens to it starts another one
             child.tell(self._process, self._asked)
 
     def _end_asked(self) -> None:

@@ -144,6 +144,12 @@ def test_what_has_no_other_unit_stays(number, unit, to):
     assert in_unit(number, unit, to) == number
 
 
+def test_a_kind_that_there_is_not_has_the_form_of_the_usual_one():
+    document = Document.open("spur-25-51")
+    document.set("kind", "no such kind")
+    assert "drive.module" in {field.path for group in form_of(document) for field in group.fields}
+
+
 def test_a_broken_text_has_the_form_of_an_empty_scenario():
     document = Document.open("spur-25-51")
     document.set_text("[mesh")

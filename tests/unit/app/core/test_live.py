@@ -1,7 +1,5 @@
 """What is computed while a scenario is edited, against the command line's own and against second methods."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -18,10 +16,8 @@ OF_THE_MACHINE = {"wall_time"}
 
 
 @pytest.fixture(scope="module")
-def live():
-    live = Live()
-    yield live
-    live.close()
+def live(tmp_path_factory):
+    return Live(tmp_path_factory.mktemp("live"))
 
 
 def of(document: Document, **more) -> LiveRequest:
@@ -193,10 +189,30 @@ def test_a_duty_without_torque_shows_teeth_and_says_why_nothing_is_loaded(live):
     assert "no torque" in shown["warnings"][0]
 
 
-def test_scratch_files_go_with_it():
-    live = Live()
-    live.compute("motion", of(Document.open("involute-18-36")))
-    folder = Path(live._scratch.name)
-    assert folder.is_dir()
-    live.close()
-    assert not folder.exists()
+def test_safeties_are_those_of_an_assessment(live):
+    """The same pair, oil and duty with K_A = 1, as the check of an assessment rates it."""
+    rated = load("assessment-helical-24-95", {"assessment.application_factor": 1.0})
+    iso = rated.study.check(rated.case).data["iso"]
+    document = Document.open("helical-23-47")
+    document.set("drive", "helical-24-95")
+    for key, value in Document.open("assessment-helical-24-95").written().items():
+        if key in ("lubricant", "operating"):
+            document.unset(key)
+            document.set(key, value)
+    shown = live.compute("strength", of(document))
+    assert shown["ok"]
+    for side, gear in zip(("pinion", "gear"), shown["gears"], strict=True):
+        assert {row["name"]: row["value"] for row in gear} == pytest.approx(
+            {name: iso[name][side] for name in ("S_H", "S_F")}, rel=1e-9
+        )
+    least = {row["name"]: row["value"] for row in shown["rows"]}
+    assert least["S_H"] == pytest.approx(min(iso["S_H"].values()))
+    assert any("K_A" in remark for remark in shown["remarks"])
+
+
+def test_what_a_rating_lacks_is_said(live):
+    shown = live.compute("strength", of(Document.open("spur-25-51")))
+    assert shown["ok"]
+    assert shown["rows"] == []
+    assert any("tolerance class" in remark for remark in shown["remarks"])
+    assert any("heat treatment" in remark for remark in shown["remarks"])

@@ -2,6 +2,7 @@
 
 import asyncio
 import threading
+from pathlib import Path
 from time import monotonic
 
 import pytest
@@ -86,5 +87,6 @@ def test_another_process_answers_where_one_was_killed():
         assert worker._process.pid != first.pid
     finally:
         worker.close()
+    assert not Path(worker._scratch.name).exists()
     with pytest.raises(RuntimeError, match="closed"):
         worker.submit(of(Document.open("spur-25-51")), lambda _result: None)
