@@ -76,6 +76,7 @@ class MadeOnce:
 
 
 _kept = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
+_kept_cycles = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
 
 
 def tables(case: LubricatedCase) -> Tabulated:
@@ -118,7 +119,7 @@ def opened(case: LubricatedCase, assembly: Assembly, coarse: bool) -> MeshCycle:
     back, torque = case.mesh.backlash is not None, case.operating.gear_torque
     made = partial(mesh_cycle_of, assembly, case.materials, case.mesh, torque, back)
     made = partial(made, FEW_NODES if coarse else None)
-    return _kept(MadeOnce((coarse, table_key(case)), made))
+    return _kept_cycles(MadeOnce((coarse, table_key(case)), made))
 
 
 def quasi_static_loss(tabulated: Tabulated) -> Callable[[LubricatedCase], float]:
