@@ -111,6 +111,16 @@ def loops(n, y):
     return total, last, reached, count
 
 
+def endless(x):
+    """A loop that only a return leaves, and one of a single turn."""
+    for i in range(1):
+        x = x + i
+    while True:
+        x = 2.0 * x
+        if x > 100.0:
+            return x
+
+
 def one_name_for_several(n, y):
     """A name that is a float first, then a whole number, then a record."""
     for i in range(n):
@@ -184,6 +194,7 @@ def _changes(y):
 def effects(y):
     """Calls that change arrays, in an expression, in a condition, and for nothing."""
     total = _changes(y) + 10.0 * _changes(y)
+    total += y[0] * _changes(y) + max(y[0], _changes(y), y[0] - 1.0)
     if y[0] > 100.0 and _changes(y) > 0.0:
         total += 1.0
     _changes(y)

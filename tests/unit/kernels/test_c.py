@@ -22,6 +22,7 @@ CALLS: dict[Any, list[tuple[Any, ...]]] = {
     subset.truths: [(0.5, 1.5), (-0.5, 1.5), (1.5, 0.5), (1.5, 3.0), (-2.0, -1.0)],
     subset.branches: [(3.0, 1), (1.0, 3), (1.0, 2), (1.0, 0)],
     subset.loops: [(8, Y), (4, Y), (1, Y)],
+    subset.endless: [(1.5,)],
     subset.one_name_for_several: [(5, Y)],
     subset.exchanged: [(1.0, 2.0, Y)],
     subset.records: [(1.5, -2.0)],
@@ -58,7 +59,8 @@ def test_c_does_what_python_does(library, function, arguments):
     expected = function(*in_python)
     expected = expected if isinstance(expected, tuple) else (expected,)
     several = len(expected) > 1
-    result = _structure(expected) if several else ctypes.c_int64
+    alone = ctypes.c_double if isinstance(expected[0], float) else ctypes.c_int64
+    result = _structure(expected) if several else alone
     found = called(getattr(library, function.__name__), *in_c, result=result)
     np.testing.assert_allclose(found, expected, rtol=1e-15)
     for one, other in zip(in_python, in_c, strict=True):

@@ -43,12 +43,7 @@ class Calls(Elements):
             if isinstance(value, Expression) and isinstance(value.type, (CRecord, CPointer)):
                 return self._replaced(value, node)
         callee = self.evaluate(node.func)
-        arguments: list[Value] = []
-        for argument in node.args:
-            if isinstance(argument, ast.Starred):
-                arguments += self.items_of(self.evaluate(argument.value), argument)
-            else:
-                arguments.append(self.evaluate(argument))
+        arguments = self.joined(node.args)
         keywords = {str(word.arg): self.evaluate(word.value) for word in node.keywords}
         if not isinstance(callee, Known):
             raise self.source.error(node, "what is called is not known")

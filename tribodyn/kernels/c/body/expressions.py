@@ -1,7 +1,7 @@
 """Python expressions to values: names, numbers, fields, elements and parts of arrays, choices."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -88,6 +88,26 @@ class Expressions:
         self.add(f"{constant(value.type, name)} = {value.text};", name, effect)
         return Expression(name, value.type, ATOM, "kept" if isinstance(value.type, CPointer) else "local")
 
+    def in_order(self, nodes: Sequence[ast.expr]) -> list[Value]:
+        """Values of expressions, each as it is before the next ones change anything."""
+        values: list[Value] = []
+        for node in nodes:
+            before, lines = len(self.lines), self.lines
+            value = self.evaluate(node)
+            if any(line.effect for line in lines[before:]):
+                self.lines = []
+                values = [self._kept(one) for one in values]
+                lines[before:before] = self.lines
+                self.lines = lines
+            values.append(value)
+        return values
+
+    def _kept(self, value: Value) -> Value:
+        """A number that was read from an array, in a variable."""
+        if isinstance(value, Expression) and "[" in value.text and isinstance(value.type, CNumber):
+            return self.temporary(value, "before")
+        return value
+
     def atomic(self, value: Value, wanted: str) -> Value:
         """A number that may stand in several places."""
         if isinstance(value, Expression) and not value.text.isidentifier():
@@ -117,13 +137,15 @@ class Expressions:
         return Known(value)
 
     def _of_Tuple(self, node: ast.Tuple) -> Value:
+        return Several(tuple(self.joined(node.elts)))
+
+    def joined(self, nodes: Sequence[ast.expr]) -> list[Value]:
+        """Values of expressions, those with a star item by item."""
         items: list[Value] = []
-        for item in node.elts:
-            if isinstance(item, ast.Starred):
-                items += self.items_of(self.evaluate(item.value), item)
-            else:
-                items.append(self.evaluate(item))
-        return Several(tuple(items))
+        values = self.in_order([node.value if isinstance(node, ast.Starred) else node for node in nodes])
+        for node, value in zip(nodes, values, strict=True):
+            items += self.items_of(value, node) if isinstance(node, ast.Starred) else [value]
+        return items
 
     def items_of(self, value: Value, node: ast.AST) -> list[Value]:
         """The items of a tuple or the fields of a record."""
@@ -187,8 +209,7 @@ class Expressions:
         return Expression(f"{array.text}.shape[{axis}]", WHOLE)
 
     def _of_BinOp(self, node: ast.BinOp) -> Value:
-        left = self.evaluate(node.left)
-        right = self.evaluate(node.right)
+        left, right = self.in_order([node.left, node.right])
         if isinstance(node.op, ast.Add) and isinstance(left, Several):
             return Several((*left.items, *self.items_of(right, node)))
         return operators.binary(node.op, left, right)
@@ -197,11 +218,10 @@ class Expressions:
         return operators.unary(node.op, self.evaluate(node.operand))
 
     def _of_Compare(self, node: ast.Compare) -> Value:
-        left = self.evaluate(node.left)
+        left, *others = self.in_order([node.left, *node.comparators])
         whole: Value = Known(True)
-        for kind, other in zip(node.ops, node.comparators, strict=True):
-            right = self.evaluate(other)
-            if len(node.ops) > 1 and other is not node.comparators[-1]:
+        for kind, right in zip(node.ops, others, strict=True):
+            if right is not others[-1]:
                 right = self.atomic(right, "compared")
             whole = operators.both(whole, operators.compared(kind, left, right))
             left = right

@@ -12,13 +12,12 @@ from tribodyn.kernels.c.values import LESS, Counting, Expression, Known, conditi
 class Loops(Statements):
     """Translates loops."""
 
-    def _do_For(self, node: ast.For) -> None:
+    def _do_For(self, node: ast.For) -> bool:
         if node.orelse:
             raise self.source.error(node, "else of a loop")
         counted = self.evaluate(node.iter)
         if isinstance(counted, Counting):
-            self._counted(node, counted)
-            return
+            return self._counted(node, counted)
         if _leaves(node.body):
             raise self.source.error(node, "a loop over a tuple that is left before its end")
         for item in self.items_of(counted, node):
@@ -28,8 +27,9 @@ class Loops(Statements):
             self.add("{")
             self.lines += lines
             self.add("}")
+        return False
 
-    def _counted(self, node: ast.For, counted: Counting) -> None:
+    def _counted(self, node: ast.For, counted: Counting) -> bool:
         if not isinstance(node.target, ast.Name):
             raise self.source.error(node, "a loop over numbers has one variable")
         name, scoped = node.target.id, id(node) in self.scopes.scoped
@@ -37,11 +37,10 @@ class Loops(Statements):
         if isinstance(start, Known) and isinstance(stop, Known):
             turns = range(start.value, stop.value, counted.step)
             if not turns:
-                return
+                return False
             if len(turns) == 1 and scoped and not _leaves(node.body):
                 self.values[name] = Known(turns[0])
-                self._inline(node.body)
-                return
+                return self._inline(node.body)
         c_name = self.named(name) if scoped else self.fresh(f"{name}_now")
         self.taken.add(c_name)
         end = plain(stop)
@@ -66,8 +65,9 @@ class Loops(Statements):
         self.add(opening)
         self.lines += lines
         self.add("}")
+        return False
 
-    def _do_While(self, node: ast.While) -> None:
+    def _do_While(self, node: ast.While) -> bool:
         if node.orelse:
             raise self.source.error(node, "else of a loop")
         with self.block(node.body) as lines:
@@ -80,10 +80,11 @@ class Loops(Statements):
             if not (isinstance(test, Known) and not test.value):
                 self.run(node.body)
         if isinstance(test, Known) and not test.value:
-            return
+            return False
         self.add("while (1) {" if is_long or isinstance(test, Known) else f"while ({condition(test)}) {{")
         self.lines += lines
         self.add("}")
+        return isinstance(test, Known) and not _leaves(node.body, (ast.Break,))
 
 
 def _bounds(counted: Counting) -> tuple[int, int] | None:
@@ -94,11 +95,13 @@ def _bounds(counted: Counting) -> tuple[int, int] | None:
     return None
 
 
-def _leaves(body: list[ast.stmt]) -> bool:
+def _leaves(body: list[ast.stmt], kinds: tuple[type, ...] = (ast.Break, ast.Continue)) -> bool:
     """Whether statements leave the loop that they are in, or its turn."""
     for statement in body:
-        if isinstance(statement, (ast.Break, ast.Continue)):
+        if isinstance(statement, kinds):
             return True
-        if isinstance(statement, ast.If) and (_leaves(statement.body) or _leaves(statement.orelse)):
+        if isinstance(statement, ast.If) and (
+            _leaves(statement.body, kinds) or _leaves(statement.orelse, kinds)
+        ):
             return True
     return False
