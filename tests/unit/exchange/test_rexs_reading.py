@@ -7,9 +7,12 @@ from typing import Any
 
 import pytest
 
+import tribodyn as td
 from tests.support.rexs_models import PARTS, one_stage, part, relation
 from tribodyn.exchange.format import Imported
 from tribodyn.exchange.rexs.rexs_format import read
+from tribodyn.input import units
+from tribodyn.input.units import to_si
 
 
 def imported(
@@ -69,6 +72,60 @@ def test_a_datum_face_at_the_far_end_turns_them_round(tmp_path: Path):
     found = imported(tmp_path, parts, ON_FLANK).scenario["gear"]["pinion"]["modification"]
     assert (found["lead_relief_start"], found["lead_relief_end"]) == ("8 um", "4 um")
     assert found["helix_slope"] == "0.005 mm"
+
+
+def end_relief(number: int, face: str, depth: str, length: str, **more: str) -> dict[int, str]:
+    values = {f"end_relief_depth_{face}": depth, f"end_relief_length_{face}": length}
+    return {number: part(number, f"end_relief_{face}", **values, **more)}
+
+
+def test_reliefs_of_the_ends_of_the_face_leave_its_middle_straight(tmp_path: Path):
+    """32 mm wide, 5 mm at either end."""
+    reliefs = end_relief(20, "datum_face", "12 mum", "5 mm") | end_relief(
+        23, "non_datum_face", "0.007 mm", "5 mm", shape_of_relief="linear"
+    )
+    on_flank = "".join(relation(40 + each, "reference", origin=9, referenced=each) for each in reliefs)
+    found = imported(tmp_path, reliefs, on_flank)
+    ends = {"lead_relief_start": "12 um", "lead_relief_end": "0.007 mm", "lead_unmodified": "22 mm"}
+    assert found.scenario["gear"]["pinion"]["modification"] == ends
+    assert any("a parabola stands for the linear relief" in line for line in found.remarks)
+
+
+@pytest.mark.parametrize(("length", "more"), [("6 mm", ()), ("5 mm", (21,)), ("17 mm", ())])
+def test_end_reliefs_that_no_scenario_has_are_left_and_listed(
+    length: str, more: tuple[int, ...], tmp_path: Path
+):
+    """Of two lengths, beside crowning, or over more than half of the face of 32 mm."""
+    first = length if length == "17 mm" else "5 mm"
+    reliefs = end_relief(20, "datum_face", "12 mum", first) | end_relief(
+        23, "non_datum_face", "7 mum", length
+    )
+    reliefs |= {each: RELIEFS[each] for each in more}
+    on_flank = "".join(relation(40 + each, "reference", origin=9, referenced=each) for each in reliefs)
+    found = imported(tmp_path, reliefs, on_flank)
+    written = found.scenario["gear"]["pinion"].get("modification", {})
+    assert set(written) == ({"lead_relief_start", "lead_relief_end"} if more else set())
+    left = {each["attribute"]: each["why"] for each in found.details["not_used"]}
+    for name in ("end_relief_depth_datum_face", "end_relief_length_non_datum_face"):
+        assert ("helix_crowning goes before" if more else "of one length") in left[name]
+
+
+def test_reliefs_of_the_ends_come_back(tmp_path: Path):
+    ends = {"lead_relief_start": "12 um", "lead_relief_end": "5 um", "lead_unmodified": "8 mm"}
+    changes = {f"drive.pinion.modification.{key}": value for key, value in ends.items()}
+    td.export("helical-23-47", "rexs", tmp_path / "out.rexs", changes)
+    found = td.import_scenario(tmp_path / "out.rexs").scenario["gear"]["pinion"]["modification"]
+    sizes = {key: to_si(value, units.DEVIATION) for key, value in found.items()}
+    assert sizes == pytest.approx({key: to_si(value, units.DEVIATION) for key, value in ends.items()})
+
+
+def test_a_sixth_of_the_peaks_is_the_mean_roughness_where_that_is_missing(tmp_path: Path):
+    plain = with_values(7, mean_peak_to_valley_roughness_flank_iso_4287_1997="3 mum")
+    assert imported(tmp_path, {7: plain}).scenario["gear"]["pinion"]["mean_roughness"] == "0.4 um"
+    alone = "\n".join(line for line in plain.splitlines() if "arithmetic_mean" not in line)
+    found = imported(tmp_path, {7: alone})
+    assert found.scenario["gear"]["pinion"]["mean_roughness"] == "0.5 um"
+    assert any("Rz = 3 µm as Ra = Rz/6" in line for line in found.remarks)
 
 
 def test_a_cone_is_cylinders_of_nearly_its_volume(tmp_path: Path):

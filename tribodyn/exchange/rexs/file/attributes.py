@@ -48,6 +48,10 @@ ROUGHNESS = RexsKey(
     "mum",
     ("arithmetic_average_roughness_flank",),
 )
+#: Mean peak-to-valley roughness, which is read where that of the arithmetic mean is missing.
+ROUGHNESS_RZ = RexsKey(
+    "mean_peak_to_valley_roughness_flank_iso_4287_1997", "", "mum", ("averaged_peak_to_valley_height_flank",)
+)
 #: Of cylindrical_gear and ring_gear, besides those above.
 GEAR = (
     RexsKey("inner_diameter", "bore_diameter", "mm"),
@@ -219,5 +223,13 @@ CROWNING = (
     RexsKey("helix_crowning_amount_non_datum_face", "lead_relief_end", "mm"),
 )
 CROWNING_SHAPE = RexsKey("shape_of_helix_crowning", "")
+#: Depth and length of the reliefs of both ends of the face.
+END_RELIEFS = {
+    f"end_relief_{face}": (
+        RexsKey(f"end_relief_depth_{face}", key, "mm"),
+        RexsKey(f"end_relief_length_{face}", "", "mm"),
+    )
+    for face, key in (("datum_face", "lead_relief_start"), ("non_datum_face", "lead_relief_end"))
+}
 HELIX_SLOPE = RexsKey("helix_slope", "helix_slope", "mm")
 DATUM_FACE = RexsKey("datum_face_orientation", "")

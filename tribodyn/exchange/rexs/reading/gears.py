@@ -106,6 +106,7 @@ def put_gear(draft: Draft, gear: Component, called: str = "gear") -> None:
             sheet.leave(each, key, f"{rexs.TIP_DIAMETER.name} goes before")
     for key in rexs.GEAR:
         draft.put(key.key, sheet.toml(gear, key))
+    _put_roughness(draft, gear)
     _put_tool(draft, gear)
     _put_thickness(draft, gear)
     quality = sheet.whole(gear, rexs.QUALITY)
@@ -138,6 +139,14 @@ def _put_tip(draft: Draft, gear: Component, teeth: int, internal: bool) -> None:
         )
         return
     draft.put("tip_diameter", (sheet.toml(gear, rexs.TIP_DIAMETER) or "").replace('"-', '"'))
+
+
+def _put_roughness(draft: Draft, gear: Component) -> None:
+    """Ra from Rz where the file has no Ra: a sixth of it, as ISO 6336-2 takes it."""
+    sheet = draft.sheet
+    if sheet.found(gear, rexs.ROUGHNESS) is None and (rz := sheet.si(gear, rexs.ROUGHNESS_RZ)):
+        draft.put("mean_roughness", f'"{1e6 * rz / 6.0:.6g} um"')
+        draft.change(gear, f"Rz = {1e6 * rz:.6g} µm as Ra = Rz/6")
 
 
 def _put_tool(draft: Draft, gear: Component) -> None:
@@ -185,8 +194,10 @@ def _put_modification(draft: Draft, gear: Component) -> None:
     turned = sheet.text(gear, rexs.DATUM_FACE) == "positive"
     for number, flank in enumerate(flanks_of(sheet, gear)):
         found: dict[str, str | None] = {}
-        for part in sheet.model.related("reference", "origin", flank.number, "referenced"):
+        parts = sheet.model.related("reference", "origin", flank.number, "referenced")
+        for part in parts:
             found |= _modification(sheet, part)
+        _add_end_reliefs(draft, gear, [part for part in parts if part.type in rexs.END_RELIEFS], found)
         if turned:  # the datum face is at the end of larger z
             found = {_TURNED.get(key, key): value for key, value in found.items()}
             if (slope := found.get("helix_slope")) is not None:
@@ -219,6 +230,35 @@ def _modification(sheet: Sheet, part: Component) -> dict[str, str | None]:
     elif part.type == "helix_slope":
         found = {"helix_slope": sheet.toml(part, rexs.HELIX_SLOPE)}
     return {key: value for key, value in found.items() if value is not None}
+
+
+def _add_end_reliefs(
+    draft: Draft, gear: Component, parts: Sequence[Component], found: dict[str, str | None]
+) -> None:
+    """Reliefs of the ends of the face: scenarios have parabolas of one length, without crowning."""
+    sheet = draft.sheet
+    if not parts:
+        return
+    width, reliefs = sheet.si(gear, rexs.FACE_WIDTH) or 0.0, [rexs.END_RELIEFS[part.type] for part in parts]
+    lengths = [sheet.si(part, length) for part, (_, length) in zip(parts, reliefs, strict=True)]
+    length = lengths[0]
+    why = ""
+    if length is None or not 0.0 < length <= width / 2.0 or any(each != length for each in lengths):
+        why = "end reliefs of one length, up to half the face, are known"
+    elif any(key.key in found for key in rexs.CROWNING):
+        why = "helix_crowning goes before"
+    if why or length is None:
+        for part, keys in zip(parts, reliefs, strict=True):
+            for key in keys:
+                sheet.leave(part, key, why)
+        return
+    for key in rexs.CROWNING:
+        found[key.key] = '"0 um"'
+    for part, (depth, _) in zip(parts, reliefs, strict=True):
+        found[depth.key] = sheet.toml(part, depth) or '"0 um"'
+        if (shape := sheet.text(part, rexs.RELIEF_SHAPE)) not in (None, "parabolic"):
+            draft.change(gear, f"a parabola stands for the {shape} relief of an end of its face")
+    found["lead_unmodified"] = f'"{1e3 * (width - 2.0 * length):.9g} mm"'
 
 
 def put_stage(draft: Draft, stage: Component, first: Component, second: Component) -> None:

@@ -154,7 +154,7 @@ _GEAR = frozenset(
 )
 _MODIFICATION = frozenset(
     "tip_relief tip_relief_length tip_relief_shape root_relief root_relief_length root_relief_shape "
-    "lead_relief_start lead_relief_end crowning helix_slope both_flanks".split()
+    "lead_relief_start lead_relief_end lead_unmodified crowning helix_slope both_flanks".split()
 )
 _STAGE = frozenset(
     "type name gears module pressure_angle helix_angle centre_distance azimuth rack roughness family sun "

@@ -129,7 +129,7 @@ class GearText:
                 model.relate(
                     "manufacturing_step", 1, workpiece=flank, tool=made, manufacturing_settings=settings
                 )
-        for part in _modifications(model, modified):
+        for part in _modifications(model, modified, gear["face_width"]):
             for flank in (left, right):
                 model.relate("reference", origin=flank, referenced=part)
 
@@ -151,14 +151,20 @@ def _counts(value: Any) -> bool:
     ) and value not in (False, [], {})
 
 
-def _modifications(model: ModelText, table: Mapping[str, Any]) -> list[int]:
+def _modifications(model: ModelText, table: Mapping[str, Any], width: Any) -> list[int]:
     found = []
     for kind, keys in rexs.RELIEFS.items():
         if table.get(kind) is not None:
             shape = {rexs.RELIEF_SHAPE: table.get(f"{kind}_shape", "linear")}
             found.append(model.add(kind, "", said(table, keys) | shape))
+    unmodified = table.get("lead_unmodified")
+    for kind, (depth, length) in rexs.END_RELIEFS.items() if unmodified is not None else ():
+        if table.get(depth.key) is not None:
+            reach = (si(width, "mm") - si(unmodified, "mm")) / 2.0
+            values = {depth: value_in(table[depth.key], depth), length: float(f"{reach:.12g}")}
+            found.append(model.add(kind, "", values | {rexs.RELIEF_SHAPE: "parabolic"}))
     ends = {key: table.get(key.key, table.get("crowning")) for key in rexs.CROWNING}
-    if any(value is not None for value in ends.values()):
+    if unmodified is None and any(value is not None for value in ends.values()):
         amounts = {key: value_in(value or "0 um", key) for key, value in ends.items()}
         found.append(model.add("helix_crowning", "", amounts | {rexs.CROWNING_SHAPE: "parabolic"}))
     if table.get("helix_slope") is not None:
