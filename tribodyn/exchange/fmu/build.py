@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from tribodyn.errors import InputError, OutputError, quoted
 from tribodyn.numerics.processes.child import run_program
+from tribodyn.numerics.processes.work import in_threads, usable_cores
 
 
 class Platform(NamedTuple):
@@ -70,21 +71,23 @@ def binaries(
     if not platforms:
         return {}
     compiler = _compiler()
-    built: dict[str, bytes] = {}
+    libraries: dict[Platform, bytes] = {}
     with TemporaryDirectory(prefix="tribodyn-fmu-") as name:
         folder = Path(name)
         for file, content in files.items():
             (folder / file).write_text(content, encoding="utf-8", newline="\n")
-        for platform in platforms:
-            library = _compiled(
-                compiler,
-                [folder / file for file in compiled],
-                folder / f"{identifier}{platform.ending}",
-                platform,
-            )
-            place = platform.fmi3 if version == "3.0" or not platform.fmi2 else platform.fmi2
-            path = f"binaries/{place}/{identifier}{platform.ending}"
-            built[path] = both_processors(built[path], library) if path in built else library
+
+        def compile_for(platform: Platform) -> None:
+            library = folder / platform.fmi3 / f"{identifier}{platform.ending}"
+            library.parent.mkdir()
+            libraries[platform] = _compiled(compiler, [folder / file for file in compiled], library, platform)
+
+        in_threads(compile_for, platforms, usable_cores())
+    built: dict[str, bytes] = {}
+    for platform in platforms:
+        place = platform.fmi3 if version == "3.0" or not platform.fmi2 else platform.fmi2
+        path, library = f"binaries/{place}/{identifier}{platform.ending}", libraries[platform]
+        built[path] = both_processors(built[path], library) if path in built else library
     return built
 
 
@@ -111,9 +114,7 @@ def _compiled(compiler: Path, sources: Sequence[Path], library: Path, platform: 
     if done.returncode != 0 or not library.is_file():
         lines = done.stderr.strip().splitlines() or ["no message"]
         raise OutputError(f"binaries/{platform.fmi3}", f"the compiler failed: {lines[0]}")
-    content = library.read_bytes()
-    library.unlink()
-    return content
+    return library.read_bytes()
 
 
 def both_processors(intel: bytes, arm: bytes) -> bytes:
