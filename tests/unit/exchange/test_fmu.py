@@ -258,6 +258,7 @@ def test_a_library_for_both_processors_holds_both():
         (PAIR, {"mesh.formulation": "energy-consistent"}, "takes energy from the rotation"),
         ("planetary-24-84", {}, "counts the forces of the nominal speed"),
         ("efficiency-crc-23-47", {}, "has no motion in time"),
+        ("two-stage-reducer-hunting", {"solver.max_period": "10"}, "are at their phases again after 61"),
     ],
 )
 def test_what_no_fmu_can_hold_is_refused_in_one_line(

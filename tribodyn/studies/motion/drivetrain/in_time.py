@@ -66,10 +66,12 @@ def in_time(case: Gearbox, drive: str, load: str) -> GearboxInTime:
         **_NOTHING,
     )
     speeds = sorted({0.0, start, nominal}) if drive == TORQUE else [nominal]
+    starts = {speed: _state(own, case.solver.initial, speed - nominal) for speed in speeds}
     model, fixed = own._replace(bodies=bodies, operation=inputs), _fixed_oil(case)
+    remarks = [*_left_out(case, drive), *(reason for _, reason in starts.values()), fixed]
     return GearboxInTime(
         model=model,
-        starts={speed: _state(own, case.solver.initial, speed - nominal) for speed in speeds},
+        starts={speed: state for speed, (state, _) in starts.items()},
         start_speed=start,
         output_torque=torque,
         rtol=case.solver.rtol,
@@ -79,7 +81,7 @@ def in_time(case: Gearbox, drive: str, load: str) -> GearboxInTime:
         ends=(prepared.names[layout.input], prepared.names[layout.output]),
         oil_temperature=_oil_temperature(case),
         at_temperature=None if fixed else partial(_at_temperature, prepared, model),
-        remarks=(*_left_out(case, drive), *([fixed] if fixed else [])),
+        remarks=tuple(dict.fromkeys(remark for remark in remarks if remark)),
     )
 
 
@@ -109,14 +111,14 @@ def _without(torques: Any, body: int) -> np.ndarray:
     return left
 
 
-def _state(model: parameters.Model, kind: str, slip: float) -> np.ndarray:
-    """State at the start, `slip` above nominal speed of the input, rad/s; unloaded where nothing balances."""
+def _state(model: parameters.Model, kind: str, slip: float) -> tuple[np.ndarray, str]:
+    """State at the start, `slip` above nominal speed of the input, rad/s; and why it is an unloaded one."""
     share = float(model.bodies.ratio[model.layout.input])
     begun = model._replace(operation=model.operation._replace(start_slip=slip / share))
     try:
-        return initial_state(begun, kind)
-    except SimulationError:
-        return initial_state(begun, "unloaded")
+        return initial_state(begun, kind), ""
+    except SimulationError as error:
+        return initial_state(begun, "unloaded"), f"starts are without load: {error.reason}"
 
 
 def _oil_temperature(case: Gearbox) -> float | None:
