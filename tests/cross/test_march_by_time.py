@@ -2,6 +2,7 @@
 
 from functools import cache
 
+import jax
 import numpy as np
 import pytest
 
@@ -60,6 +61,17 @@ def test_a_finer_tolerance_is_more_exact(name):
     assert errors[0] < 1e-2 * np.ptp(exact)
     assert errors[1] < 0.1 * errors[0]
     assert errors[2] < 0.1 * errors[1]
+
+
+def test_it_leaves_a_bound_whose_sides_drive_it_against_each_other():
+    """At rest where a loaded pair leaves, while the load drives it back: time goes on in short steps."""
+    loads = {"operating.pinion_torque": "26 N*m", "operating.gear_torque": "56 N*m"}
+    prepared = pair(loads | {"mesh.backlash": "0.2 mm"}, "8 ms")
+    ours, theirs = (run(prepared, method, rtol=1e-7) for method in ("dopri5", "lsoda"))
+    assert ours["reference_angle"][-1] < -1e-3
+    for name in ("angle", "speed"):
+        difference = np.max(np.abs(ours[name] - theirs[name]))
+        assert difference < 2e-3 * np.max(np.abs(theirs[name])), name
 
 
 def test_communication_steps_do_not_change_the_motion():
@@ -154,3 +166,24 @@ def test_outputs_are_those_of_a_record():
     }
     for name, value in expected.items():
         assert at[name] == pytest.approx(float(value), rel=1e-4), name
+
+
+def test_the_oil_temperature_is_in_surfaces_and_laws_alone():
+    """What an exported model replaces by temperature: of the same laws nothing else differs."""
+    still = {
+        "stage.0.frame_forces": False,
+        "film.law": "masjedi-khonsari",
+        "friction.law": "masjedi-khonsari",
+    }
+    cold, hot = (
+        prepare(td.scenario("planetary-24-84", still | {"operating.oil_temperature": f"{value} degC"})).model
+        for value in (60, 90)
+    )
+    assert cold.options == hot.options
+    meshes = []
+    for one, other in zip(cold.meshes, hot.meshes, strict=True):
+        assert one.surfaces != other.surfaces
+        meshes.append(other._replace(surfaces=one.surfaces, film=one.film, friction=one.friction))
+    other = hot._replace(meshes=tuple(meshes))
+    for numbers in zip(*(jax.tree.leaves(model.numbers) for model in (cold, other)), strict=True):
+        np.testing.assert_array_equal(*numbers)

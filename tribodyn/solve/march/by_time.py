@@ -24,6 +24,7 @@ from tribodyn.solve.march import step_control as rules
 from tribodyn.solve.march.crossing import (
     CLOCK_ROWS,
     FRESH,
+    FROM_BOUND,
     INTERVAL,
     LAST_ERROR,
     SHARE,
@@ -99,6 +100,12 @@ def lower_bound(interval, stop, control, model):
 
 
 @law
+def distance_to(distance, near):
+    """Distance that a step goes at most: to a bound, or from one a little way beyond it."""
+    return distance if distance > near else maximum(FROM_BOUND, near)
+
+
+@law
 def time_to(distance, rate, acceleration):
     """Time in which a distance ≥ 0 is passed at a rate and its acceleration; `rules.UNLIMITED`: it is not."""
     squared = rate * rate + 2.0 * acceleration * distance
@@ -162,12 +169,12 @@ def take_step(end, control, model, y, clock, work, buffer):
     clock[STEPS] += 1.0
     for side in range(2):
         way, distance = 1.0 - 2.0 * side, high - phase if side == 0 else phase - low
-        if distance <= near and way * rate * clock[STEP] > near:
+        if distance <= near and way * rate * clock[STEP] > maximum(FROM_BOUND, near):
             clock[TAKEN], clock[SHARE], clock[WAY] = 0.0, 0.0, way
             return Status.DONE.value, evaluations
     to_bound = minimum(
-        time_to(maximum(high - phase, 0.0), rate, acceleration),
-        time_to(maximum(phase - low, 0.0), -rate, -acceleration),
+        time_to(distance_to(high - phase, near), rate, acceleration),
+        time_to(distance_to(phase - low, near), -rate, -acceleration),
     )
     turning = model.options.sliding == SLIDING_DYNAMIC and rules.resolves_turns(control.atol, model)
     step, tries = clock[STEP], 0.0

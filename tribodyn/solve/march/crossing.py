@@ -5,7 +5,7 @@ Times are in reference cycles of nominal speed.
 
 from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import law
+from tribodyn.numerics.elementary import law, maximum
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.marching import SCRATCH, STATE
 from tribodyn.solve.methods.dopri5 import dense_output
@@ -17,6 +17,8 @@ TIME, WHOLE, INTERVAL, STOP, STEP, LAST_ERROR, STEPS = range(7)
 #: over the end of the interval (−1, 0, 1), and whether the derivatives where it ends are not known yet.
 TAKEN, SHARE, WAY, FRESH = range(7, 11)
 CLOCK_ROWS = 11
+#: How far a step goes over the end of an interval that it begins on, about at rest; reference cycles.
+FROM_BOUND = 1e-9
 #: Halvings in which a place on the dense output is found.
 HALVINGS = 100
 
@@ -57,9 +59,13 @@ def beyond(share, way, bound, model, y, clock, buffer):
 
 @kernel
 def share_at(way, bound, low, high, model, y, clock, buffer):
-    """Share of the step between two, not beyond and beyond a bound, at which the bound is passed."""
+    """Share of the step between two, not beyond and beyond a bound, at which the bound is passed.
+
+    The second where the step begins on the bound. It is short then, and time goes on, also where the forces
+    on either side of the bound drive the reference against each other.
+    """
     if beyond(low, way, bound, model, y, clock, buffer) >= 0.0:
-        return low
+        return high
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         if middle <= low or middle >= high:
@@ -96,7 +102,8 @@ def turning_share(model, y, clock, buffer):
 def find_crossing(low, high, near, model, y, clock, buffer):
     """Put into `clock` what share of the step last attempted counts, and the way over a bound where it ends.
 
-    It may pass a bound on the way to where the reference turns back, and be inside again at its end.
+    It may pass a bound on the way to where the reference turns back, and be inside again at its end. What
+    stands on a bound, as near as rounding moves it, stays there.
     """
     layout = model.options.layout
     begin_share, turn = 0.0, turning_share(model, y, clock, buffer)
@@ -105,10 +112,11 @@ def find_crossing(low, high, near, model, y, clock, buffer):
         for side in range(2):
             way, bound = 1.0 - 2.0 * side, high if side == 0 else low
             over = beyond(turn, way, bound, model, y, clock, buffer)
-            if over > near and clock[WAY] == 0.0:
+            from_bound = beyond(0.0, way, bound, model, y, clock, buffer) >= -near
+            if over > (maximum(0.5 * FROM_BOUND, near) if from_bound else near) and clock[WAY] == 0.0:
                 clock[SHARE] = share_at(way, bound, begin_share, turn, model, y, clock, buffer)
                 clock[WAY] = way
-            elif over >= -near and turn == 1.0 and clock[WAY] == 0.0:
+            elif over >= -near and turn == 1.0 and not from_bound and clock[WAY] == 0.0:
                 if way * speed_share(buffer[STATE, layout.half + layout.lag], model) > 0.0:
                     clock[WAY] = way
         if clock[WAY] != 0.0 or turn == 1.0:
