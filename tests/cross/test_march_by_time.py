@@ -15,6 +15,8 @@ from tribodyn.studies.motion.prepare import prepare
 
 #: The shipped pair is turned back, once with the sliding of the vibration and once with the nominal one.
 BACK = {"operating.pinion_torque": "20 N*m", "operating.start_speed": "6 rad/s"}
+#: Of both trains, which then share machine code.
+LAWS = {"film.law": "masjedi-khonsari", "friction.law": "masjedi-khonsari"}
 CASES = ("dynamic", "kinematic", "backlash", "two-stage-reducer", "planetary-24-84")
 
 
@@ -25,9 +27,9 @@ def case(name: str) -> PreparedGearbox:
     if name == "backlash":  # the load turns round, and the teeth fly through the backlash
         return pair({**BACK, "mesh.backlash": "0.1 mm", "operating.gear_torque": "-30 N*m"}, "15 ms")
     motor = {"operating.source": "torque", "operating.start_speed": "0 rad/s"}
-    motor |= {"operating.input_torque": "300 N*m", "solver.duration": "1 ms"}
+    motor |= {"operating.input_torque": "300 N*m", "solver.duration": "1 ms"} | LAWS
     if name == "planetary-24-84":
-        motor |= {"stage.0.frame_forces": False, "friction.law": "none"}
+        motor |= {"stage.0.frame_forces": False}
     return prepare(td.scenario(name, motor))
 
 
@@ -170,11 +172,7 @@ def test_outputs_are_those_of_a_record():
 
 def test_the_oil_temperature_is_in_surfaces_and_laws_alone():
     """What an exported model replaces by temperature: of the same laws nothing else differs."""
-    still = {
-        "stage.0.frame_forces": False,
-        "film.law": "masjedi-khonsari",
-        "friction.law": "masjedi-khonsari",
-    }
+    still = {"stage.0.frame_forces": False} | LAWS
     cold, hot = (
         prepare(td.scenario("planetary-24-84", still | {"operating.oil_temperature": f"{value} degC"})).model
         for value in (60, 90)
