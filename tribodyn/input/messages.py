@@ -119,6 +119,11 @@ class Origins:
         """Return the file that `key` came from."""
         return next(self._files[key[:n]] for n in range(len(key), -1, -1) if key[:n] in self._files)
 
+    @property
+    def files(self) -> set[str]:
+        """All files that parts of the scenario came from."""
+        return set(self._files.values())
+
     def locate(self, error: InputError) -> InputError:
         """Return the error with its file and its value in the unit that was typed, if it had no file."""
         if isinstance(error, InputErrors):

@@ -5,6 +5,7 @@ that do not change them. What is wrong with a scenario is part of the result, as
 """
 
 import math
+import os
 import threading
 from collections.abc import Callable
 from contextlib import suppress
@@ -56,6 +57,7 @@ class Live:
     def __init__(self, scratch: Path) -> None:
         self._scratch = scratch
         self._sound: dict[tuple[str, str], SoundScenario] = {}
+        self._stamps: dict[tuple[str, str], dict[str, int]] = {}
         self._plain: dict[tuple[str, str], Gearbox] = {}
         self._loaded: dict[tuple[str, str], Loaded] = {}
 
@@ -153,6 +155,9 @@ class Live:
     def _of_text(self, request: LiveRequest) -> SoundScenario:
         """The scenario of a text that has passed schema and rules; raises all that it has not."""
         key = request.text, request.path
+        if key in self._sound and _stamps(self._sound[key]) != self._stamps[key]:
+            for kept in (self._sound, self._plain, self._loaded):
+                kept.pop(key, None)
         if key not in self._sound:
             path = Path(request.path)
             data, broken = data_of(request.text, path)
@@ -162,6 +167,7 @@ class Live:
             if found.error is not None:
                 raise found.error
             _keep(self._sound, key, found.sound)
+            _keep(self._stamps, key, _stamps(found.sound))
         return self._sound[key]
 
     def _case(self, request: LiveRequest) -> Loaded:
@@ -188,6 +194,15 @@ def _keep(kept: dict[tuple[str, str], Any], key: tuple[str, str], value: Any) ->
     kept[key] = value
     while len(kept) > KEPT:
         del kept[next(iter(kept))]
+
+
+def _stamps(sound: SoundScenario) -> dict[str, int]:
+    """When the files that a scenario names were changed, ns."""
+    found = {}
+    for file in sound.origins.files - {str(sound.path)}:
+        with suppress(OSError):
+            found[file] = os.stat(file).st_mtime_ns
+    return found
 
 
 def _refuse_others(sound: SoundScenario) -> None:

@@ -1,6 +1,7 @@
 """What a window computes with: a process of its own, in which the latest request stops the one before it."""
 
 import asyncio
+import logging
 import threading
 from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
@@ -122,7 +123,10 @@ class Worker:
         if tell is None:
             return
         if what == RESULT:
-            tell(content)
+            try:
+                tell(content)
+            except Exception:  # of who asked: other requests go on
+                logging.getLogger(__name__).exception("a result was not taken")
         elif what == DONE:
             with self._lock:
                 if number == self._number:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.verbs import complaints
+from tribodyn.input.sources import shipped
 from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load
 
@@ -216,3 +217,14 @@ def test_what_a_rating_lacks_is_said(live):
     assert shown["rows"] == []
     assert any("tolerance class" in remark for remark in shown["remarks"])
     assert any("heat treatment" in remark for remark in shown["remarks"])
+
+
+def test_a_model_that_was_edited_elsewhere_counts(live, tmp_path):
+    drive = (shipped("models") / "drives" / "spur-25-51.toml").read_text()
+    (tmp_path / "my-drive.toml").write_text(drive)
+    document = Document.open("spur-25-51")
+    document.set("drive", "my-drive.toml")
+    document.save(tmp_path / "mine.toml")
+    assert live.compute("geometry", of(document))["gears"][0]["teeth"] == 25
+    (tmp_path / "my-drive.toml").write_text(drive.replace("teeth = 25", "teeth = 26"))
+    assert live.compute("geometry", of(document))["gears"][0]["teeth"] == 26

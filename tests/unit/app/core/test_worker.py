@@ -77,6 +77,18 @@ def test_results_are_an_asynchronous_stream(worker):
     assert asyncio.run(stages()) == ["geometry", "static"]
 
 
+def test_who_does_not_take_a_result_does_not_stop_the_others(worker, caplog):
+    over = threading.Event()
+
+    def broken(_result: dict) -> None:
+        raise RuntimeError("of the page")
+
+    worker.submit(of(Document.open("spur-25-51")), broken, ("geometry",), over.set)
+    assert over.wait(60.0)
+    assert "of the page" in caplog.text
+    assert answers(worker, Document.open("spur-25-51"), ("geometry",))[0]["ok"]
+
+
 def test_another_process_answers_where_one_was_killed():
     worker = Worker()
     try:
