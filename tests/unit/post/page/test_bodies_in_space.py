@@ -14,7 +14,7 @@ import trimesh
 from scipy.spatial import cKDTree
 
 from tests.support.binary_gltf import volume_within
-from tests.support.pages import needs_browser
+from tests.support.pages import data_of, needs_browser
 from tribodyn.drawing.shapes import GearShape, PlacedPart
 from tribodyn.drawing.surface import surface_of, volume
 from tribodyn.exchange.cad.gltf import binary
@@ -225,6 +225,17 @@ def test_parts_are_listed_named_and_hidden(shown):
     assert not alone[1].any()
     assert alone[0].sum() >= both[0].sum()
     assert not shown.errors
+
+
+@needs_browser
+def test_the_file_in_the_page_is_saved(shown, file):
+    with shown.page.expect_download() as saved:
+        shown.page.locator(".space-save").click()
+    content = Path(saved.value.path()).read_bytes()
+    assert content == gzip.decompress(base64.b64decode(data_of(file)["bodies"][0]))
+    assert saved.value.suggested_filename.endswith(".glb")
+    scene = trimesh.load_scene(io.BytesIO(content), file_type="glb")
+    assert len(scene.graph.nodes_geometry) == 25 + 51
 
 
 @needs_browser
