@@ -89,6 +89,27 @@ def test_data_stand_once_and_exactly(tmp_path):
     assert "extern const Model model;" in made.header
 
 
+def _of_rows(model, i, j):
+    part = model.parts[i]
+    last = part.inner.rows[part.inner.rows.shape[0] - 1, j]
+    return last + part.other.rows[0, 0] + 100.0 * part.inner.rows.shape[0] + part.size
+
+
+def test_records_of_several_lengths_stand_in_one_array(tmp_path):
+    """Lengths and whole numbers that differ are read when the code runs; the rest is compiled in."""
+    rows = subset.NamedTuple("Rows", [("rows", Any)])
+    part = subset.NamedTuple("Part", [("inner", Any), ("other", Any), ("size", Any)])
+    model = subset.NamedTuple("Several", [("parts", Any)])
+    short, long = (rows(np.arange(2.0 * n).reshape(n, 2)) for n in (2, 5))
+    several = model((part(short, short, 1), part(long, short, 7)))
+    made = translated({"entry": CEntry(_of_rows, (several, 0, 0))}, {"model": several})
+    library = compiled(made.source, tmp_path)
+    for i in range(2):
+        (found,) = called(library.entry, address(library, "model"), i, 1, result=ctypes.c_double)
+        assert found == _of_rows(several, i, 1)
+    assert "const double (*rows)[2];" in made.header
+
+
 def _reads_file(x):
     return float(open("a").read()) + x
 

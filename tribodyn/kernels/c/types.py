@@ -204,52 +204,35 @@ class Structs:
             self.records[key] = CRecord(name, "" if about.startswith(f"{kind.__name__}(") else about, fields)
         return self.records[key]
 
-    def of(self, value: Any) -> CType:
-        """Type of a value inside a record; TypeError for what no kernel takes."""
-        if isinstance(value, np.ndarray) and value.ndim:
-            return CArray(DOUBLE if value.dtype.kind == "f" else WHOLE, value.shape)
-        if isinstance(value, tuple) and hasattr(value, "_fields"):
-            fields = tuple((name, self.of(getattr(value, name))) for name in _fields(value))
-            return self.record(type(value), fields)
-        if isinstance(value, tuple) and value and all(hasattr(item, "_fields") for item in value):
-            return self._several(value)
-        if isinstance(value, float) or isinstance(value, np.ndarray):
-            return DOUBLE
-        if isinstance(value, np.generic):
-            return CKnown(value.item())
-        if isinstance(value, tuple):
-            return CKnown(tuple(value))
-        if value is None or isinstance(value, (int, str)) or callable(value):
-            return CKnown(int(value) if isinstance(value, int) and not isinstance(value, bool) else value)
-        raise TypeError(
-            f"C code takes numbers, arrays, functions and tuples of them, not {type(value).__name__}"
-        )
-
-    def _several(self, values: tuple[Any, ...]) -> CSeveral:
-        """Type of records that are alike but for their whole numbers and lengths."""
-        if len({type(value) for value in values}) > 1:
-            raise TypeError("C code takes several records where they are of one type")
-        return CSeveral(self._joined([self.of(value) for value in values]), len(values))
-
-    def _joined(self, kinds: list[Any]) -> CRecord:
-        if all(kind is kinds[0] for kind in kinds):
-            return kinds[0]
-        key = next(key for key, record in self.records.items() if record is kinds[0])
-        for kind in kinds:  # no value is of these
-            self.records = {key: record for key, record in self.records.items() if record is not kind}
-            self._names.discard(kind.name)
-        fields = []
-        for name in kinds[0].fields:
-            each = [kind.fields[name] for kind in kinds]
-            if all(isinstance(one, CRecord) for one in each):
-                fields.append((name, self._joined(each)))
-                continue
-            joined = common(each)
-            if joined is None:
-                raise TypeError(f"{kinds[0].name}.{name} is of other types in other records of a tuple")
-            fields.append((name, joined))
-        return self.record(key[0], tuple(fields))
+    def of(self, *values: Any) -> CType:
+        """Type of a value inside a record, or of the values there in several; TypeError for no such type."""
+        first = values[0]
+        if isinstance(first, tuple) and hasattr(first, "_fields"):
+            if len({type(value) for value in values}) > 1:
+                raise TypeError("C code takes several records where they are of one type")
+            names = type(first)._fields  # pyright: ignore[reportAttributeAccessIssue]
+            fields = ((name, self.of(*(getattr(value, name) for value in values))) for name in names)
+            return self.record(type(first), tuple(fields))
+        if isinstance(first, tuple) and first and all(hasattr(item, "_fields") for item in first):
+            record = self.of(*(item for value in values for item in value))
+            assert isinstance(record, CRecord)
+            return CSeveral(record, len(first))
+        joined = common(map(_simple, values))
+        if joined is None:
+            raise TypeError("C code takes records of one type, with numbers, arrays and the same functions")
+        return joined
 
 
-def _fields(value: Any) -> tuple[str, ...]:
-    return value._fields
+def _simple(value: Any) -> CType:
+    """Type of what is no record."""
+    if isinstance(value, np.ndarray) and value.ndim:
+        return CArray(DOUBLE if value.dtype.kind == "f" else WHOLE, value.shape)
+    if isinstance(value, (float, np.ndarray)):
+        return DOUBLE
+    if isinstance(value, np.generic):
+        return CKnown(value.item())
+    if isinstance(value, tuple):
+        return CKnown(tuple(value))
+    if value is None or isinstance(value, (int, str)) or callable(value):
+        return CKnown(int(value) if isinstance(value, int) and not isinstance(value, bool) else value)
+    raise TypeError(f"C code takes numbers, arrays, functions and tuples of them, not {type(value).__name__}")
