@@ -21,6 +21,7 @@ from tribodyn.app.core.shown import tables_of
 from tribodyn.app.core.slow_rotation import at_torques, slow_rotation
 from tribodyn.app.core.strength import strength_of
 from tribodyn.cases.assessment_part import Meshing
+from tribodyn.cases.results import Progress
 from tribodyn.errors import InputError, OutputError, SimulationError, quoted
 from tribodyn.gears.prepare import assembled
 from tribodyn.input.tables.duty import in_force
@@ -56,13 +57,16 @@ class Live:
 
     def __init__(self, scratch: Path) -> None:
         self._scratch = scratch
+        self._progress: Progress | None = None
         self._sound: dict[tuple[str, str], SoundScenario] = {}
         self._stamps: dict[tuple[str, str], dict[str, int]] = {}
         self._plain: dict[tuple[str, str], Gearbox] = {}
         self._loaded: dict[tuple[str, str], Loaded] = {}
 
-    def compute(self, stage: str, request: LiveRequest) -> dict[str, Any]:
+    def compute(self, stage: str, request: LiveRequest, progress: Progress | None = None) -> dict[str, Any]:
         """The result of a stage; that of a scenario that is wrong says what is.
+
+        `progress` is told the share done of a motion.
 
         Every result has `stage`, `ok`, `errors` (of each the fields of `Message`, and `short`), `warnings`
         and `seconds`; what a stage has besides is said of its function.
@@ -70,6 +74,7 @@ class Live:
         begun = perf_counter()
         head: dict[str, Any] = {"stage": stage, "warnings": [], "errors": []}
         try:
+            self._progress = progress
             result = _STAGES[stage](self, request)
             return head | {"ok": True, "seconds": perf_counter() - begun} | result
         except (InputError, SimulationError, OutputError) as error:
@@ -141,7 +146,8 @@ class Live:
         while beside.is_alive():  # in short waits, so that a newer request is heard
             beside.join(0.02)
         with loaded.naming():
-            return _names(loaded.case, number) | motion_of(loaded, self._scratch / "motion.h5", number)
+            record = self._scratch / "motion.h5"
+            return _names(loaded.case, number) | motion_of(loaded, record, number, self._progress)
 
     def _unchosen(self, request: LiveRequest) -> tuple[SoundScenario, Gearbox, int]:
         """The scenario of a text, its gearbox before laws are chosen, and the number of the mesh."""
@@ -164,7 +170,8 @@ class Live:
             if broken is not None:
                 raise broken
             found = findings(data, path)
-            if found.error is not None:
+            if found.sound is None:
+                assert found.error is not None, "either of both"
                 raise found.error
             _keep(self._sound, key, found.sound)
             _keep(self._stamps, key, _stamps(found.sound))

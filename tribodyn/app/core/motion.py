@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.app.core.shown import rows_of
+from tribodyn.cases.results import Progress
 from tribodyn.errors import SimulationError
 from tribodyn.post.cycles import last_cycles, mesh_phases, shown_cycles
 from tribodyn.quantities.quantity import SHOWN
@@ -30,7 +31,7 @@ MOST = 1200
 HARMONICS = 8
 
 
-def motion_of(loaded: Loaded, path: Path, mesh: int) -> dict[str, Any]:
+def motion_of(loaded: Loaded, path: Path, mesh: int, progress: Progress | None = None) -> dict[str, Any]:
     """Run a case to a record at a path, and take from it what a page shows of a mesh.
 
     `phase` (cycles of the mesh) and `time` (s) of the curves; `curves`, name -> values (n,) or (n, pairs),
@@ -38,7 +39,7 @@ def motion_of(loaded: Loaded, path: Path, mesh: int) -> dict[str, Any]:
     (Hz, µm); `rows` of the summary, with `heading`s, `mesh_rows` of the mesh, `verdict`, `trust`, `summary`,
     SI. Raises SimulationError where the run stops before its end.
     """
-    result = loaded.study.run(loaded.case, path, force=True)
+    result = loaded.study.run(loaded.case, path, force=True, progress=progress)
     if result.status != "complete":
         raise SimulationError(result.message)
     with Record(result.path) as record:

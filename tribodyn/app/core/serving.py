@@ -9,14 +9,17 @@ import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from time import monotonic
 from typing import IO, Any, BinaryIO, NamedTuple
 
 from tribodyn.app.core.live import Live, LiveRequest
 
 #: Before every answer, which is pickled: its length.
 HEAD = struct.Struct(">Q")
-#: What an answer is: a request was begun, one of its results, its end; the process is ready.
-BEGUN, RESULT, DONE, READY = "begun", "result", "done", "ready"
+#: What an answer is: a stage was begun, its share, its result, a request's end; the process is ready.
+BEGUN, SHARE, RESULT, DONE, READY = "begun", "share", "result", "done", "ready"
+#: Seconds between two shares.
+_PAUSE = 0.1
 
 
 class _Superseded(BaseException):
@@ -72,9 +75,17 @@ class _Serving:
             asked = self._latest
             assert asked is not None
             self._at_work = True
-        self._answer(BEGUN, asked.number, None)
+        said = monotonic()
+
+        def progress(share: float) -> None:
+            nonlocal said
+            if monotonic() - said > _PAUSE:
+                said = monotonic()
+                self._answer(SHARE, asked.number, share)
+
         for stage in asked.stages:
-            result = live.compute(stage, asked.request)
+            self._answer(BEGUN, asked.number, stage)
+            result = live.compute(stage, asked.request, progress)
             if self._is_old(asked):
                 raise _Superseded
             self._answer(RESULT, asked.number, result)

@@ -7,10 +7,10 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
 from tempfile import TemporaryDirectory
 from time import monotonic
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tribodyn.app.core.live import STAGES, LiveRequest
-from tribodyn.app.core.serving import BEGUN, DONE, READY, RESULT, answers_in, line_of
+from tribodyn.app.core.serving import BEGUN, DONE, READY, RESULT, SHARE, answers_in, line_of
 from tribodyn.numerics.processes import child
 
 if TYPE_CHECKING:
@@ -26,6 +26,14 @@ Tell = Callable[[dict[str, Any]], None]
 """Takes a result of a stage; called by another thread."""
 
 
+class AtWork(NamedTuple):
+    """What a worker is at."""
+
+    stage: str  # "": nothing, or it is still being started
+    seconds: float  # since when
+    share: float | None  # done; None: that is not known
+
+
 class Worker:
     """A process that computes for one window; it is started at once, and imports what it needs."""
 
@@ -36,6 +44,7 @@ class Worker:
         self._asked_at = 0.0
         self._tell: Tell | None = None
         self._finished: Callable[[], None] | None = None
+        self._share: float | None = None
         self._closed = False
         self._scratch = TemporaryDirectory(prefix="tribodyn-")
         self._start()
@@ -63,6 +72,12 @@ class Worker:
             self._send()
             return self._number
 
+    @property
+    def at_work(self) -> AtWork:
+        """What it is at; before a first motion machine code may have to be made, which takes a minute."""
+        with self._lock:
+            return AtWork(self._stage, monotonic() - self._since, self._share)
+
     async def results(
         self, request: LiveRequest, stages: tuple[str, ...] = STAGES
     ) -> AsyncIterator[dict[str, Any]]:
@@ -88,6 +103,7 @@ class Worker:
 
     def _start(self) -> None:
         self._ready = False
+        self._stage, self._since, self._share = "", monotonic(), None
         # the module beside this one
         self._process = child.start(f"{__package__}.serving:serve", self._scratch.name)
         threading.Thread(target=self._listen, args=(self._process,), daemon=True).start()
@@ -119,6 +135,11 @@ class Worker:
                 self._ready, self._asked_at = True, monotonic()
             if what == BEGUN:
                 self._begun = max(self._begun, number)
+                self._stage, self._since, self._share = content, monotonic(), None
+            if what == SHARE:
+                self._share = content
+            if what == DONE:
+                self._stage, self._since, self._share = "", monotonic(), None
             tell = self._tell if number == self._number else None
         if tell is None:
             return
