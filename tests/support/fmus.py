@@ -30,6 +30,7 @@ FROM_REST = {
     "operating.load_inertia": "0.05 kg*m**2",
     "solver.duration": "20 ms",
     "solver.rtol": 1e-8,
+    "solver.max_steps": 8000,
     "output.samples_per_cycle": 64,
     "mesh.backlash": "0.1 mm",
 }

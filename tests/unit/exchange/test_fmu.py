@@ -94,6 +94,14 @@ def test_other_communication_steps_give_the_same_motion():
     assert uneven == pytest.approx(even, rel=1e-6)
 
 
+def test_communication_steps_may_be_short():
+    """More of them in a mesh cycle than the scenario allows steps."""
+    assert FROM_REST["solver.max_steps"] < 9000
+    path, names = pair_fmu("3.0", "torque"), ("input_speed", "mesh.transmission_error")
+    short, long = Unit(path).step(1e-7, 9000).get(*names), Unit(path).step(9e-4).get(*names)
+    assert short == pytest.approx(long, rel=1e-6)
+
+
 def test_ten_instances_at_once_without_python(tmp_path: Path):
     """A program in C, with an empty environment, loads the library alone."""
     program, path = compiled_harness(tmp_path), pair_fmu("3.0", "torque")

@@ -114,6 +114,7 @@ def _simulation(
         "slip": layout.half + layout.lag,
         "output_turn": turn_of(layout.output, layout),
         "time_row": by_time.TIME,
+        "steps_row": by_time.STEPS,
         "references": _references(variables),
         "variables": ",\n".join(_variable(each) for each in variables),
         "token": "@token",

@@ -20,8 +20,8 @@ enum {
     variable_count = @variable_count
 };
 
-/* Places in the state, and of the time in the clock. */
-enum { LAG = @lag, SLIP = @slip, OUTPUT_TURN = @output_turn, TIME = @time_row };
+/* Places in the state; in the clock those of the time, and of the steps so far. */
+enum { LAG = @lag, SLIP = @slip, OUTPUT_TURN = @output_turn, TIME = @time_row, STEPS = @steps_row };
 
 /* Places of the numbers that a run changes; those of the shaft and the acceleration hold since a step began. */
 enum {
@@ -135,6 +135,7 @@ static int simulation_advance(
         one->tolerances[i] = scale * @{name}_control.atol[i];
     one->control.atol = one->tolerances;
     one->control.rtol = tolerance;
+    numbers[CLOCK + STEPS] = 0.0; /* their limit is one of a communication step */
 @steps
     put_inputs(one, values, numbers);
     return (int)@{name}_advance(
