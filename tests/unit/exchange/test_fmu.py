@@ -206,6 +206,11 @@ def test_the_same_scenario_gives_the_same_bytes_and_another_one_another_token():
     assert tokens[0] != tokens[1]
     assert tokens[0] in files["sources/simulation.c"].decode()
     built = ElementTree.fromstring(files["sources/buildDescription.xml"])
+    schema = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3BuildDescription.xsd"
+    etree = pytest.importorskip("lxml.etree")
+    assert etree.XMLSchema(etree.parse(schema)).validate(
+        etree.fromstring(files["sources/buildDescription.xml"])
+    )
     named = {f"sources/{file.get('name')}" for file in built.iter("SourceFile")}
     assert named == {"sources/fmi3.c", "sources/model.c"} & files.keys()
     assert b"Apache" in files["documentation/licenses/license.txt"]

@@ -112,9 +112,8 @@ def build_description(name: str, sources: FmuSources) -> str:
     several = ET.SubElement(built, "SourceFileSet", {"language": "C99"})
     for file in sources.compiled:
         ET.SubElement(several, "SourceFile", {"name": file})
-    ET.SubElement(
-        built, "Library", {"name": "m", "description": "mathematics of C; part of it on Windows and macOS"}
-    )
+    about = "mathematics of C; part of it on Windows and macOS"
+    ET.SubElement(built, "Library", {"name": "m", "external": "true", "description": about})
     return _text(root)
 
 
