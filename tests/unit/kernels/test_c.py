@@ -10,7 +10,7 @@ import pytest
 from tests.support import python_subset as subset
 from tests.support.c_code import address, called, compiled
 from tribodyn.kernels.c import CEntry, OutsideSubsetError, translated
-from tribodyn.numerics.elementary import StaticInt
+from tribodyn.numerics.elementary import StaticInt, last_at_or_below
 
 Y = np.array([0.5, 1.0, 1.25, 2.0, 3.0, 4.0, 5.0, 6.0])
 WORK = np.arange(12.0).reshape(4, 3)
@@ -138,9 +138,39 @@ def _calls_itself(x):
     return x if x < 1.0 else _calls_itself(x - 1.0)
 
 
+def _divides_by_nothing(x):
+    return x + 1 // 0
+
+
+def _of_no_array(x):
+    return last_at_or_below(subset.WEIGHTS, x)
+
+
+def _any_number(x, *others):
+    return x
+
+
+def _hands_over_two(x):
+    return _any_number(x, x)
+
+
+def _no_field(x):
+    return subset.Point(x, x).z
+
+
+def _a_type(x):
+    return subset.Point
+
+
 @pytest.mark.parametrize(
     ("function", "says"),
     [
+        (_divides_by_nothing, "by zero"),
+        (_of_no_array, "not translated"),
+        (_any_number, "any number of arguments"),
+        (_hands_over_two, "any number of arguments"),
+        (_no_field, "no field z"),
+        (_a_type, "no number"),
         (_reads_file, "open is not translated"),
         (_comprehends, "ListComp"),
         (_lambda, "Lambda"),
@@ -156,7 +186,7 @@ def test_what_has_no_counterpart_is_named(function, says):
     assert function.__name__ in str(caught.value)
     assert "test_c.py" in str(caught.value)
     line = int(str(caught.value).partition("line ")[2].partition(")")[0])
-    assert first < line <= first + 4
+    assert first <= line <= first + 4
 
 
 def test_arrays_in_records_are_not_changed():

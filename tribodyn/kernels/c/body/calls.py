@@ -71,9 +71,11 @@ class Calls(Elements):
         self, function: FunctionType, arguments: list[Value], keywords: dict[str, Value], node: ast.Call
     ) -> Value:
         bound = inspect.signature(function).bind(*arguments, **keywords)
+        if not all(
+            isinstance(one, (Known, Expression, Several, Counting)) for one in bound.arguments.values()
+        ):
+            raise self.source.error(node, f"{function.__name__} takes any number of arguments")
         for name, parameter in inspect.signature(function).parameters.items():
-            if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
-                raise self.source.error(node, f"{function.__name__} takes any number of arguments")
             if name not in bound.arguments:
                 bound.arguments[name] = Known(parameter.default)
         ordered = [bound.arguments[name] for name in inspect.signature(function).parameters]

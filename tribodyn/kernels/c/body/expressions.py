@@ -30,10 +30,22 @@ from tribodyn.kernels.c.values import (
     Expression,
     Known,
     Several,
+    UnknownOperationError,
     Value,
     condition,
     python_number,
     text_of,
+)
+
+#: What says, where an expression is evaluated, that it is none of those that are translated.
+NOT_TRANSLATED = (
+    UnknownOperationError,
+    TypeError,
+    ValueError,
+    AttributeError,
+    LookupError,
+    ArithmeticError,
+    AssertionError,
 )
 
 
@@ -55,8 +67,8 @@ class Expressions:
             raise self.source.error(node, f"{type(node).__name__} is not translated")
         try:
             return visit(node)
-        except (operators.UnknownOperationError, TypeError, AttributeError, IndexError) as error:
-            raise self.source.error(node, str(error)) from error
+        except NOT_TRANSLATED as error:
+            raise self.source.error(node, str(error) or "it is not translated") from error
 
     @contextmanager
     def captured(self) -> Iterator[list[CLine]]:
@@ -188,7 +200,7 @@ class Expressions:
         """A field of a record."""
         record = record_of(value.type)
         if name not in record.fields:
-            raise self.source.error(None, f"{record.name} has no field {name} in C")
+            raise UnknownOperationError(f"{record.name} has no field {name} in C")
         kind = record.fields[name]
         if isinstance(kind, CKnown):
             return Known(kind.value)
@@ -205,7 +217,7 @@ class Expressions:
         if known is not None:
             return Known(known)
         if array.type.is_pointer:
-            raise self.source.error(None, "the length of a part of an array is not known")
+            raise UnknownOperationError("the length of a part of an array is not known")
         return Expression(f"{array.text}.shape[{axis}]", WHOLE)
 
     def _of_BinOp(self, node: ast.BinOp) -> Value:

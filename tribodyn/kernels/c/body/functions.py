@@ -89,7 +89,14 @@ class FunctionTranslator(Loops):
     def _parameters(self) -> list[tuple[int, str, CType]]:
         """Take over the arguments: place, name in C and type of those that are anything in C."""
         stored: list[tuple[int, str, CType]] = []
-        for place, (name, kind) in enumerate(zip(self.source.parameters.parameters, self.kinds, strict=True)):
+        given = self.source.parameters.parameters
+        if any(one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD) for one in given.values()):
+            raise self.source.error(self.source.node, "it takes any number of arguments")
+        if len(given) != len(self.kinds):
+            raise self.source.error(
+                self.source.node, f"it takes {len(given)} arguments, not {len(self.kinds)}"
+            )
+        for place, (name, kind) in enumerate(zip(given, self.kinds, strict=True)):
             if isinstance(kind, CKnown):
                 self.values[name] = Known(kind.value)
                 continue
@@ -121,6 +128,8 @@ class FunctionTranslator(Loops):
         kind = common(kinds)
         if kind is None:
             raise self.source.error(self.source.node, "it returns values of several types")
+        if self.exported and not takes_place(kind):
+            raise self.source.error(self.source.node, "it returns what is no number or tuple of numbers")
         if isinstance(kind, CTuple) and takes_place(kind):
             self.unit.tuples[tuple_name(kind)] = kind
         return kind

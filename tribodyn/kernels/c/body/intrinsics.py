@@ -106,6 +106,8 @@ def _is(*functions: Any) -> Callable[[Callable[..., Value]], Callable[..., Value
 
 def _of_c(name: str, in_python: Callable[..., float] | None = None) -> Callable[..., Value]:
     def evaluated(translator: Any, *arguments: Value) -> Value:
+        if len(arguments) != (2 if name in ("atan2", "minimum", "maximum") else 1):
+            raise operators.UnknownOperationError(f"{name} takes other arguments")
         known = [float(one.value) for one in arguments if isinstance(one, Known)]
         if in_python is not None and len(known) == len(arguments):
             return Known(in_python(*known))

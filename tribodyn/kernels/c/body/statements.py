@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tribodyn.kernels.c.body import operators
 from tribodyn.kernels.c.body.calls import Calls
-from tribodyn.kernels.c.body.expressions import constant
+from tribodyn.kernels.c.body.expressions import NOT_TRANSLATED, constant
 from tribodyn.kernels.c.lines import CLine, names_in
 from tribodyn.kernels.c.sources import PythonSource
 from tribodyn.kernels.c.types import (
@@ -92,8 +92,8 @@ class Statements(Calls):
                 raise self.source.error(statement, f"{type(statement).__name__} is not translated")
             try:
                 ends = visit(statement)
-            except (operators.UnknownOperationError, TypeError, ValueError) as error:
-                raise self.source.error(statement, str(error)) from error
+            except NOT_TRANSLATED as error:
+                raise self.source.error(statement, str(error) or "it is not translated") from error
             if ends:
                 return True
         return False
