@@ -248,10 +248,10 @@ def placed_parts(loaded: Loaded, tolerance: float) -> list[PlacedPart]:
 def bodies_in_space(record: Record) -> bytes:
     """Gears and shafts of a record as its page has them, one tooth of every gear.
 
-    Nothing where it has none, or this version cannot make its case.
+    Nothing where it has none, or this version cannot make its case or draw its teeth.
     """
     try:
         parts = placed_parts(load_data(record.scenario, record.path.stem), _ON_A_PAGE)
-    except (InputError, SimulationError):
+        return binary(parts, record.label, by_tooth=True)[0] if parts else b""
+    except (InputError, SimulationError, ValueError):
         return b""
-    return binary(parts, record.label, by_tooth=True)[0] if parts else b""

@@ -197,7 +197,7 @@ const space = (function () {
   function section(root, files) {
     const $ = (name) => root.querySelector("." + name), canvas = root.querySelector("canvas"), names = $("space-names");
     const view = { yaw: VIEWS.oblique[0], pitch: VIEWS.oblique[1], target: [0, 0, 0], distance: 1, fitted: 1, size: 1 };
-    let parts = [], turned = 0, turning = false, last = 0, waits = false, marked = null, draw = null, file = null;
+    let parts = [], known = [], turned = 0, turning = false, last = 0, waits = false, marked = null, draw = null, file = null;
     const opened = typeof DecompressionStream !== "function" ? [] : files.map(async (text) => {
       const bytes = Uint8Array.from(atob(text), (one) => one.charCodeAt(0));
       return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
@@ -289,7 +289,7 @@ const space = (function () {
     async function show(number) {
       if (opened.length) {
         file = await opened[number];
-        parts = read(file);
+        parts = known[number] = known[number] || read(file);
         draw = draw || byWebGl(canvas) || byPainter(canvas);
       }
       if (!draw) { canvas.hidden = true; $("space-none").hidden = false; return; }
