@@ -82,7 +82,7 @@ def import_measured(
     into: str | Path | None = None,
     gear: str = "",
     *,
-    datum: str = "start",
+    datum: str = "",
     output: str | Path | None = None,
     format: str | None = None,
     force: bool = False,
@@ -98,7 +98,7 @@ def import_measured(
     gear : str
         Its name there: ``"pinion"``, ``"gear"``, or that of a train.
     datum : str
-        End of its face that is the datum face: ``"start"``, at the most negative z, or ``"end"``.
+        End of its face that is the datum face: ``"start"``, at the most negative z (default), or ``"end"``.
     output : path, optional
         The scenario that is written, tables beside it; default: that of `into` with ``-measured``.
     format : str, optional

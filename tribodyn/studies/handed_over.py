@@ -190,7 +190,7 @@ def _source(source: str | Path, overrides: Mapping[str, Any], form: ExchangeForm
             loaded.path,
             tomllib.loads(loaded.case.toml),
             parts=partial(placed_parts, loaded),
-            measured=measuring(loaded),
+            measured=measuring(lambda: loaded),
             in_time=partial(_in_time, loaded),
         )
     for key in overrides:
@@ -215,6 +215,7 @@ def _source(source: str | Path, overrides: Mapping[str, Any], form: ExchangeForm
         summary,
         losses,
         lambda tolerance: placed_parts(load_data(scenario, path.stem), tolerance),
+        measured=measuring(lambda: load_data(scenario, path.stem)),
         in_time=lambda drive, load: _in_time(load_data(scenario, path.stem), drive, load),
     )
 

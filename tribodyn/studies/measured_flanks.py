@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, near_name, quoted
-from tribodyn.exchange.measured_gear import DIAMETER, ROLL_ANGLE, MeasuredGear
+from tribodyn.exchange.measured_gear import DIAMETER, ROLL_ANGLE, MeasuredGear, NominalGear
 from tribodyn.gears.measured.evaluated import Evaluation, evaluation_of
 from tribodyn.gears.measured.from_scenario import measured_of
 from tribodyn.gears.measured.mounted_gear import END, START, MountedGear
@@ -66,13 +66,11 @@ def datum_named(name: str, key: str) -> str:
     return name or START
 
 
-def measuring(loaded: Loaded) -> Callable[[str, str], MeasuredGear] | None:
-    """(gear, datum face) -> a gear of a scenario as it would be measured; None of other kinds."""
-    if loaded.study.mounted_gears() is None:
-        return None
+def measuring(loading: Callable[[], Loaded]) -> Callable[[str, str], MeasuredGear]:
+    """(gear, datum face) -> a gear of a scenario, which is loaded then, as it would be measured."""
 
     def measured(name: str, datum: str) -> MeasuredGear:
-        gears = mounted(loaded)
+        gears = mounted(loading())
         own = [gear.name for gear in gears.values() if gear.own]
         gear = gear_named(gears, name or (own or list(gears))[0], "gear")
         return measured_of(gear, datum_named(datum, "datum"))
@@ -90,7 +88,15 @@ def evaluated(measured: MeasuredGear, file: str) -> Evaluation:
         stretch = math.cos(of.helix_angle or 0.0)
         transverse = math.atan(math.tan(of.pressure_angle) / stretch)
         measured = _rolled(measured, of.teeth * of.module / stretch / 2.0 * math.cos(transverse))
-    return evaluation_of(measured, of)
+    return _naming(file, measured, of)
+
+
+def _naming(file: str, measured: MeasuredGear, of: NominalGear, edition: int = 2013) -> Evaluation:
+    """Evaluate a measurement, and put its file into the errors."""
+    try:
+        return evaluation_of(measured, of, edition)
+    except InputError as error:
+        raise error.moved(lambda _: file) from None
 
 
 def _rolled(measured: MeasuredGear, base_radius: float) -> MeasuredGear:
@@ -113,14 +119,15 @@ def import_measured(
     file = str(measurements[0][0])
     measured = reduce(MeasuredGear.beside, (each for _, each in measurements))
     if into is None:
-        if gear or output is not None:
+        if gear or datum or output is not None:
             raise InputError("import", file, "goes into a scenario that is not said", "add --into SCENARIO")
         return MeasuredImport((), evaluated(measured, file), measured.remarks)
     source = find_scenario(str(into))
     loaded = load(source)
     mounting = gear_named(mounted(loaded), gear, "--gear")
     keys = keys_of(measured, mounting, datum_named(datum, "--datum"), file)
-    evaluation = evaluation_of(_rolled(measured, mounting.base_radius), mounting.nominal, mounting.edition)
+    rolled = _rolled(measured, mounting.base_radius)
+    evaluation = _naming(file, rolled, mounting.nominal, mounting.edition)
     target = output or Path(f"{source.stem}-measured.toml")
     if output is None and str(into).endswith(".toml"):
         target = source.with_name(target.name)

@@ -3,6 +3,7 @@
 No file of a measuring machine was at hand: these are the project's own.
 """
 
+import json
 import math
 from pathlib import Path
 from typing import Any
@@ -147,6 +148,7 @@ BOMB = '<!DOCTYPE x [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">]>'
         (gde(profile(POINTS.replace("0 1 2", "0 1"))), "3 places and 2 deviations"),
         (gde(profile(POINTS.replace("0 1 2", "0 1 nan"))), '"nan" is no number'),
         (gde(profile(POINTS.replace("0 1 2", "0,5 1 2"))), '"0,5" is no number'),
+        (gde(profile(POINTS.replace("0 1 2", "0 1_0 2"))), '"1_0" is no number'),
         (gde(profile(POINTS.replace("1 2 3", "1 3 2"))), "its points go forth and back"),
         (gde(profile(POINTS, "<flank>left</flank>")), "no tooth_number that is a whole number"),
         (gde(profile(POINTS, "<tooth>1</tooth>")), "says no flank"),
@@ -234,8 +236,28 @@ def test_another_gear_is_refused(tmp_path: Path):
     assert "the gear is not said" in complaint("import", path, "--into", SPUR, folder=tmp_path)
     alike = "--into", "efficiency-involute-18-36", "--gear", "gear"
     assert "takes all teeth" in complaint("import", path, *alike, folder=tmp_path)
+    for option in ("--gear", "--datum", "-o"):
+        said = complaint("import", path, option, "pinion", folder=tmp_path)
+        assert "add --into SCENARIO" in said
+    assert "no end of the face" in complaint(
+        *("import", path, *into, "gear", "--datum", "up"), folder=tmp_path
+    )
+
+
+def test_what_was_measured_beside_the_gear_or_twice_is_refused(tmp_path: Path):
+    into = "--into", SPUR, "--gear"
     far = written(tmp_path, gde(profile(POINTS.replace("1 2 3", "100 200 300"))))
     assert "is beyond contact" in complaint("import", far, *into, "pinion", folder=tmp_path)
+    helix = POINTS.replace("roll_length", "face_position").replace("1 2 3", "100 200 300")
+    helix = profile(helix).replace("profile_", "helix_")
+    beside = written(tmp_path, gde(helix))
+    assert "beside a face of 25 mm" in complaint("import", beside, *into, "pinion", folder=tmp_path)
+    twice = written(tmp_path, gde(2 * profile(POINTS.replace("1 2 3", "10 20 30"))))
+    assert "measured twice" in complaint("import", twice, *into, "pinion", folder=tmp_path)
+    short = POINTS.replace("1 2 3", "10 20 30") + "<evaluation_begin>40</evaluation_begin>"
+    outside = written(tmp_path, gde(profile(short + "<evaluation_end>50</evaluation_end>")))
+    said = complaint("import", outside, folder=tmp_path)
+    assert "profile of tooth 1, left flank: has fewer than three points in its evaluation range" in said
     assert [each.name for each in tmp_path.iterdir()] == ["gear.gde"]
 
 
@@ -248,5 +270,10 @@ def test_the_verb_evaluates_and_writes(tmp_path: Path):
     invoke("import", "p.gde", "--into", SPUR, "--gear", "pinion", folder=tmp_path)
     made = td.scenario(tmp_path / f"{SPUR}-measured.toml", {"solver.cycles": 1081})
     assert made.pair.teeth[0][0].eccentricity == pytest.approx(10e-6, rel=1e-9)
+    again = "import", "p.gde", "--into", SPUR, "--gear", "pinion"
+    assert "--force" in complaint(*again, folder=tmp_path)
+    data = json.loads(invoke(*again, "--force", "--json", folder=tmp_path))
+    assert {each["name"] for each in data["evaluation"]["deviations"]} >= {"runout", "total_pitch"}
+    assert data["evaluation"]["class"] == 6
     said = complaint("export", SPUR, "--to", "gde", "-o", "q.gde", folder=tmp_path)
     assert "its teeth have no deviations of their own" in said

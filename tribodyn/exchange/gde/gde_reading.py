@@ -1,6 +1,6 @@
 """A GDE file as a measured gear."""
 
-import math
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -32,6 +32,7 @@ _PLACES = {
     ),
     HELIX: (("", words.FACES, "length"),),
 }
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _AT = {PROFILE: words.FACES, HELIX: words.DIAMETERS}
 _CONTAINERS = {*words.GEARS, *words.GROUPS, *words.GEOMETRY, *words.INSPECTION}
 
@@ -272,10 +273,6 @@ class _Reading:
 
     def _split(self, element: XmlElement) -> Iterator[float]:
         for text in element.text.replace(";", " ").split():
-            try:
-                value = float(text)
-            except ValueError:
-                value = math.nan
-            if not abs(value) < 1e12:
+            if not (_NUMBER.fullmatch(text) and abs(value := float(text)) < 1e12):
                 raise self.bad(element, f"{quoted(text)} is no number", "write numbers with decimal points")
             yield value

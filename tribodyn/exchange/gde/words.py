@@ -47,7 +47,7 @@ NOMINAL = {
     "internal": (("gear_type", "type_of_gear"), "type"),
     "module": (("normal_module", "module"), "length"),
     "pressure_angle": (("normal_pressure_angle", "pressure_angle"), "angle"),
-    "helix_angle": (("helix_angle",), "angle"),
+    "helix_angle": (("helix_angle", "helix_angle_reference_diameter"), "angle"),
     "hand": (("hand_of_helix", "helix_direction", "hand", "helix_hand"), "hand"),
     "profile_shift": (
         ("profile_shift_coefficient", "addendum_modification_coefficient"),

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.errors import InputError
 from tribodyn.exchange.measured_gear import FLANKS, HELIX, PROFILE, MeasuredGear, NominalGear
 from tribodyn.gears.measured.flank_evaluation import (
     FoundClasses,
@@ -15,6 +16,7 @@ from tribodyn.gears.measured.flank_evaluation import (
     trace_deviations,
 )
 from tribodyn.numerics.elementary import cos
+from tribodyn.standards.flank_tolerances import outside
 
 #: Name of the tolerance -> symbol and words.
 SYMBOLS = {
@@ -49,6 +51,7 @@ class Evaluation(NamedTuple):
     deviations: tuple[FlankDeviation, ...]
     classes: FoundClasses | None  # None: not enough is known of the gear
     edition: int
+    limits: tuple[str, ...] = ()  # sizes for which the standard has no tolerances
 
     def lines(self) -> Iterator[str]:
         """As it is printed."""
@@ -61,6 +64,8 @@ class Evaluation(NamedTuple):
             yield f"{words}: {values}{grade}"
         if self.classes is not None:
             yield f"by ISO 1328-1:{self.edition}: {_class(self.classes.overall)}"
+        for limit in self.limits:
+            yield f"no class by ISO 1328-1:{self.edition}: {limit}"
 
     def as_dict(self) -> dict[str, object]:
         """For programs, in micrometres."""
@@ -90,14 +95,13 @@ def evaluation_of(measured: MeasuredGear, nominal: NominalGear, edition: int = 2
     largest: dict[str, float] = {}
     for each in found:
         largest[each.name] = max(largest.get(each.name, 0.0), abs(each.value))
-    classes = None
-    if None not in (nominal.teeth, nominal.module, nominal.face_width):
-        assert nominal.teeth is not None
-        assert nominal.module is not None
-        assert nominal.face_width is not None
+    classes, limits = None, ()
+    if nominal.teeth is not None and nominal.module is not None and nominal.face_width is not None:
         diameter = nominal.teeth * nominal.module / float(cos(nominal.helix_angle or 0.0))
-        classes = classes_reached(largest, nominal.module, diameter, nominal.face_width, edition)
-    return Evaluation(tuple(found), classes, edition)
+        sizes = nominal.module, diameter, nominal.face_width
+        limits = tuple(outside(nominal.teeth, *sizes, edition))
+        classes = None if limits else classes_reached(largest, *sizes, edition)
+    return Evaluation(tuple(found), classes, edition, limits)
 
 
 def _traces(measured: MeasuredGear, nominal: NominalGear, edition: int) -> Iterator[FlankDeviation]:
@@ -114,7 +118,12 @@ def _traces(measured: MeasuredGear, nominal: NominalGear, edition: int) -> Itera
                 reference = high - low
                 if edition == 2013:
                     reference = end - low if kind == PROFILE else nominal.face_width or end - begin
-                one = trace_deviations(trace.place, trace.deviation, (low, high), reference)
+                try:
+                    one = trace_deviations(trace.place, trace.deviation, (low, high), reference)
+                except ValueError as error:
+                    key = f"{kind} of tooth {trace.tooth}, {flank} flank"
+                    remedy = "give it a range within its points, and within the face"
+                    raise InputError(key, None, str(error), remedy) from None
                 worst = each.get(trace.tooth)
                 if worst is None or one.total > worst.total:
                     each[trace.tooth] = one

@@ -62,7 +62,7 @@ def trace_deviations(
     x = np.concatenate(([low], x[inside], [high]))
     y = np.concatenate((ends[:1], y[inside], ends[1:]))
     if len(x) < 3:
-        raise ValueError("fewer than three points in the evaluation range")
+        raise ValueError("has fewer than three points in its evaluation range")
     # points weigh by the length that they stand for, so that uneven ones count as even ones
     weight = np.convolve(np.diff(x), [0.5, 0.5])
     mean_x, mean_y = np.average(x, weights=weight), np.average(y, weights=weight)

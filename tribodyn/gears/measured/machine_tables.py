@@ -81,7 +81,10 @@ class _Columns:
             remedy = f'write "{name} [{kind.example.split(" ")[1]}]"'
             raise self.bad(f"the column {quoted(name)} has no unit", remedy)
         unit = units.to_si_at(f"{self.file}: {name}", f"1 {column['unit']}", kind)
-        return unit * np.array(column["values"])
+        values = np.array(column["values"])
+        if not np.all(np.isfinite(values)):
+            raise self.bad(f"the column {quoted(name)} has a value that is not finite", "leave its row out")
+        return unit * values
 
     def words(self, name: str, known: dict[str, str]) -> list[str]:
         """A column of words as they are known here."""
@@ -96,7 +99,7 @@ class _Columns:
         if name is None:
             raise self.bad("no column says the tooth", f"begin the file with {_EXAMPLE}")
         values = self.columns[name]["values"]
-        wrong = next((value for value in values if value != round(value) or value < 1), None)
+        wrong = next((value for value in values if not (1 <= value < 1e6 and value == int(value))), None)
         if wrong is not None:
             raise self.bad(f"tooth {wrong:g}", "number the teeth from 1")
         return [round(value) for value in values]

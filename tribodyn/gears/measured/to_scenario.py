@@ -67,10 +67,10 @@ def keys_of(measured: MeasuredGear, gear: MountedGear, datum: str, file: str) ->
         raise InputError(gear.key, gear.name, rule, "name an external gear", file)
     _check_teeth(measured, gear, file)
     run_out = RunOut(gear.teeth) if measured.radial is None else _run_out(measured.radial, gear, datum)
-    converting = _Converting(measured, gear, datum, run_out)
+    converting = _Converting(measured, gear, datum, run_out, file)
     first, second = gear.carrying[0], other_flank(gear.carrying[0])
     index = {flank: converting.index(flank) for flank in (first, second)}
-    shape = {flank: converting.shape(flank, file) for flank in (first, second)}
+    shape = {flank: converting.shape(flank) for flank in (first, second)}
     placed, opposite = index[first], index[second]
     if placed is None and opposite is not None:
         placed, opposite = -opposite, None
@@ -129,6 +129,7 @@ class _Converting:
     gear: MountedGear
     datum: str
     run_out: RunOut
+    file: str
 
     def __post_init__(self) -> None:
         self.remarks: list[str] = []
@@ -159,7 +160,7 @@ class _Converting:
         assert fields is not None
         return fields.gap.T
 
-    def shape(self, flank: int, file: str) -> ToothErrors | None:
+    def shape(self, flank: int) -> ToothErrors | None:
         """Errors of all teeth's flank by its profiles and helices; None: none was measured."""
         side = self.gear.side(flank, self.datum)
         traces = [
@@ -169,12 +170,15 @@ class _Converting:
         ]
         if not traces:
             return None
-        heights = self._heights([trace for trace in traces if trace.kind == PROFILE], flank, side, file)
+        heights = self._heights([trace for trace in traces if trace.kind == PROFILE], flank, side)
         faces = self._faces([trace for trace in traces if trace.kind == HELIX], traces)
         heights, faces = _fewer(heights, faces, self.gear.teeth)
         errors = np.full((self.gear.teeth, len(heights), len(faces)), np.nan)
         for number in {trace.tooth for trace in traces}:
             own = [trace for trace in traces if trace.tooth == number]
+            if len({(trace.kind, trace.at) for trace in own}) < len(own):
+                rule = f"tooth {number}, {side} flank, was measured twice at the same place"
+                raise InputError(self.gear.key, None, rule, "leave one of both out", self.file)
             tooth = self.gear.tooth(number, self.datum)
             errors[tooth] = self._errors(own, flank, heights, faces) - self._moved(
                 tooth, flank, heights, faces
@@ -201,9 +205,7 @@ class _Converting:
         low, high = self.gear.flanks[flank].roll_lengths(self.gear.base_radius)
         return (length - low) / (high - low)
 
-    def _heights(
-        self, profiles: Sequence[FlankTrace], flank: int, side: str, file: str
-    ) -> Float[Array, " height"]:
+    def _heights(self, profiles: Sequence[FlankTrace], flank: int, side: str) -> Float[Array, " height"]:
         """Heights at which errors are written: those of the points where all traces have the same."""
         if not profiles:
             return np.array([0.5])
@@ -216,7 +218,7 @@ class _Converting:
                     f"{1e3 * trace.place.min():.4g} to {1e3 * trace.place.max():.4g} mm is beyond contact, "
                     f"{1e3 * min(low, high):.4g} to {1e3 * max(low, high):.4g} mm"
                 )
-                raise InputError(self.gear.key, None, rule, "check the units", file)
+                raise InputError(self.gear.key, None, rule, "check the units", self.file)
         short = min(min(place[-1], 1.0) - max(place[0], 0.0) for place in places)
         if short < 0.9:
             self.remarks.append(
@@ -239,6 +241,13 @@ class _Converting:
             places = np.sort(self.gear.along(np.array(sorted(at | {width / 2.0})), self.datum))
             return np.unique(np.round(np.clip(places, -width / 2.0, width / 2.0), 12))
         places = [np.sort(self.gear.along(trace.place, self.datum)) for trace in helices]
+        for trace, place in zip(helices, places, strict=True):
+            if place[-1] <= -width / 2.0 or place[0] >= width / 2.0:
+                rule = (
+                    f"the helix of tooth {trace.tooth}, {trace.flank} flank, begins at "
+                    f"{1e3 * trace.place.min():.4g} mm, beside a face of {1e3 * width:.4g} mm"
+                )
+                raise InputError(self.gear.key, None, rule, "check the units", self.file)
         alike = all(len(p) == len(places[0]) and np.allclose(p, places[0], atol=1e-9) for p in places)
         if alike and len(places[0]) <= MOST_KEPT:
             return np.unique(np.round(np.clip(places[0], -width / 2.0, width / 2.0), 12))
