@@ -17,6 +17,8 @@ from tribodyn.numerics.shapes import Array, Float
 PROFILE, HELIX = "profile", "helix"
 LEFT, RIGHT = "left", "right"
 FLANKS = LEFT, RIGHT
+#: Of what is measured, m or rad.
+LARGEST = 1e3
 #: What the place on a profile is.
 ROLL_LENGTH, ROLL_ANGLE, DIAMETER = "roll length", "roll angle", "diameter"
 

@@ -94,7 +94,7 @@ def test_single_pitch_deviations_close_round_the_gear(tmp_path: Path):
         (TRACES.replace("left", "top"), '"top" in the column "flank"'),
         (TRACES.replace("helix", "gap"), '"gap" in the column "trace"'),
         (TRACES.replace("9,right", "9.5,right"), "tooth 9.5"),
-        (TRACES.replace(",0.0", ",nan"), 'the column "deviation" has a value that is not finite'),
+        (TRACES.replace(",0.0", ",nan"), 'the column "deviation" has a value that no gear has'),
         (TRACES.replace("9,right", "nan,right"), "tooth nan"),
         (TRACES.replace(" [um]", ""), 'the column "deviation" has no unit'),
         (TRACES.replace("[um]", "[deg]"), "deviation"),

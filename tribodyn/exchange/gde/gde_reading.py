@@ -12,6 +12,7 @@ from tribodyn.exchange.gde import words
 from tribodyn.exchange.measured_gear import (
     DIAMETER,
     HELIX,
+    LARGEST,
     PROFILE,
     ROLL_ANGLE,
     ROLL_LENGTH,
@@ -269,6 +270,8 @@ class _Reading:
         due = "angle" if kind == "angle" else "length"
         if unit is None or unit.kind != due:
             raise self.bad(element, f"{quoted(said)} is no unit of {due} that is known", f'write "{default}"')
+        if beyond := next((value for value in found if abs(value) * unit.si >= LARGEST), None):
+            raise self.bad(element, f"{beyond:g} {said or default} is nothing of a gear", "check the unit")
         return [value * unit.si for value in found]
 
     def _split(self, element: XmlElement) -> Iterator[float]:

@@ -16,6 +16,7 @@ from tribodyn.exchange.measured_gear import (
     DIAMETER,
     FLANKS,
     HELIX,
+    LARGEST,
     LEFT,
     PROFILE,
     RIGHT,
@@ -82,8 +83,9 @@ class _Columns:
             raise self.bad(f"the column {quoted(name)} has no unit", remedy)
         unit = units.to_si_at(f"{self.file}: {name}", f"1 {column['unit']}", kind)
         values = np.array(column["values"])
-        if not np.all(np.isfinite(values)):
-            raise self.bad(f"the column {quoted(name)} has a value that is not finite", "leave its row out")
+        if not np.all(np.abs(values) < LARGEST / unit):
+            rule = f"the column {quoted(name)} has a value that no gear has"
+            raise self.bad(rule, "correct it, or leave its row out")
         return unit * values
 
     def words(self, name: str, known: dict[str, str]) -> list[str]:
