@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 _NAME = re.compile(r"[A-Za-z_]\w*")
+_OPERATOR = re.compile(r" (?=(?:[-+*/?:]|&&|\|\|) )")
 #: A line is no longer, if it can be broken.
 LONGEST = 110
 
@@ -58,7 +59,7 @@ def _without_empty_blocks(lines: list[CLine]) -> list[CLine]:
             and left[-1].text[-1] == "{"
         ):
             left.pop()
-        elif line.text == "}" and left and left[-1].text == "} else {":
+        elif line.text == "}" and left and left[-1].text.startswith("} else") and left[-1].text[-1] == "{":
             left[-1] = line
         else:
             left.append(line)
@@ -66,16 +67,20 @@ def _without_empty_blocks(lines: list[CLine]) -> list[CLine]:
 
 
 def folded(text: str, depth: int) -> Iterable[str]:
-    """A line, broken at spaces where it is long."""
+    """A line, broken after commas, or before operators, where it is long."""
     indent = "    " * depth
-    if len(indent) + len(text) <= LONGEST or text.startswith(("//", "/*")):
+    if text.startswith("/*"):
         yield indent + text
         return
-    deeper = indent + "    "
-    row = indent
-    for word in text.split(" "):
-        if len(row) + 1 + len(word) > LONGEST and row.strip():
-            yield row
-            row = deeper
-        row += word if not row.strip() else f" {word}"
-    yield row
+    while len(indent) + len(text) > LONGEST:
+        room = LONGEST - len(indent)
+        end = text.rfind(", ", 0, room) + 1
+        if end < room // 2:
+            found = [one.start() for one in _OPERATOR.finditer(text, 0, room)]
+            end = found[-1] if found else end
+        if end <= 0:
+            break
+        yield indent + text[:end]
+        text = text[end + 1 :]
+        indent = "    " * (depth + 1)
+    yield indent + text

@@ -1,6 +1,6 @@
 """One C file in the making: its structs, functions, tables of numbers and named constants."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from types import FunctionType
 from typing import Any
@@ -120,8 +120,14 @@ class Unit:
         return made
 
 
-def define(name: str, value: Any) -> str:
-    """The line that names a number."""
-    if number_type(value) == WHOLE:
-        return f"enum {{ {name} = {literal(value)} }};"
-    return f"#define {name} {literal(value, DOUBLE)}"
+def definitions(constants: Mapping[str, Any]) -> Iterator[str]:
+    """Lines that name numbers."""
+    whole = {name: value for name, value in constants.items() if number_type(value) == WHOLE}
+    if whole:
+        yield "enum {"
+        yield from (f"    {name} = {literal(value)}," for name, value in whole.items())
+        yield "};\n"
+    for name, value in constants.items():
+        if name not in whole:
+            yield f"#define {name} {literal(value, DOUBLE)}"
+    yield ""

@@ -18,7 +18,7 @@ from tribodyn.kernels.c.types import (
     takes_place,
     tuple_name,
 )
-from tribodyn.kernels.c.unit import CFunction, Unit, define
+from tribodyn.kernels.c.unit import CFunction, Unit, definitions
 
 _FIELD = re.compile(r"(?:\.|->)([A-Za-z_]\w*)")
 _CALL = re.compile(r"(?<!\.)(?<!->)\b([A-Za-z_]\w*)\(")
@@ -141,7 +141,7 @@ def written(
     values = "\n".join(f"const {declared(kind, name)} = {text};\n" for name, (kind, text) in data.items())
     mentioned = names_in(bodies) | names_in(values)
     private = [row for row in struct_lines([*types, *_mentioned(inner, mentioned)])][len(public) :]
-    constants = [define(name, value) for name, value in unit.constants.items() if name in mentioned]
+    constants = definitions({name: value for name, value in unit.constants.items() if name in mentioned})
     tables = [
         row
         for name, numbers in unit.tables.arrays.items()

@@ -286,8 +286,20 @@ class Statements(Calls):
             other_ends = self.run(node.orelse)
         self.add(opening)
         self.lines += body
+        if other and _is_one_choice(other):
+            other[0].text = f"}} else {other[0].text}"
+            for line in other:
+                line.depth -= 1
+            self.lines += other
+            return body_ends and other_ends
         if other:
             self.add("} else {")
             self.lines += other
         self.add("}")
         return body_ends and other_ends
+
+
+def _is_one_choice(lines: list[CLine]) -> bool:
+    """Whether lines are an `if` with what belongs to it, and nothing else."""
+    outer = [line.text for line in lines if line.depth == lines[0].depth]
+    return outer[0].startswith("if (") and outer.index("}") == len(outer) - 1 if "}" in outer else False
