@@ -246,7 +246,7 @@ def placed_parts(loaded: Loaded, tolerance: float) -> list[PlacedPart]:
         return parts_of_pair(pair, tolerance, case.mesh.modifications, case.masses)
 
 
-def bodies_in_space(record: Record) -> bytes:
+def bodies_in_space(record: Record | SweepRecord) -> bytes:
     """Gears and shafts of a record as its page has them, one tooth of every gear.
 
     Nothing where it has none, or this version cannot make its case or draw its teeth.

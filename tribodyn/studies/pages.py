@@ -62,8 +62,7 @@ def _studies_of(
     studies = [study_of_record(record) for record in records]
     for record, study in zip(records, studies, strict=True):
         if study.quantities != studies[0].quantities:
-            kinds = record.kind, records[0].kind
-            raise InputError("record", str(record.path), rule.format(*kinds), remedy)
+            raise record.refused(rule.format(record.kind, records[0].kind), remedy)
     return studies
 
 
@@ -280,16 +279,17 @@ def sweep_report(record: SweepRecord) -> str:
     """Write the page of a sweep: its quantities over the first varied key, its teeth, its pictures."""
     from tribodyn.post.figures.sweep_response import more_than_curves
     from tribodyn.post.page.sweep_page import sweep_page
+    from tribodyn.studies.handed_over import bodies_in_space
 
     if record.listed:
         raise record.refused("a data set has no page", "draw its signals: tribodyn plot FILE signals")
-
     study, pictures = study_of_record(record), []
     for name, drawing in study.sweep_drawings().items():
         if not drawing.curves or more_than_curves(record):
             with suppress(InputError):  # of a sweep that lacks what the picture shows
                 pictures.append((name, drawing.about, sweep_figure(name, [record])))
-    return sweep_page(record, study.sweep_table(), pictures, sheet(record), _teeth(record))
+    varied = sheet(record), _teeth(record), bodies_in_space(record)
+    return sweep_page(record, study.sweep_table(), pictures, *varied)
 
 
 def _teeth(record: SweepRecord) -> "dict[str, Any] | None":

@@ -10,7 +10,9 @@ from tribodyn.numerics.processes.child import installed_program, run_program
 
 if TYPE_CHECKING:
     import subprocess
+import gzip
 import json
+from base64 import b64encode
 from html import escape
 from importlib import resources
 from typing import Any
@@ -109,6 +111,11 @@ def assembled(title: str, payload: dict[str, Any], sections: dict[str, str], fig
     policy = "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:"
     policy += "; media-src data:"
     return document(title, _file("page.css"), body, policy)
+
+
+def compressed(content: bytes) -> str:
+    """A file within the data of a page."""
+    return b64encode(gzip.compress(content, mtime=0)).decode()
 
 
 def document(title: str, style: str, body: str, policy: str) -> str:

@@ -1,7 +1,5 @@
 """Puts a page together: one file, which asks nothing of any other place."""
 
-import gzip
-from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
@@ -24,7 +22,7 @@ from tribodyn.post.page.data import (
     series_of,
     with_unit,
 )
-from tribodyn.post.page.document import assembled
+from tribodyn.post.page.document import assembled, compressed
 from tribodyn.post.page.motion import LOAD, Mechanism, mechanism_data, rolling_teeth
 from tribodyn.post.page.sensors import SensedSection
 from tribodyn.post.page.solid import Solid, solid_data
@@ -124,7 +122,7 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
         "OVER": "Over the run",
     }
     payload = {"records": data, "panels": panels, "load": LOAD, "axis": axis}
-    payload["bodies"] = [b64encode(gzip.compress(each, mtime=0)).decode() for each in bodies]
+    payload["bodies"] = [compressed(each) for each in bodies]
     return assembled(" · ".join(dict.fromkeys(map(title_of, records))), payload, sections, figures)
 
 

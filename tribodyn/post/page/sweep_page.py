@@ -11,7 +11,7 @@ from tribodyn.post.cycles import stretches
 from tribodyn.post.figures.sweep_branch import Branch, axis_label, branches
 from tribodyn.post.figures.sweep_response import panels_of
 from tribodyn.post.page.data import packed
-from tribodyn.post.page.document import assembled
+from tribodyn.post.page.document import assembled, compressed
 from tribodyn.post.page.page import origin, picture, table, title_of, verdict_list
 from tribodyn.post.sweep_report import described, sweep_remarks, sweep_rows, sweep_verdict, sweep_warnings
 from tribodyn.quantities.quantity import Quantity
@@ -24,12 +24,13 @@ def sweep_page(
     pictures: Sequence[tuple[str, str, Figure]],
     tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]],
     teeth: dict[str, Any] | None = None,
+    bodies: bytes = b"",
 ) -> str:
     """Write the page; InputError if the first key is no number.
 
     Of no quantities all are shown, as the record describes them. Pictures have name, about and figure, tables
     (what is known of the scenario that is varied) title, columns and rows; `teeth` are those of that
-    scenario, as `rolling_teeth.turning_teeth` has them.
+    scenario, as `rolling_teeth.turning_teeth` has them, `bodies` its gears and shafts as glTF.
     """
     recorded = [quantity for quantity in quantities if quantity.name in record]
     recorded = recorded or [described(record, name) for name in record.quantities]
@@ -68,7 +69,8 @@ def sweep_page(
         "outside": _lost(curves, order, [quantity.name for quantity in recorded]),
     }
     payload = {
-        "records": [data],
+        "records": [data | ({"bodies": 0} if bodies else {})],
+        "bodies": [compressed(bodies)] if bodies else [],
         "panels": [panel.quantity.name for panel in panels_of([record], recorded)],
         "shaded": "contact is lost at times",
         "load": "",

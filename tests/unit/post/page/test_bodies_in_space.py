@@ -20,7 +20,9 @@ from tribodyn.drawing.surface import surface_of, volume
 from tribodyn.exchange.cad.gltf import binary
 from tribodyn.interface.run import open_run
 from tribodyn.post.page import document
+from tribodyn.record.sweep_reader import open_any
 from tribodyn.studies.handed_over import placed_parts
+from tribodyn.studies.pages import write_report
 from tribodyn.studies.protocol.load import load
 
 TOLERANCE = 2e-5
@@ -101,6 +103,15 @@ def moves(part: PlacedPart, point: np.ndarray) -> np.ndarray:
     centre = np.array(part.centre[:2])
     arm, of_centre = point - centre, centre - part.axis
     return part.turns * np.array([-arm[1], arm[0]]) + part.orbits * np.array([-of_centre[1], of_centre[0]])
+
+
+def test_of_a_sweep_the_page_has_the_scenario_that_is_varied(tmp_path: Path):
+    with open_any(Path(__file__).parents[3] / "fixtures" / "records-0.1.0" / "sweep.h5") as sweep:
+        data = data_of(write_report([sweep], tmp_path / "sweep.html"))
+        teeth = sum(sweep.scenario["drive"][side]["teeth"] for side in ("pinion", "gear"))
+    content = gzip.decompress(base64.b64decode(data["bodies"][data["records"][0]["bodies"]]))
+    scene = trimesh.load_scene(io.BytesIO(content), file_type="glb")
+    assert len(scene.graph.nodes_geometry) == teeth
 
 
 #: A browser that cannot do what the page asks for first: draw by WebGL; unpack.
