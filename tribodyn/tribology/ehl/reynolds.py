@@ -144,6 +144,30 @@ def film(state: FilmState, reduced: Any, grid: FilmGrid) -> Array:
     return state.rigid_film + 0.5 * place * place + reduced.compliance * bent
 
 
+def films_of(state: FilmState, reduced: Any, grid: FilmGrid) -> Array:
+    """Films H at the faces and, last, at the end of the film, of a smooth contact."""
+    place = state.end + grid.node
+    gap = np.append(at_faces(grid, 0.5 * place * place), 0.5 * state.end**2)
+    return state.rigid_film + gap + reduced.compliance * _bent(state.pressure, grid)
+
+
+def films_after(films: Array, before: FilmState, state: FilmState, reduced: Any, grid: FilmGrid) -> Array:
+    """`films_of` a state, from those before a small change.
+
+    A film of 1e-5 b²/R, what is left of terms of the size of 1, is rounded to ten digits; its change to
+    fifteen of its own.
+    """
+    way, place = state.end - before.end, 0.5 * (state.end + before.end)
+    gap = way * np.append(at_faces(grid, place + grid.node), place)
+    bent = reduced.compliance * _bent(state.pressure - before.pressure, grid)
+    return films + (state.rigid_film - before.rigid_film + gap + bent)
+
+
+def _bent(pressure: Array, grid: FilmGrid) -> Array:
+    inner = pressure[1:-1]
+    return np.append(grid.face_deformation[:, 1:-1] @ inner, grid.deformation[-1, 1:-1] @ inner)
+
+
 def mean_fluidity(exponent: Array) -> tuple[Array, Array, Array]:
     """Mean of exp(−g) between neighbouring nodes, for g linear between them, and its derivatives by both g.
 
@@ -170,16 +194,17 @@ def residual(
     grid: FilmGrid,
     closure: FlowCorrection,
     squeeze: Squeeze | None = None,
+    films: Array | None = None,
 ) -> tuple[Array, Array]:
     """Residuals of all equations, and their Jacobian: faces, load, end; by pressures within, H_0, Q, X_e.
 
     `closure` says how the fluid departs from a Newtonian isothermal one; without `squeeze` the contact is
-    steady.
+    steady. `films`: `films_of` the state, or `films_after` a change.
     """
     pressure, scale = state.pressure, reduced.hertz_pressure
     place = state.end + grid.node
-    gap = at_faces(grid, 0.5 * place * place)
-    thick = state.rigid_film + gap + reduced.compliance * (grid.face_deformation[:, 1:-1] @ pressure[1:-1])
+    films = films_of(state, reduced, grid) if films is None else films
+    thick, last = films[:-1], films[-1]
     exponent, slope = log_viscosity(scale * pressure, reduced.fluid)
     effective = closure.thinning + closure.response * exponent
     fluidity, upstream, downstream = mean_fluidity(effective)
@@ -196,8 +221,6 @@ def residual(
     mobility = volume * fluidity
     gradient = np.diff(pressure) / grid.step
     faces = mobility * gradient - share * dense * thick + kept * state.flow
-    last = state.rigid_film + 0.5 * state.end**2
-    last += reduced.compliance * (grid.deformation[-1, 1:-1] @ pressure[1:-1])
     values = np.concatenate([faces, [grid.weight @ pressure - HERTZ_LOAD, state.flow - last]])
     size = len(faces)
     by_film = 3.0 * mobility * gradient / thick - share * dense

@@ -4,7 +4,6 @@ It starts from Hertz's pressure with an inlet by Reynolds' equation, and the fil
 """
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -20,6 +19,8 @@ from tribodyn.tribology.ehl.reynolds import (
     SmoothReduced,
     Squeeze,
     film,
+    films_after,
+    films_of,
     moved,
     newtonian,
     residual,
@@ -124,14 +125,24 @@ def converged(
     squeeze: Squeeze | None = None,
     most_steps: int = MOST_STEPS,
 ) -> tuple[FilmState, int, float]:
-    """Take steps of Newton's method; returns the state, the number of steps, the imbalance (NaN: failed)."""
-    equations: Any = residual
+    """Take steps of Newton's method; returns the state, the number of steps, the imbalance (NaN: failed).
+
+    Between smooth surfaces it is the imbalance of the unknowns before they are rounded: where the film is
+    1e-5 b²/R, the last digits of pressures would unbalance it by 1e-10.
+    """
     suction, height, imbalance = 0.0 if squeeze is None else SUCTION, 0.0, math.inf
-    if isinstance(reduced, RoughReduced):
-        equations, height = rough_residual, reduced.roughness.height / reduced.film_unit
+    rough, films, rounded = isinstance(reduced, RoughReduced), np.zeros(0), None
+    if rough:
+        height = reduced.roughness.height / reduced.film_unit
+    else:
+        films = films_of(state, reduced, grid)
     for number in range(most_steps + 1):
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            values, matrix = equations(state, reduced, grid, closure, squeeze)
+            if rough:
+                values, matrix = rough_residual(state, reduced, grid, closure, squeeze)
+            else:
+                values, matrix = residual(state, reduced, grid, closure, squeeze, films)
+                values = values if rounded is None else values + matrix @ rounded
             imbalance = _imbalance(values, state, grid, squeeze)
         if imbalance <= TOLERANCE or not math.isfinite(imbalance) or number == most_steps:
             return state, number, imbalance
@@ -139,8 +150,19 @@ def converged(
             change = np.linalg.solve(matrix, -values)
         except np.linalg.LinAlgError:
             return state, number, math.nan
-        state = moved(state, change, suction, height)
+        change = change if rounded is None else change + rounded
+        before, state = state, moved(state, change, suction, height)
+        if not rough:
+            films = films_after(films, before, state, reduced, grid)
+            rounded = _rounded_off(change, before, state)
     return state, most_steps, imbalance
+
+
+def _rounded_off(change: Array, before: FilmState, state: FilmState) -> Array:
+    """What rounding has left of a change of the unknowns; 0 of what was held for another reason."""
+    unknowns, start = (np.append(each.pressure[1:-1], each[1:4]) for each in (state, before))
+    left = change - (unknowns - start)
+    return np.where(np.abs(left) <= np.spacing(np.abs(unknowns)), left, 0.0)
 
 
 def _roughened(

@@ -108,6 +108,11 @@ def test_herrebrugh():
     assert films[2e4] == pytest.approx(2.621 * 2e4**-0.2, rel=0.06)
 
 
+def test_rounding_of_a_thin_film_costs_no_steps():
+    """Films of 4e-6 b²/R, of which sums of terms of the size of 1 keep nine digits."""
+    assert solve_steady(by_moes(4e4, 0.0)).steps <= 12
+
+
 @pytest.mark.parametrize(("load", "material"), [(100.0, 10.0), (100.0, 25.0), (1e3, 10.0), (1e4, 10.0)])
 def test_grubin(load, material):
     """Elastic and piezoviscous: 1.311 M^(−1/8) L^(3/4), reached slowly."""
