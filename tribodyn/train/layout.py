@@ -9,7 +9,7 @@ from tribodyn.train.structure import GROUND, OF_MESHES, WORKS_OF_MESH
 
 
 class TrainLayout(NamedTuple):
-    """What the train consists of: hashable, static for JAX; of a single mesh compiled into native kernels."""
+    """What the train consists of: hashable, static for JAX; of two gears compiled into native kernels."""
 
     spatial: int  # bodies that move in space, of those that move in the plane
     planar: int  # bodies that move in the plane, or in space
@@ -74,11 +74,14 @@ def layout_of(
 
     `pins` are numbers of links, `holding` of those that hold what `TrainLayout.holds` says of them.
     `carriers` are those of the meshes; none: all in the housing. `modes`: so many coordinates of no body.
-    `clutches` by their ends.
+    `clutches` by their ends. Of two gears in bearings that move in the plane, which nearly all pairs are, the
+    machine code has all numbers; all else shares machine code that reads them.
     """
     half = 2 * planar + bodies + 3 * spatial + modes
     states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes) + len(clutches)
-    number, places = (StaticInt, Indices) if len(meshes) == 1 else (int, RuntimeIndices)
+    two_gears = (planar, bodies, spatial, len(meshes), len(links), modes) == (2, 2, 0, 1, 2, 0)
+    compiled_in = two_gears and not (pins or holding or clutches)
+    number, places = (StaticInt, Indices) if compiled_in else (int, RuntimeIndices)
     driver, driven, first, second = (
         places([pair[end] for pair in pairs]) for pairs in (meshes, links) for end in (0, 1)
     )

@@ -1,7 +1,7 @@
 """What kernels are and how their arguments lie in memory: a single block of words of 8 bytes.
 
-A number is a word; an array its address and lengths; a named tuple its fields in order, and a tuple its
-single item or the address of several, which are alike; a function and a fixed number no word at all. The
+A number is a word; an array its address and lengths; a named tuple its fields in order, and a tuple the
+address of its items, which are alike; a function and a fixed number no word at all. The
 layout says which of these a value is, and the machine code of a kernel depends on nothing else: functions,
 fixed numbers and indices are compiled in, other numbers, lengths and how many items there are never.
 
@@ -224,10 +224,10 @@ class IndicesLayout(NamedTuple):
 
 
 class SeveralLayout(NamedTuple):
-    """Layout of a tuple of items of one layout: a single one in its place, several where a word points at."""
+    """Layout of a tuple of items of one layout, any number of them, where a word points at."""
 
     item: Any
-    items: int = 0  # 1, or 0: any number
+    words: int = 1
 
 
 class RecordLayout:
@@ -296,8 +296,6 @@ def packed(value: Any) -> PackedValue:
         items = [packed(item) for item in value]
         (layout,) = {item.layout for item in items}  # a kernel takes items that are alike
         words = b"".join(item.words for item in items)
-        if len(items) == 1:
-            return PackedValue(SeveralLayout(layout, 1), words, items)
         block = ctypes.create_string_buffer(words, len(words))
         return PackedValue(SeveralLayout(layout), _int(ctypes.addressof(block)), (items, block))
     raise TypeError(

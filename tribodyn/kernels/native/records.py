@@ -52,12 +52,12 @@ class RecordType(types.Type):
 
 
 class SeveralType(types.Type):
-    """Type of a block of records of one type, one after the other; `items` as its layout has it."""
+    """Type of a block of records of one type, one after the other."""
 
     def __init__(self, several: SeveralLayout):
-        self.item, self.items = type_of(several.item), several.items
-        self.words = words_of(several.item)
-        super().__init__(name=f"{several.items} x {self.item.name}")
+        self.item = type_of(several.item)
+        self.size = words_of(several.item)
+        super().__init__(name=f"several {self.item.name}")
 
 
 class IndicesType(types.Type):
@@ -85,8 +85,6 @@ class _RecordModel(models.OpaqueModel):
 
 def words_of(layout: Any) -> int:
     """Words that a value of a layout takes."""
-    if isinstance(layout, SeveralLayout):
-        return words_of(layout.item) if layout.items else 1
     if isinstance(layout, RecordLayout):
         return sum(words_of(field) for _, field in layout.fields)
     return 1 if isinstance(layout, Numeric) else layout.words
@@ -126,9 +124,9 @@ def _read(context, builder, kind, block, word):
     if isinstance(kind, types.IntegerLiteral):
         return _INT64(kind.literal_value)
     place = builder.gep(block, [_INT64(WORD * word)])
-    if isinstance(kind, RuntimeIndicesType) or (isinstance(kind, SeveralType) and not kind.items):
+    if isinstance(kind, (RuntimeIndicesType, SeveralType)):
         return builder.inttoptr(_load(builder, place, _INT64), place.type)
-    if isinstance(kind, (RecordType, SeveralType)):
+    if isinstance(kind, RecordType):
         return place
     if isinstance(kind, types.Array):
         items = [
@@ -183,7 +181,7 @@ class _Items(AbstractTemplate):
 
 @lower_builtin(operator.getitem, SeveralType, types.int64)
 def _item(context, builder, signature, values):
-    step = builder.mul(values[1], _INT64(WORD * signature.args[0].words))
+    step = builder.mul(values[1], _INT64(WORD * signature.args[0].size))
     return builder.gep(values[0], [step])
 
 
