@@ -53,7 +53,7 @@ types: $(VENV)/.testing
 tests: in-parallel ratios
 
 in-parallel: $(VENV)/.testing
-	@for what in single lanes; do $(BIN)/python -m tests.support.shared_kernels $$what > /dev/null 2>&1 & done; wait
+	@for what in single trains lanes; do $(BIN)/python -m tests.support.shared_kernels $$what > /dev/null 2>&1 & done; wait
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) -m "not bench" $(CHOSEN)
 
 # alone: never beside other tests

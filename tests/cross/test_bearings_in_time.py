@@ -14,7 +14,7 @@ from tests.support.right_hand_sides import assert_right_hand_sides_agree
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.modes import linearised, modes
-from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.parameters import Model, with_shared_code
 from tribodyn.errors import InputError
 from tribodyn.interface.scenario import scenario
 from tribodyn.kernels.native.arguments import packed
@@ -152,11 +152,12 @@ def test_jacobian_is_the_slope_of_the_equations(formulation: str, rng: np.random
     states, works = model.layout.states, model.layout.mechanical
     y, (phase, interval) = random_state(rng, model), random_place(rng, model.schedule, 0)[:2]
     f, work = np.zeros(states), work_array(model)
-    rhs(phase, 3.0, interval, y, model, work, f)
+    native = with_shared_code(model)
+    rhs(phase, 3.0, interval, y, native, work, f)
     into = Differences(np.zeros(states), np.zeros((states, states)), np.zeros(states))
     scale = np.full(states, 1e-5)
     end = float(model.schedule.end[interval])
-    differentiate(Place(phase, 3.0, interval, end), y, f, scale, model, work, into)
+    differentiate(Place(phase, 3.0, interval, end), y, f, scale, native, work, into)
     for j in displacements(model.layout):
         step = 1e-9 * np.eye(states)[j]
         ahead, behind = (_rates(model, y + sign * step, phase, interval) for sign in (1.0, -1.0))

@@ -132,7 +132,7 @@ LAWS = {
     ("law", "method"),
     all_in_soak(
         product(LAWS, ["dopri5", "rodas4", "tsit5", "radau"]),
-        [("play", "dopri5"), ("cubic", "dopri5")],
+        [("play", "dopri5")],
         names=2,
     ),
 )

@@ -218,7 +218,8 @@ class DrawnSystem:
         if not left.frequencies:  # see `inertia_of`
             mass[turns], mass[:, turns] = 0.0, 0.0
         parts = CoupledMatrices(places, stiffness, damping, mass, force)
-        return parts, reaction, left.reaction_at_rest[:, :3]
+        # contiguous, as where nothing is drawn: machine code depends on it
+        return parts, reaction, left.reaction_at_rest[:, :3].copy()
 
 
 def coupled_by(

@@ -79,11 +79,11 @@ class Directions(NamedTuple):
 def directions_of(count: int, most: int, layout: TrainLayout) -> Directions:
     """Those for so many directions at the start, in as few passes of at most so many as there can be.
 
-    Of several meshes one of `OF_TRAINS`, so that trains share machine code.
+    Where the machine code reads sizes, one of `OF_TRAINS`, so that trains share it.
     """
     passes = max(1, -(-count // most))
     wide = BLOCK * max(1, -(-count // (passes * BLOCK)))
-    if layout.meshes > 1:
+    if not isinstance(layout.meshes, StaticInt):
         wide = min(most, *(each for each in OF_TRAINS if each >= wide))
     return Directions(StaticInt(wide), StaticInt(BLOCK * (2 if layout.spatial else 1)))
 
