@@ -203,8 +203,8 @@ def residual(
     """
     pressure, scale = state.pressure, reduced.hertz_pressure
     place = state.end + grid.node
-    films = films_of(state, reduced, grid) if films is None else films
-    thick, last = films[:-1], films[-1]
+    whole: Array = films_of(state, reduced, grid) if films is None else films
+    thick, last = whole[:-1], whole[-1]
     exponent, slope = log_viscosity(scale * pressure, reduced.fluid)
     effective = closure.thinning + closure.response * exponent
     fluidity, upstream, downstream = mean_fluidity(effective)

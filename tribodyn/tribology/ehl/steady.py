@@ -131,18 +131,19 @@ def converged(
     1e-5 b²/R, the last digits of pressures would unbalance it by 1e-10.
     """
     suction, height, imbalance = 0.0 if squeeze is None else SUCTION, 0.0, math.inf
-    rough, films, rounded = isinstance(reduced, RoughReduced), np.zeros(0), None
-    if rough:
+    films, rounded = np.zeros((2, 0))
+    if isinstance(reduced, RoughReduced):
         height = reduced.roughness.height / reduced.film_unit
     else:
         films = films_of(state, reduced, grid)
+        rounded = np.zeros(len(films) + 1)
     for number in range(most_steps + 1):
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            if rough:
+            if isinstance(reduced, RoughReduced):
                 values, matrix = rough_residual(state, reduced, grid, closure, squeeze)
             else:
                 values, matrix = residual(state, reduced, grid, closure, squeeze, films)
-                values = values if rounded is None else values + matrix @ rounded
+                values += matrix @ rounded
             imbalance = _imbalance(values, state, grid, squeeze)
         if imbalance <= TOLERANCE or not math.isfinite(imbalance) or number == most_steps:
             return state, number, imbalance
@@ -150,11 +151,13 @@ def converged(
             change = np.linalg.solve(matrix, -values)
         except np.linalg.LinAlgError:
             return state, number, math.nan
-        change = change if rounded is None else change + rounded
+        if isinstance(reduced, RoughReduced):
+            state = moved(state, change, suction, height)
+            continue
+        change += rounded
         before, state = state, moved(state, change, suction, height)
-        if not rough:
-            films = films_after(films, before, state, reduced, grid)
-            rounded = _rounded_off(change, before, state)
+        films = films_after(films, before, state, reduced, grid)
+        rounded = _rounded_off(change, before, state)
     return state, most_steps, imbalance
 
 
