@@ -169,7 +169,8 @@ def test_bearings_that_rexs_has_not_are_refused(bearing: dict[str, Any], said: s
 
 
 def test_results_stand_with_their_units(tmp_path: Path):
-    run = td.run(PAIR, {"solver.cycles": 2}, output=tmp_path / "run.h5")
+    short = {"solver.cycles": 2, "friction.law": "coulomb", "friction.coefficient": 0.05}
+    run = td.run(PAIR, short, output=tmp_path / "run.h5")
     invoke("export", tmp_path / "run.h5", "--to", "rexs", "-o", tmp_path / "run")
     model = read_model(tmp_path / "run.rexs")
     stage = next(model.of_type("cylindrical_stage"))
