@@ -2,7 +2,6 @@
 
 import gc
 import json
-import os
 import sys
 from functools import lru_cache
 
@@ -96,8 +95,7 @@ def forked(tmp_path_factory: pytest.TempPathFactory):
 @pytest.fixture(scope="session")
 def short_runs(tmp_path_factory: pytest.TempPathFactory) -> ShortRuns:
     """Short run of the template of a kind of study: short_runs("efficiency").summary; see `ShortRuns`."""
-    own = tmp_path_factory.getbasetemp()
-    return ShortRuns((own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "short-runs")
+    return ShortRuns(tmp_path_factory)
 
 
 @pytest.fixture

@@ -1,11 +1,12 @@
 """A scenario of every kind of study that is shipped, made short: its template, and what shortens it."""
 
-import fcntl
 import json
-import pickle
 from pathlib import Path
 from typing import Any
 
+import pytest
+
+from tests.support.once_per_session import OncePerSession
 from tribodyn.cases.results import RunResult
 from tribodyn.studies.protocol.load import filled, load_scenario
 from tribodyn.studies.protocol.run import run
@@ -115,20 +116,12 @@ def short_case(kind: str, folder: Path, **more: Any) -> Any:
     return load_scenario(written_template(kind, folder), overrides)
 
 
-class ShortRuns:
-    """Short runs of the templates: (kind) -> result; each is run once, for all processes share the folder."""
+class ShortRuns(OncePerSession[RunResult]):
+    """Short runs of the templates: (kind) -> result; nobody changes the record."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        folder.mkdir(exist_ok=True)
-
-    def __call__(self, kind: str) -> RunResult:
-        """Run the template of a kind, or wait for who runs it; nobody changes the record."""
-        kept = self.folder / f"{kind}.pickle"
-        with (self.folder / f"{kind}.lock").open("w") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            if not kept.exists():
-                own = self.folder / kind
-                own.mkdir()
-                kept.write_bytes(pickle.dumps(run(short_case(kind, own), own / f"{kind}.h5")))
-        return pickle.loads(kept.read_bytes())
+    def __init__(self, tmp_path_factory: pytest.TempPathFactory) -> None:
+        super().__init__(
+            tmp_path_factory,
+            "short-runs",
+            lambda kind, folder: run(short_case(kind, folder), folder / f"{kind}.h5"),
+        )
