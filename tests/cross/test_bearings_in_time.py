@@ -15,13 +15,16 @@ from tests.support.states import random_place, random_state
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.modes import linearised, modes
 from tribodyn.dynamics.parameters import Model, with_shared_code
+from tribodyn.dynamics.recorded.outputs import evaluated, sampled
 from tribodyn.errors import InputError
 from tribodyn.interface.scenario import scenario
 from tribodyn.kernels.native.arguments import packed
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import accelerations, static_equilibrium
+from tribodyn.solve.march.by_time import begun_clock, time_buffer, time_control
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import Place
+from tribodyn.solve.march.time_outputs import outputs, time_outputs
 from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
 from tribodyn.studies import STUDIES
 from tribodyn.studies.motion.prepare import PreparedGearbox, prepare
@@ -212,3 +215,16 @@ def test_it_is_refused_where_it_means_nothing(tmp_path):
     vary = {"operating.pinion_speed": ["10 rad/s", "20 rad/s"]}
     with pytest.raises(InputError, match="nothing repeats"):
         td.sweep("involute-23-47", vary, {"shaft": shafts_of()}, output=tmp_path / "s.h5")
+
+
+def test_energy_stored_at_a_moment_counts_the_bearings():
+    """What a march by time gives, run as Python, and what a record has."""
+    model = prepared("ball", "in-time").model
+    y = static_equilibrium(model)
+    control = time_control(model, y, 1e-6, 10**6)
+    clock, out = begun_clock(model, y, control), np.zeros(len(time_outputs(model)))
+    outputs.function(model, y, clock, work_array(model), time_buffer(model.layout), out)
+    whole = sampled(evaluated(np.zeros(1), y[None], model)).whole
+    names = [one.name for one in time_outputs(model)]
+    for name in ("stored_energy", "power_in", "power_out"):
+        assert out[names.index(name)] == pytest.approx(float(whole[name][0]), rel=1e-9), name

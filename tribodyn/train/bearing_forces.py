@@ -51,6 +51,7 @@ class BearingForces(NamedTuple):
     act: Callable[..., Any]
     #: (turns, state, scales, model, Jacobian): adds to its rows of forces and of parametric work
     differentiate: Callable[..., Any]
+    energy: Callable[..., Any]  # (turns, state, model) -> strain energy, J
     number: int = 0  # of rows
     places: RuntimeIndices = RuntimeIndices(())  # of every bearing ten coordinates of the state
     bodies: RuntimeIndices = RuntimeIndices(())  # whose rotation turns the inner ring
@@ -72,8 +73,14 @@ def no_slopes(turns, y, scale, model, jacobian):
     """No bearing acts in time."""
 
 
+@law
+def no_energy(turns, y, model):
+    """No bearing acts in time."""
+    return 0.0 * y[0]
+
+
 #: All bearings are linear.
-LINEAR = BearingForces(no_bearings, no_slopes, StaticInt(0))
+LINEAR = BearingForces(no_bearings, no_slopes, no_energy, StaticInt(0))
 
 
 @law
@@ -216,6 +223,16 @@ def act(turns, y, model, dy):
 
 
 @law
+def energy_of_all(turns, y, model):
+    """Strain energy of all bearings, J."""
+    energy = 0.0 * y[0]
+    for k in range(model.options.bearings.number):
+        _, _, _, _, _, _, of_bearing = bearing_answer(k, turns, y, model)
+        energy = energy + of_bearing
+    return energy
+
+
+@law
 def differentiate(turns, y, scale, model, jacobian):
     """Add what the bearings do to the forces of a Jacobian and to its row of parametric work, by differences.
 
@@ -295,4 +312,4 @@ def tangents(model: Any) -> Float[Array, "coordinate coordinate"]:
 
 
 #: The forces of the bearings in time.
-IN_TIME = BearingForces(act, differentiate)
+IN_TIME = BearingForces(act, differentiate, energy_of_all)

@@ -115,7 +115,9 @@ def outputs(model, y, clock, work, buffer, out):
     for c in range(layout.clutches):
         clutch_loss += rates[work_of_clutch(c, layout)] / nominal_time(model)
     out[10], out[11] = clutch_loss, parametric_power
-    out[12] = stored_energy(cycles, y, model, work)
+    turns = cycles * model.operation.pitch_angle
+    of_bearings = model.options.bearings.energy(turns, y, model)
+    out[12] = stored_energy(cycles, y, model, work) + of_bearings
     at = len(OF_TRAIN)
     for m in range(layout.meshes):
         mesh, contacts = model.meshes[m], work[m]
