@@ -9,6 +9,7 @@ import pytest
 from tests.support.states import PAIR, PAIR_WITH_MOTOR, TURN_G
 from tribodyn.dynamics.approach import ELASTIC_LOAD
 from tribodyn.dynamics.energy import strain_energy
+from tribodyn.dynamics.parameters import OutputDrive
 from tribodyn.gears.tabulated import tables
 from tribodyn.mesh.cycle import polynomials
 from tribodyn.studies.motion.prepare import prepare
@@ -146,7 +147,8 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
             "load_amplitudes": [] if shaft else [11.0, 7.0],
             "load_frequencies": [] if shaft else [300.0, 900.0],
             "load_phases": [] if shaft else [0.4 + 0.5 * math.pi, -0.2 + 0.5 * math.pi],
-            "start_slip": 0.0,
+            **dict.fromkeys(("start_slip", "acceleration", "output_torque"), 0.0),
+            "output_drive": [0.0] * len(OutputDrive()),
             **{name: [] for name in ("motor_speeds", "motor_torques", "motor_slopes")},
         },
     }
