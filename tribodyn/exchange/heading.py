@@ -1,5 +1,6 @@
 """What stands at the beginning of every file that is exported: who made it, of what, how exactly."""
 
+import re
 from collections.abc import Iterable
 
 from tribodyn import __version__
@@ -24,3 +25,8 @@ def heading(
             lines.append(f"interpolation of the map itself: error at most {maximum:.2g} %, mean {mean:.2g} %")
     lines += [*map(str, deviations), *remarks]
     return "".join(f"{comment}{printable(line)}\n" for line in lines)
+
+
+def without_double_hyphens(text: str) -> str:
+    """What may stand in a comment of XML, which two hyphens together would end."""
+    return re.sub("-(?=-)", "- ", text)

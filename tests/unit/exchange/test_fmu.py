@@ -217,6 +217,41 @@ def test_the_same_scenario_gives_the_same_bytes_and_another_one_another_token():
     assert b"input_torque" in files["documentation/index.html"]
 
 
+def test_names_with_hyphens_quotes_and_other_letters_are_text_in_every_file(tmp_path: Path):
+    """In XML, in its comments, in C, and where names become identifiers."""
+    from fmpy.validation import validate_fmu
+
+    title = 'Zähne "a" <b>&amp; */ --- \\ 齿'
+    for version in ("3.0", "2.0"):
+        scenario = tmp_path / "a---b \"ü'&.toml"
+        scenario.write_text(load_scenario(PAIR, {}).toml, encoding="utf-8")
+        path = tmp_path / f"1 <é>--- {version[0]}.fmu"
+        td.export(scenario, "fmu", path, {"platforms": "x86_64-linux", "fmi": version, "title": title})
+        assert validate_fmu(str(path)) == []
+        described = fmpy.read_model_description(path)
+        assert (described.description, described.modelName) == (title, path.stem)
+
+
+def test_teeth_without_backlash_stay_apart_as_is_said(tmp_path: Path):
+    """Torques in the other direction then move either body for itself."""
+    said = "without mesh.backlash back flanks never touch"
+    settings = {key: value for key, value in FROM_REST.items() if key != "mesh.backlash"}
+    path = tmp_path / "unit.fmu"
+    remarks = td.export(PAIR, "fmu", path, {**settings, "platforms": "x86_64-linux"}).remarks
+    assert any(said in remark for remark in remarks)
+    with zipfile.ZipFile(path) as archive:
+        assert said in archive.read("documentation/index.html").decode()
+    none = {"platforms": "none"}
+    remarks = td.export(PAIR, "fmu", tmp_path / "other.fmu", FROM_REST | none).remarks
+    assert not any(said in remark for remark in remarks)
+    unit = Unit(path, start_speed=0.0)
+    unit.set(input_torque=-80.0, output_torque=-100.0)
+    speeds = unit.step(1e-4, 10).get("input_speed", "output_speed")
+    later = unit.step(1e-4, 10).get("input_speed", "output_speed")
+    one, two = in_time(load_scenario(PAIR, settings), TORQUE, TORQUE).model.bodies.inertia
+    assert later - speeds == pytest.approx([-80e-3 / one, 100e-3 / two], rel=1e-6)
+
+
 def test_laws_over_the_temperature_of_the_oil_are_those_of_the_scenario_there():
     """The whole scenario at another temperature has the numbers of the table, and nothing else changes."""
     settings = {"film.law": "dowson-higginson", "friction.law": "xu"}

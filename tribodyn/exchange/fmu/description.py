@@ -7,6 +7,7 @@ from typing import NamedTuple
 from tribodyn import __version__
 from tribodyn.exchange.fmu.code import FmuSources
 from tribodyn.exchange.fmu.variables import UNLIMITED, FmuVariable, Role
+from tribodyn.exchange.heading import without_double_hyphens
 
 #: Unit -> exponents of SI base units, as the standard names them; and units to be shown, by their factors and
 #: offsets.
@@ -102,7 +103,8 @@ def model_description(
     for number, variable in enumerate(variables):
         (_variable_3 if third else _variable_2)(of_variables, number, variable)
     _structure(ET.SubElement(root, "ModelStructure"), variables, third=third)
-    return _text(root, f"<!-- written by tribodyn {__version__} from {origin.replace('--', '- -')} -->\n")
+    made = without_double_hyphens(f"written by tribodyn {__version__} from {origin}")
+    return _text(root, f"<!-- {made} -->\n")
 
 
 def build_description(name: str, sources: FmuSources) -> str:

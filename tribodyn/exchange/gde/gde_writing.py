@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
 from tribodyn.exchange.gde import words
+from tribodyn.exchange.heading import without_double_hyphens
 from tribodyn.exchange.measured_gear import HELIX, ROLL_LENGTH, FlankTrace, MeasuredGear
 
 VERSION = "3.4"
@@ -14,7 +15,7 @@ def text_of(gear: MeasuredGear, head: str) -> str:
     """The file; `head` stands in it as a comment. Profiles are over length of roll."""
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
-        f"<!-- {head.strip().replace('--', '- -')} -->",
+        f"<!-- {without_double_hyphens(head.strip())} -->",
         f'<{words.ROOTS[0]} version="{VERSION}">',
         f"  <{words.GEARS[0]} name={quoteattr(gear.name)}>",
         f"    <{words.GEOMETRY[0]}>",

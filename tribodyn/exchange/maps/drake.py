@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 
 from tribodyn.exchange.format import MAP, ExchangeFormat, Exported, Written
-from tribodyn.exchange.heading import heading
+from tribodyn.exchange.heading import heading, without_double_hyphens
 from tribodyn.exchange.maps.chosen import inertia
 from tribodyn.exchange.maps.friction import FRICTION_CHOICES, JointFriction, fitted_friction
 
@@ -51,7 +51,7 @@ def write(exported: Exported, name: str, choices: Mapping[str, float]) -> Writte
         "Drake takes damping and the reflected inertia; friction of URDF only where its version does",
         "stiffness, backlash and transmission error are not in it",
     )
-    comment = heading(exported, "", deviations, remarks).replace("--", "-")
+    comment = without_double_hyphens(heading(exported, "", deviations, remarks))
     return Written({".urdf": f"<!--\n{comment}-->\n{text}\n"}, deviations, remarks)
 
 

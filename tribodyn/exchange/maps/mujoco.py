@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 
 from tribodyn.exchange.format import MAP, ExchangeFormat, Exported, Written
-from tribodyn.exchange.heading import heading
+from tribodyn.exchange.heading import heading, without_double_hyphens
 from tribodyn.exchange.maps.chosen import inertia
 from tribodyn.exchange.maps.friction import FRICTION_CHOICES, JointFriction, fitted_friction
 
@@ -38,8 +38,7 @@ def write(exported: Exported, name: str, choices: Mapping[str, float]) -> Writte
     found = JointFriction(float(joint["frictionloss"]), float(joint["damping"]), friction.remarks)
     deviations = found.deviations(exported, choices)
     remarks = (*friction.remarks, "stiffness, backlash and transmission error are not in it")
-    # "--" would end a comment
-    comment = heading(exported, "", deviations, remarks).replace("--", "-")
+    comment = without_double_hyphens(heading(exported, "", deviations, remarks))
     return Written({".xml": f"<!--\n{comment}-->\n{text}\n"}, deviations, remarks)
 
 

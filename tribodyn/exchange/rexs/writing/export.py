@@ -1,6 +1,5 @@
 """REXS 2.0.0 of a scenario or of the record of a run: the gearbox, its results, and what was left out."""
 
-import re
 from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from typing import Any
@@ -8,6 +7,7 @@ from typing import Any
 from tribodyn import __version__
 from tribodyn.errors import harmless, printable
 from tribodyn.exchange.format import Exported, Written
+from tribodyn.exchange.heading import without_double_hyphens
 from tribodyn.exchange.rexs.file.attributes import RexsKey
 from tribodyn.exchange.rexs.writing.train import TrainText, refuse_what_rexs_has_not
 
@@ -66,8 +66,7 @@ def write(exported: Exported, name: str, choices: Mapping[str, float]) -> Writte
     date = datetime.now(UTC).replace(microsecond=0).isoformat()
     head, _, body = train.model.xml(date).partition("\n")
     made = printable(harmless(f"written by tribodyn {__version__} from {exported.path.name}"))
-    made = re.sub("-(?=-)", "- ", made)  # comments of XML hold no two hyphens
-    return Written({".rexs": f"{head}\n<!-- {made} -->\n{body}"}, (), tuple(remarks))
+    return Written({".rexs": f"{head}\n<!-- {without_double_hyphens(made)} -->\n{body}"}, (), tuple(remarks))
 
 
 def as_train(scenario: Mapping[str, Any], exported: Exported) -> dict[str, Any]:

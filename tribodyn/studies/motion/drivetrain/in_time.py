@@ -169,4 +169,10 @@ def _left_out(case: Gearbox, drive: str) -> list[str]:
         found.append("the load at the output is an input: its table, harmonics and damping are left out")
     if drive == TORQUE and (case.source.curve or case.source.speed_regulation):
         found.append("the torque at the input is an input: the motor's torque over speed is left out")
+    one_sided = [mesh.name for mesh in case.meshes if mesh.pair.mesh.backlash is None]
+    if one_sided:
+        found.append(
+            "without mesh.backlash back flanks never touch: teeth that part under a torque in the other "
+            f"direction carry nothing ({', '.join(one_sided)})"
+        )
     return found
