@@ -55,6 +55,7 @@ SHORT: dict[str, dict[str, Any]] = {
         "scenario.solver.cycles": 4,
         "scenario.output.samples_per_cycle": 40,
         **{f"scenario.{key}": value for key, value in COULOMB.items()},
+        "scenario.friction.sliding": "kinematic",  # by the explicit method at all speeds
         "assessment.speeds": 2,
         "assessment.samples": 2,
     },
