@@ -7,7 +7,19 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from tribodyn.cli import assess, compare, gear, handover, records, run, scenario, signals, sweep, validate
+from tribodyn.cli import (
+    assess,
+    compare,
+    gear,
+    handover,
+    page,
+    records,
+    run,
+    scenario,
+    signals,
+    sweep,
+    validate,
+)
 from tribodyn.cli import list as list_
 from tribodyn.cli.outcome import verb
 
@@ -73,6 +85,7 @@ for function, examples in (
     (scenario.init, scenario.INIT_EXAMPLES),
     (scenario.schema, scenario.SCHEMA_EXAMPLE),
     (validate.validate, validate.EXAMPLES),
+    (page.app, page.EXAMPLES),
 ):
     app.command(function.__name__.rstrip("_"), epilog=examples)(verb(function))
 

@@ -277,6 +277,16 @@ def installed_program(names: Sequence[str]) -> str | None:
     return next((path for path in paths if path and os.path.isabs(path)), None)
 
 
+def open_address(address: str) -> None:
+    """Show an address in the user's browser, where there is a screen for one."""
+    import webbrowser
+
+    if sys.platform.startswith("linux") and not os.environ.keys() & {"DISPLAY", "WAYLAND_DISPLAY", "BROWSER"}:
+        return  # a browser of a terminal would take it from us
+    with suppress(webbrowser.Error, OSError):
+        webbrowser.open(address)
+
+
 def run_program(
     command: Sequence[str], limit: float, environment: Mapping[str, str] | None = None
 ) -> "subprocess.CompletedProcess[str]":

@@ -1,0 +1,284 @@
+"""The page to design on in a real browser: open, drag, compare, save, sweep, an error at its field."""
+
+import http.client
+import re
+import shutil
+import signal
+import time
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from tests.support.design_page import (
+    UP_TO_DATE,
+    browser,
+    drag,
+    number,
+    opened,
+    served,
+)
+from tests.support.verbs import complaint, invoke
+from tribodyn.record.reader import Record
+
+RELIEF = "drive.pinion.modification.tip_relief"
+SWING = "transmission_error_peak_to_peak"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    return tmp_path_factory.mktemp("designs")
+
+
+@pytest.fixture(scope="module")
+def address(folder):
+    with served(folder, "involute-18-36-tip-relief", "--folder", str(folder)) as (address, _):
+        yield address
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with browser() as started:
+        yield started
+
+
+@pytest.fixture(scope="module")
+def page(chromium, address):
+    shown = opened(chromium, address)
+    yield shown
+    assert shown.faults == []
+
+
+def settled(page) -> None:
+    """Wait until all stages are of the newest value."""
+    page.wait_for_selector(UP_TO_DATE)
+
+
+def entry(page, path: str):
+    return page.locator(f'[data-field="{path}"] input[type=text]')
+
+
+def test_a_dragged_value_moves_teeth_curves_and_numbers_beside_the_pinned_state(page):
+    assert page.locator(".tb-teeth path.tb-body").count() == 2
+    swing, curve = number(page, SWING), page.locator('[data-chart="te-static"] figcaption').inner_text()
+    page.get_by_role("button", name="Pin", exact=True).click()
+    page.wait_for_selector("text=Numbers beside variant 1")
+    drag(page, RELIEF, 0.6)
+    page.wait_for_function(
+        "([place, old]) => document.querySelector(place).innerText.split(';')[0] !== old",
+        arg=['[data-chart="te-static"] figcaption', curve],
+    )
+    settled(page)
+    relief = float(entry(page, RELIEF).input_value())
+    assert 25.0 < relief < 35.0  # of a slider from 0 to 50 um
+    assert number(page, SWING) > 1.5 * swing
+    assert number(page, SWING, 2) == swing
+    assert "pinned" in page.locator('[data-chart="te-motion"] figcaption').inner_text()
+    assert page.locator(".tb-teeth path.tb-pinned").count() == 2
+    page.get_by_role("button", name="Undo").click()  # the whole drag
+    page.wait_for_function(
+        "place => document.querySelector(place).value === '12.4'",
+        arg=f'[data-field="{RELIEF}"] input[type=text]',
+    )
+    settled(page)
+    assert number(page, SWING) == swing
+
+
+def test_keys_roll_the_teeth_and_step_a_value(page):
+    body = page.locator(".tb-teeth g[transform*=rotate]").first
+    before = body.get_attribute("transform")
+    page.locator(".tb-teeth svg").focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function(
+        "([place, old]) => document.querySelector(place).getAttribute('transform') !== old",
+        arg=[".tb-teeth g[transform*=rotate]", before],
+    )
+    entry(page, RELIEF).focus()
+    page.keyboard.press("ArrowUp")
+    page.keyboard.press("Tab")
+    page.wait_for_function(
+        "place => document.querySelector(place).value === '12.65'",
+        arg=f'[data-field="{RELIEF}"] input[type=text]',
+    )
+
+
+def test_a_wrong_value_is_said_at_its_field_as_the_command_line_says_it(page):
+    key = "drive.pinion.modification.tip_relief_length"
+    entry(page, key).fill("-2")
+    page.wait_for_selector(f'[data-field="{key}"].wrong')
+    said = complaint("check", "involute-18-36-tip-relief", "--set", f"{key}=-2 mm")
+    rule = said.partition(": ")[2].partition(": ")[2]
+    assert page.locator(f'[data-field="{key}"] .tb-error').inner_text() == rule
+    assert entry(page, key).get_attribute("aria-invalid") == "true"
+    assert page.locator(".tb-teeth path.tb-body").count() == 2  # the last picture stays
+    entry(page, key).fill("5.41")
+    page.wait_for_selector(f'[data-field="{key}"]:not(.wrong)')
+    settled(page)
+
+
+def test_what_is_saved_runs_to_the_same_numbers(page, folder):
+    page.get_by_role("button", name="Save as").click()
+    page.get_by_label("Name in this folder").fill("../elsewhere")
+    dialog = page.get_by_role("dialog")
+    dialog.get_by_role("button", name="Save").click()
+    page.wait_for_selector("text=no file of this folder")
+    page.get_by_label("Name in this folder").fill("quiet")
+    dialog.get_by_role("button", name="Save").click()
+    page.wait_for_selector("text=Saved quiet.toml")
+    settled(page)
+    text = (folder / "quiet.toml").read_text(encoding="utf-8")
+    assert 'tip_relief = "12.65 um"' in text
+    assert "# minimum error at this torque" in text  # comments are kept
+    invoke("run", folder / "quiet.toml", "-o", folder / "quiet.h5", "--no-plot")
+    with Record(folder / "quiet.h5") as record:
+        assert record.summary[SWING] * 1e6 == pytest.approx(number(page, SWING), rel=1e-3)
+
+
+def test_a_page_loaded_again_shows_what_it_showed(page):
+    entry(page, RELIEF).fill("14")
+    page.wait_for_selector("text=(not saved)")
+    settled(page)
+    page.reload()
+    settled(page)
+    assert entry(page, RELIEF).input_value() == "14"
+    assert page.locator("text=Numbers beside variant 1").count() == 1
+
+
+def test_a_sweep_runs_beside_the_page_and_links_to_its_report(page, address):
+    page.get_by_role("button", name="Run …").click()
+    page.get_by_label("What").click()
+    page.get_by_role("option", name="Sweep").click()
+    page.get_by_label("Key").fill("operating.pinion_speed")
+    page.get_by_label("Values").fill("1000:1200:200rpm")
+    page.get_by_role("button", name="Start").click()
+    page.wait_for_selector("[data-job=done]")
+    link = page.locator(".tb-jobs a[href$='.html']").first.get_attribute("href")
+    answer = page.request.get(link)
+    assert answer.ok
+    assert "sandbox" in answer.headers["content-security-policy"]
+    assert "quiet" in answer.text()
+    page.keyboard.press("Escape")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [400, 1280, 2560])
+def test_it_is_accessible_from_phone_to_wall_in_light_and_dark(page, width, scheme):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    page.set_viewport_size({"width": width, "height": 900})
+    page.emulate_media(color_scheme=scheme)
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    found = axe.run(page, options={"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"]})
+    assert [each["id"] for each in found.response["violations"]] == []
+    page.set_viewport_size({"width": 1280, "height": 900})
+
+
+def test_dialogs_are_accessible(page):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    for name in ("Open", "Link"):
+        page.get_by_role("button", name=name, exact=True).click()
+        page.wait_for_selector(".q-dialog .tb-dialog")
+        page.wait_for_timeout(400)  # it fades in
+        found = axe.run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
+        assert [each["id"] for each in found.response["violations"]] == []
+        page.keyboard.press("Escape")
+        page.wait_for_selector(".q-dialog .tb-dialog", state="detached")
+
+
+def test_another_window_is_another_drive_and_a_mesh_is_chosen_by_key(chromium, address, page):
+    other = opened(chromium, address, wait=False)
+    other.get_by_role("button", name="Open", exact=True).click()
+    other.get_by_role("button", name="Planetary load sharing").click()
+    ring = other.locator('[data-mesh="set-ring-1"]')
+    ring.focus()
+    other.keyboard.press("Enter")
+    other.wait_for_selector('[data-mesh="set-ring-1"][aria-pressed=true]')
+    assert other.locator(".tb-teeth path.tb-ring").count() == 1
+    assert "quiet.toml" in page.locator("h1").inner_text()
+    assert other.faults == []
+    other.close()
+
+
+@pytest.mark.parametrize(
+    ("headers", "token"),
+    [
+        ({}, "wrong"),
+        ({"Host": "evil.example"}, ""),
+        ({"Origin": "http://evil.example"}, ""),
+        ({"Origin": "null"}, ""),
+    ],
+)
+@pytest.mark.parametrize("socket", [False, True])
+def test_strangers_are_refused(address, headers, token, socket):
+    place = urlsplit(address)
+    path = f"/{token or place.path.strip('/')}/"
+    upgrade = {
+        "Connection": "Upgrade",
+        "Upgrade": "websocket",
+        "Sec-WebSocket-Version": "13",
+        "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
+    }
+    if socket:
+        path += "_nicegui_ws/socket.io/?EIO=4&transport=websocket"
+    assert status(place.netloc, path, headers | (upgrade if socket else {})) == 403
+
+
+def test_the_page_itself_is_served_and_nothing_outside_the_folder(address, folder):
+    place = urlsplit(address)
+    assert place.hostname == "127.0.0.1"
+    assert status(place.netloc, place.path, {}) == 200
+    (folder.parent / "secret.html").write_text("secret")
+    (folder / "link.html").symlink_to(folder.parent / "secret.html")
+    for name in ("../secret.html", "%2e%2e/secret.html", "link.html", "quiet.toml", "/etc/passwd"):
+        assert status(place.netloc, f"{place.path}files/{name}", {}) in (403, 404)
+
+
+def status(host: str, path: str, headers: dict[str, str]) -> int:
+    connection = http.client.HTTPConnection(host, timeout=60)
+    connection.putrequest("GET", path, skip_host="Host" in headers)
+    for name, value in headers.items():
+        connection.putheader(name, value)
+    connection.endheaders()
+    found = connection.getresponse().status
+    connection.close()
+    return found
+
+
+def test_a_killed_server_leaves_what_was_saved_and_no_process(chromium, tmp_path):
+    shutil.copy(Path("scenarios/involute-18-36-tip-relief.toml"), tmp_path / "mine.toml")
+    with served(tmp_path, "mine.toml") as (address, process):
+        page = opened(chromium, address, wait=False)
+        entry(page, RELIEF).fill("11")
+        page.wait_for_selector("text=(not saved)")
+        page.keyboard.press("Control+s")
+        page.wait_for_selector("text=Saved mine.toml")
+        entry(page, RELIEF).fill("99")
+        page.wait_for_selector("text=(not saved)")
+        workers = children(process.pid)
+        assert workers
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        page.close()
+    assert 'tip_relief = "11 um"' in (tmp_path / "mine.toml").read_text(encoding="utf-8")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["mine.toml"]
+    for _ in range(300):
+        if not any(Path(f"/proc/{worker}").exists() for worker in workers):
+            return
+        time.sleep(0.1)
+    raise AssertionError("a worker goes on without its server")
+
+
+def children(parent: int) -> list[int]:
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[1]) == parent:
+            found.append(int(stat.parent.name))
+    return found
+
+
+def test_bad_words_are_one_line(tmp_path):
+    assert re.search("no such file|did you mean", complaint("app", "none.toml", folder=tmp_path))
+    assert "no such folder" in complaint("app", "--folder", tmp_path / "none")

@@ -1,0 +1,194 @@
+"""What is done with the scenario as a whole: open, save, undo, pin, run, link."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from nicegui import ui
+
+from tribodyn.app.core.document import Document
+from tribodyn.app.examples import EXAMPLES
+from tribodyn.app.job_view import JobsDialog
+from tribodyn.app.parts import BarPart, TourPart
+from tribodyn.app.window import Window
+from tribodyn.errors import InputError, OutputError
+from tribodyn.input.sources import SCENARIOS, names, shipped
+from tribodyn.studies import handed_over
+
+#: Characters of a link that an address can hold.
+_LONGEST_LINK = 30_000
+
+
+class Bar:
+    """The bar at the top and its dialogs.
+
+    Parameters
+    ----------
+    window
+        What the page works on.
+    address
+        Of the page.
+    few
+        Whether files, jobs and tour are left out.
+    go
+        Shows a field of the form.
+    """
+
+    def __init__(self, window: Window, address: str, *, few: bool, go: Callable[[str], Any]) -> None:
+        self.window, self.address, self.few, self.go = window, address, few, go
+        self.tour: TourPart | None = None
+        self.part = BarPart()
+        self.part.give(few=few)
+        self.part.tell(act=self._act)
+        self.jobs = None if few else JobsDialog(window, address, self.say)
+
+    def show(self) -> None:
+        """Show the name, and what can be done."""
+        document = self.window.document
+        self.part.give(
+            name=self.window.folder.named(document.path),
+            unsaved=document.unsaved,
+            undo=document.can_undo,
+            redo=document.can_redo,
+        )
+        # a page that is loaded again shows what it showed
+        link = document.link()
+        if len(link) < _LONGEST_LINK:
+            self.part.run_method("keep", f"?state={link}{'&few=1' if self.few else ''}")
+
+    def busy(self, late: tuple[str, ...]) -> None:
+        """Show what is being computed."""
+        self.part.give(busy=list(late))
+
+    def say(self, text: str) -> None:
+        """Say what has been done, or why it was not."""
+        self.part.run_method("say", text)
+
+    def _act(self, said: Mapping[str, Any]) -> Any:
+        actions = {
+            "open": self._open,
+            "undo": lambda: self._step(self.window.document.undo()),
+            "redo": lambda: self._step(self.window.document.redo()),
+            "pin": self._pin,
+            "save": self._save,
+            "save-as": self._save_as,
+            "link": self._link,
+            "jobs": lambda: self.jobs and self.jobs.open(),
+            "tour": lambda: self.tour and self.tour.run_method("show", 0),
+        }
+        return actions.get(str(said.get("name")), lambda: None)()
+
+    def _step(self, moved: bool) -> None:
+        if moved:
+            self.window.changed(["form", "title"])
+
+    def _pin(self) -> None:
+        self.window.pin()
+        self.say(f"Kept as {self.window.pinned_name}; what is changed now is drawn over it.")
+
+    def _save(self) -> None:
+        if self.few or self.window.folder.holds(self.window.document.path):
+            self._write(None)
+        else:
+            self._save_as()
+
+    def _write(self, path: Path | None, *, force: bool = False) -> str:
+        """Save; why it was not saved, or nothing."""
+        try:
+            saved = self.window.document.save(path, force=force)
+        except (InputError, OutputError) as error:
+            self.say(str(error))
+            return str(error)
+        self.window.show(["title", "form"])
+        self.say(f"Saved {self.window.folder.named(saved)}")
+        return ""
+
+    def _save_as(self) -> None:
+        with ui.dialog(value=True).props('aria-label="Save as"') as dialog, ui.card().classes("tb-dialog"):
+            ui.label("Save as").classes("tb-title").props("role=heading aria-level=2")
+            name = ui.input("Name in this folder", value=self.window.document.path.name).classes(
+                "tb-wide-input"
+            )
+            replace = ui.checkbox("Replace a file of that name")
+            wrong = ui.label().classes("tb-error").props("role=alert")
+
+            def save() -> None:
+                try:
+                    path = self.window.folder.new_file(name.value or "", ".toml")
+                    wrong.text = self._write(path, force=replace.value)
+                except InputError as error:
+                    wrong.text = str(error)
+                if not wrong.text:
+                    dialog.close()
+
+            name.on("keydown.enter", save)
+            with ui.element("p").classes("tb-choice"):
+                ui.button("Save", color=None, on_click=save).props("no-caps unelevated")
+                ui.button("Cancel", color=None, on_click=dialog.close).props("no-caps flat")
+
+    def _link(self) -> None:
+        link = self.window.document.link()
+        with ui.dialog(value=True).props('aria-label="Link"') as dialog, ui.card().classes("tb-dialog"):
+            ui.label("Link").classes("tb-title").props("role=heading aria-level=2")
+            ui.label(
+                "It holds this scenario and its variants. It opens here while the server runs; later, or on "
+                "another machine: tribodyn app 'LINK'. It names no file of yours but this one."
+            )
+            text = (
+                ui.input("Link", value=f"{self.address}?state={link}")
+                .props("readonly")
+                .classes("tb-wide-input")
+            )
+            with ui.element("p").classes("tb-choice"):
+                copy = ui.button("Copy", color=None).props("no-caps unelevated")
+                copy.on_click(lambda: self.part.run_method("copy", text.value))
+                ui.button("Close", color=None, on_click=dialog.close).props("no-caps flat")
+
+    def _open(self) -> None:
+        folder = self.window.folder
+        foreign = [ending for each in handed_over.readers().values() for ending in each.endings]
+        with ui.dialog(value=True).props('aria-label="Open"') as dialog, ui.card().classes("tb-dialog"):
+            ui.label("Open").classes("tb-title").props("role=heading aria-level=2")
+            wrong = ui.label().classes("tb-error").props("role=alert")
+
+            def open_named(name: str, path: Path | str, field: str = "", hint: str = "") -> None:
+                try:
+                    self.window.open(self._read(path))
+                except InputError as error:
+                    wrong.text = str(error)
+                    return
+                dialog.close()
+                self.say(hint or f"Opened {name}")
+                if field:
+                    self.go(field)
+
+            ui.label("Examples").classes("tb-title").props("role=heading aria-level=3")
+            for one in EXAMPLES:
+                with ui.element("p").classes("tb-choice"):
+                    button = ui.button(one.task, color=None).props("no-caps outline")
+                    button.on_click(lambda one=one: open_named(one.task, one.scenario, one.field, one.hint))
+                    ui.label(one.hint)
+            files = folder.listed([".toml", *foreign])
+            ui.label("Files of this folder").classes("tb-title").props("role=heading aria-level=3")
+            if not files:
+                ui.label("There are none yet.")
+            with ui.element("ul").classes("tb-files"):
+                for name in files:
+                    with ui.element("li"):
+                        button = ui.button(name, color=None).props("no-caps flat dense")
+                        button.on_click(
+                            lambda name=name: open_named(name, folder.file(name, [".toml", *foreign]))
+                        )
+            ui.label("All shipped scenarios").classes("tb-title").props("role=heading aria-level=3")
+            choice = ui.select(names(shipped(SCENARIOS)), label="Shipped scenario", with_input=True).classes(
+                "tb-wide-input"
+            )
+            choice.on_value_change(lambda event: event.value and open_named(event.value, event.value))
+            ui.button("Cancel", color=None, on_click=dialog.close).props("no-caps flat")
+
+    def _read(self, path: Path | str) -> Document:
+        """A scenario, or what a file of another program says as one."""
+        if isinstance(path, str) or path.suffix.lower() == ".toml":
+            return Document.open(path)
+        imported = handed_over.read_scenario(path)
+        return Document(imported.toml, path.with_suffix(".toml"))

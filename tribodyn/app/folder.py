@@ -1,0 +1,81 @@
+"""The folder that the page works in: what may be opened and saved there, and nothing else."""
+
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from pathlib import Path, PurePosixPath
+
+from tribodyn.errors import InputError, quoted
+
+#: Files that are listed, and folders below the one given in which they are looked for.
+MOST_FILES, DEEPEST = 400, 2
+REMEDY = "name a file of the folder that the page was started in, or start it with --folder"
+
+
+class WorkFolder:
+    """A folder whose files the page may read and write.
+
+    Parameters
+    ----------
+    root
+        The folder; must be there.
+    """
+
+    def __init__(self, root: Path) -> None:
+        if not root.is_dir():
+            raise InputError("--folder", str(root), "no such folder", "name one that is there")
+        self.root = root.resolve()
+
+    def listed(self, endings: Iterable[str]) -> list[str]:
+        """Names of files with these endings, relative to the folder, those of hidden folders left out."""
+        endings = tuple(endings)
+        found = [path for path in self._below(self.root, DEEPEST) if path.suffix.lower() in endings]
+        return sorted(path.relative_to(self.root).as_posix() for path in found)[:MOST_FILES]
+
+    def file(self, name: str, endings: Iterable[str]) -> Path:
+        """Path of a file that a page names; InputError unless it lies in the folder, links followed."""
+        endings = tuple(endings)
+        pure = PurePosixPath(name.strip().replace("\\", "/"))
+        if not pure.name or pure.is_absolute() or ".." in pure.parts or ":" in name or "\0" in name:
+            raise InputError("file", quoted(name), "no file of this folder", REMEDY)
+        if pure.suffix.lower() not in endings:
+            rule = f"ends in none of {', '.join(endings)}"
+            raise InputError("file", quoted(name), rule, f'write "{pure.with_suffix(endings[0])}"')
+        path = self.root / pure
+        if not self.holds(path):
+            raise InputError("file", quoted(name), "leads out of this folder", REMEDY)
+        return path
+
+    def new_file(self, name: str, ending: str) -> Path:
+        """Path of a file to write; the ending is added where it is missing."""
+        name = name.strip()
+        path = self.file(name if name.lower().endswith(ending) or not name else name + ending, [ending])
+        if not path.parent.is_dir():
+            raise InputError("file", quoted(name), "its folder is not there", "choose one that is there")
+        return path
+
+    def holds(self, path: Path) -> bool:
+        """Whether a file lies in the folder, links followed."""
+        try:
+            return self.root in path.resolve().parents
+        except (OSError, RuntimeError, ValueError):
+            return False
+
+    def named(self, path: Path) -> str:
+        """How a path is shown: relative to the folder where it lies in it, else by its name."""
+        with suppress(ValueError):
+            return path.resolve().relative_to(self.root).as_posix()
+        return path.name
+
+    def _below(self, folder: Path, depth: int) -> Iterator[Path]:
+        try:
+            entries = sorted(folder.iterdir())
+        except OSError:
+            return
+        for entry in entries:
+            if entry.name.startswith("."):
+                continue
+            if entry.is_dir() and not entry.is_symlink():
+                if depth:
+                    yield from self._below(entry, depth - 1)
+            elif self.holds(entry):
+                yield entry

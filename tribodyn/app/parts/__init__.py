@@ -1,0 +1,121 @@
+"""Parts of the page that the browser draws by itself; each has its script beside this file."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from nicegui import ui
+from nicegui.element import Element
+from nicegui.events import GenericEventArguments
+
+Told = Callable[[Mapping[str, Any]], Any]
+#: How the page looks.
+STYLE = Path(__file__).with_name("page.css")
+# serves the script that the charts draw with
+_ = ui.plotly
+
+
+class _Part(Element):
+    """A part that says what happens in it, and is drawn anew only where it has changed."""
+
+    def tell(self, **handlers: Told) -> None:
+        """Call functions with what the part says."""
+        for name, handler in handlers.items():
+            self.on(name, lambda event, handler=handler: handler(_said(event)))
+
+    def give(self, **props: Any) -> None:
+        """Change properties; the browser hears of it if one differs."""
+        changed = {name: value for name, value in props.items() if self.props.get(name) != value}
+        if changed:
+            self.props.update(changed)
+            self.update()
+
+
+def _said(event: GenericEventArguments) -> Mapping[str, Any]:
+    return event.args if isinstance(event.args, Mapping) else {}
+
+
+class BarPart(_Part, component="bar.js"):
+    """The bar at the top, and its keys. Tells ``act`` with a name."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.props.update(name="", unsaved=False, undo=False, redo=False, few=False, busy=[])
+
+
+class FieldsPart(_Part, component="fields.js"):
+    """The form; `groups` changes seldom, `take` gives values. Tells ``edit``, ``unset``, ``unit``."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.props.update(groups=[])
+
+    def take(self, values: Mapping[str, Any], errors: Mapping[str, str], ranges: Mapping[str, Any]) -> None:
+        """Show values, messages and usual ranges by path."""
+        self.run_method("take", values, errors, ranges)
+
+
+class TeethPart(_Part, component="teeth.js"):
+    """The teeth in mesh."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.props.update(
+            picture=None, pinned=None, label="Teeth in mesh", empty="The teeth are being drawn …"
+        )
+
+
+class GearboxPart(_Part, component="gearbox.js"):
+    """A gearbox along its axes. Tells ``choose``."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.props.update(bodies=[], meshes=[], chosen="")
+
+
+class ChartsPart(_Part, component="charts.js"):
+    """Charts by stage. Tells ``ready`` where they have to be given anew."""
+
+    def take(self, stage: str, charts: list[dict[str, Any]], pinned: list[dict[str, Any]]) -> None:
+        """Draw the charts of a stage, those of the pinned variant behind them."""
+        self.run_method("take", stage, charts, pinned)
+
+    def wait(self, late: Sequence[str]) -> None:
+        """Mark charts of stages that are computed anew."""
+        self.run_method("wait", list(late))
+
+
+class NumbersPart(_Part, component="numbers.js"):
+    """Numbers, and those of the pinned variant."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.props.update(caption="", groups=[], compared=False, words=[], tables=[])
+
+
+class MessagesPart(_Part, component="messages.js"):
+    """What is wrong, and warnings. Tells ``go``."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.props.update(errors=[], warnings=[], remarks=[])
+
+
+class VariantsPart(_Part, component="variants.js"):
+    """Variants side by side. Tells ``restore``, ``compare``, ``forget``."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.props.update(names=[], chosen="", groups=[])
+
+
+class JobsPart(_Part, component="jobs.js"):
+    """Longer work with its progress. Tells ``cancel``."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.props.update(jobs=[])
+
+
+class TourPart(_Part, component="tour.js"):
+    """Five steps for the first time; kept in the browser that they were seen."""
