@@ -16,7 +16,7 @@ from tests.support.verbs import ROOT
 #: The browser of the machine.
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 #: What a page waits for at most, ms: a machine that does other work takes long.
-PATIENCE = 120_000
+PATIENCE = 40_000
 #: All stages of the newest value have been computed.
 UP_TO_DATE = ".tb-busy:not(.on)"
 

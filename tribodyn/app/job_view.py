@@ -1,13 +1,12 @@
-"""Longer work from the page: a run, a sweep, a search, an assessment or a map as the command line's verbs."""
+"""Longer work from the page: what is asked for it, how far it is, and its results."""
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from nicegui import ui
 
-from tribodyn.app.core.job import Job
 from tribodyn.app.parts import JobsPart
+from tribodyn.app.tasks import TASKS, TaskRun
 from tribodyn.app.window import Window
 from tribodyn.errors import InputError, OutputError
 
@@ -17,59 +16,12 @@ _EACH, _LINES = 0.5, 60
 _PAGES = (".html", ".png", ".svg")
 
 
-class Task(NamedTuple):
-    """A verb, and what it has to be told; each as label and an example of the value."""
-
-    verb: str
-    asks: dict[str, tuple[str, str]]
-
-    def words(self, file: str, given: Mapping[str, str]) -> list[str]:
-        """Words behind the verb; InputError where one is missing."""
-        name = Path(file).stem
-        for key, (label, _) in self.asks.items():
-            if not given.get(key, "").strip() and not label.endswith("?"):
-                raise InputError(label, None, "is missing", "fill it in")
-        values = {key: given.get(key, "").strip() for key in self.asks}
-        if self.verb == "assess":
-            return [file, "-o", f"{name}-assessment", "--force"]
-        words = [file, "-o", f"{name}-{self.verb}.h5", "--force", "--report"]
-        if self.verb == "sweep":
-            words += ["--vary", f"{values['key']}={values['values']}"]
-        if self.verb == "design" and values["key"]:
-            words += ["--free", f"{values['key']}={values['values']}", "--minimise", values["quantity"]]
-            words += ["--evaluations", values["evaluations"] or "40"]
-        for option in ("torque", "speed"):
-            if values.get(option):
-                words += [f"--{option}", values[option]]
-        return words
-
-
-_KEY = ("Key", "drive.pinion.modification.tip_relief")
-TASKS = {
-    "Run": Task("run", {}),
-    "Sweep": Task("sweep", {"key": _KEY, "values": ("Values", "0:20:4um")}),
-    "Search": Task(
-        "design",
-        {
-            "key": _KEY,
-            "values": ("From and to", "0:30um"),
-            "quantity": ("Minimise", "loaded_transmission_error"),
-            "evaluations": ("Evaluations?", "40"),
-        },
-    ),
-    "Assessment": Task("assess", {}),
-    "Map of losses": Task(
-        "map", {"torque": ("Torques?", "0:500:100N*m"), "speed": ("Speeds?", "500:3000:500rpm")}
-    ),
-}
-
-
 class JobsDialog:
     """Starts work in the folder, shows how far it is, ends it, links to its reports."""
 
     def __init__(self, window: Window, address: str, say: Callable[[str], Any]) -> None:
         self.window, self.address, self.say = window, address, say
-        self.jobs: list[tuple[str, Job]] = []
+        self.jobs: list[TaskRun] = []
         self.inputs: dict[str, ui.input] = {}
         with ui.dialog().props('aria-label="Run"') as self.dialog, ui.card().classes("tb-dialog"):
             ui.label("Run").classes("tb-title").props("role=heading aria-level=2")
@@ -90,12 +42,6 @@ class JobsDialog:
         self._ask()
         self.dialog.open()
 
-    def close(self) -> None:
-        """End what runs."""
-        for _, job in self.jobs:
-            if job.state == "running":
-                job.cancel()
-
     def _ask(self) -> None:
         self.wrong.text = ""
         self.asked.clear()
@@ -115,10 +61,9 @@ class JobsDialog:
                 self.window.show(["title", "form"])
             task = TASKS[self.choice.value]
             given = {key: str(entry.value or "") for key, entry in self.inputs.items()}
-            words = task.words(folder.named(document.path), given)
-            self.jobs.insert(
-                0, (f"{self.choice.value} of {document.path.stem}", Job(task.verb, words, folder.root))
-            )
+            steps = task.steps(folder.named(document.path), given)
+            title = f"{self.choice.value} of {document.path.stem}"
+            self.jobs.insert(0, TaskRun(title, steps, folder.root))
         except (InputError, OutputError, OSError) as error:
             self.wrong.text = str(error)
             return
@@ -129,21 +74,21 @@ class JobsDialog:
     def _cancel(self, said: Mapping[str, Any]) -> None:
         number = len(self.jobs) - int(said.get("number", 0))
         if 0 <= number < len(self.jobs):
-            self.jobs[number][1].cancel()
+            self.jobs[number].cancel()
             self._show()
 
     def _show(self) -> None:
         count = len(self.jobs)
-        self.part.give(jobs=[self._drawn(count - k, *each) for k, each in enumerate(self.jobs)])
-        if all(job.state != "running" for _, job in self.jobs):
+        self.part.give(jobs=[self._drawn(count - k, each) for k, each in enumerate(self.jobs)])
+        if all(job.state != "running" for job in self.jobs):
             self.timer.deactivate()
 
-    def _drawn(self, number: int, title: str, job: Job) -> dict[str, Any]:
+    def _drawn(self, number: int, job: TaskRun) -> dict[str, Any]:
         folder = self.window.folder
         pages = [file for file in job.files if file.suffix in _PAGES and folder.holds(file)]
         return {
             "number": number,
-            "title": title,
+            "title": job.title,
             "state": job.state,
             "fraction": job.fraction,
             "said": job.said,

@@ -161,7 +161,9 @@ class DesignPage:
             self.teeth.give(
                 picture=pair_picture(geometry, results.get("static")),
                 pinned=pair_picture(old) if "gears" in old else None,
-                label=f"Teeth in mesh {geometry.get('mesh') or ''}, to be rolled by dragging or arrow keys",
+                label=" ".join(
+                    ["Teeth in mesh", *filter(None, [geometry["mesh"]]), "- drag or arrow keys roll"]
+                ),
             )
         elif geometry:
             self.teeth.give(picture=None, pinned=None, empty="There are no teeth to draw of this study.")

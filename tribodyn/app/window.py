@@ -53,7 +53,7 @@ class Window:
         self.results: Results = {}
         self.late: tuple[str, ...] = STAGES
         self.of_variants: dict[tuple[str, str], Results] = {}
-        self.pinned_name = ""
+        self.pinned_name = document.variants[-1].name if document.variants else ""
         self._worker, self._second = worker, None
         self._task: asyncio.Task[None] | None = None
         self._others: asyncio.Task[None] | None = None
