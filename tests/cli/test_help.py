@@ -12,7 +12,7 @@ from tribodyn.cli.app import app
 from tribodyn.cli.printing import command_name
 
 VERBS = (
-    "run sweep check gear show plot report listen signals compare export import list init schema validate"
+    "run sweep check gear show plot report listen signals compare export import list init schema validate app"
 ).split()
 
 

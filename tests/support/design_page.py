@@ -4,7 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from tests.support.verbs import ROOT
 #: The browser of the machine.
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 #: What a page waits for at most, ms: a machine that does other work takes long.
-PATIENCE = 40_000
+PATIENCE = 120_000
 #: All stages of the newest value have been computed.
 UP_TO_DATE = ".tb-busy:not(.on)"
 
@@ -70,6 +70,15 @@ def opened(browser: Any, address: str, *, wait: bool = True) -> Any:
     if wait:
         page.wait_for_selector(UP_TO_DATE)
     return page
+
+
+def eventually(page: Any, what: Callable[[], bool]) -> None:
+    """Wait until something holds: what a page shows comes from several processes."""
+    for _ in range(PATIENCE // 100):
+        if what():
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError("it does not come to hold")
 
 
 def number(page: Any, name: str, column: int = 1) -> float:

@@ -10,7 +10,7 @@ from tribodyn.app.core.document import Document
 from tribodyn.app.examples import EXAMPLES
 from tribodyn.app.job_view import JobsDialog
 from tribodyn.app.parts import BarPart, TourPart
-from tribodyn.app.window import Window
+from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError, OutputError
 from tribodyn.input.sources import SCENARIOS, names, shipped
 from tribodyn.studies import handed_over
@@ -34,7 +34,7 @@ class Bar:
         Shows a field of the form.
     """
 
-    def __init__(self, window: Window, address: str, *, few: bool, go: Callable[[str], Any]) -> None:
+    def __init__(self, window: DesignWindow, address: str, *, few: bool, go: Callable[[str], Any]) -> None:
         self.window, self.address, self.few, self.go = window, address, few, go
         self.tour: TourPart | None = None
         self.part = BarPart()
@@ -54,7 +54,7 @@ class Bar:
         # a page that is loaded again shows what it showed
         link = document.link()
         if len(link) < _LONGEST_LINK:
-            self.part.run_method("keep", f"?state={link}{'&few=1' if self.few else ''}")
+            self.part.run_method("keep", f"?state={link}&own=1{'&few=1' if self.few else ''}")
 
     def busy(self, late: tuple[str, ...]) -> None:
         """Show what is being computed."""

@@ -7,7 +7,7 @@ from nicegui import ui
 
 from tribodyn.app.parts import JobsPart
 from tribodyn.app.tasks import TASKS, TaskRun
-from tribodyn.app.window import Window
+from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError, OutputError
 
 #: How often progress is looked at, s; lines of output that are shown.
@@ -19,7 +19,7 @@ _PAGES = (".html", ".png", ".svg")
 class JobsDialog:
     """Starts work in the folder, shows how far it is, ends it, links to its reports."""
 
-    def __init__(self, window: Window, address: str, say: Callable[[str], Any]) -> None:
+    def __init__(self, window: DesignWindow, address: str, say: Callable[[str], Any]) -> None:
         self.window, self.address, self.say = window, address, say
         self.jobs: list[TaskRun] = []
         self.inputs: dict[str, ui.input] = {}

@@ -17,7 +17,7 @@ _QUANTITY = "quantity"
 _NUMBER = re.compile(r"[-−+]?\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
-class Number(NamedTuple):
+class ShownNumber(NamedTuple):
     """A quantity of a result."""
 
     group: str
@@ -30,16 +30,16 @@ class Number(NamedTuple):
     stage: str
 
 
-def numbers_of(results: Mapping[str, Result]) -> list[Number]:
+def numbers_of(results: Mapping[str, Result]) -> list[ShownNumber]:
     """All numbers, those of the motion first."""
     return [*_of_rows(results), *_of_slow_rotation(results), *_of_tables(results)]
 
 
-def _of_rows(results: Mapping[str, Result]) -> Iterator[Number]:
+def _of_rows(results: Mapping[str, Result]) -> Iterator[ShownNumber]:
     motion = results.get("motion", {})
     for row in motion.get("rows", ()):
         if row["heading"] not in _LEFT_OUT:
-            yield Number(
+            yield ShownNumber(
                 f"In motion: {row['heading'].lower()}",
                 row["name"],
                 row["label"],
@@ -51,7 +51,7 @@ def _of_rows(results: Mapping[str, Result]) -> Iterator[Number]:
             )
 
 
-def _of_slow_rotation(results: Mapping[str, Result]) -> Iterator[Number]:
+def _of_slow_rotation(results: Mapping[str, Result]) -> Iterator[ShownNumber]:
     group, about = "Quasi-static", "Of the transmission error over a mesh cycle in slow rotation."
     for stage in ("static", "torques"):
         result = results.get(stage, {})
@@ -62,15 +62,15 @@ def _of_slow_rotation(results: Mapping[str, Result]) -> Iterator[Number]:
             if (place == 0) is (stage == "static"):
                 label = f"Transmission error, peak to peak, at {float(torque):.4g} N·m"
                 name, value = f"static-{place}", float(swing)
-                yield Number(group, name, label, f"{value:.4g}", "µm", value, about, stage)
+                yield ShownNumber(group, name, label, f"{value:.4g}", "µm", value, about, stage)
         load = np.asarray(result.get("load", ()))
         if load.size:
             most, about_load = float(np.nanmax(load)), "Of one pair in slow rotation at the nominal torque."
             label = "Maximum load of a pair"
-            yield Number(group, "static-load", label, f"{most:,.0f}", "N", most, about_load, stage)
+            yield ShownNumber(group, "static-load", label, f"{most:,.0f}", "N", most, about_load, stage)
 
 
-def _of_tables(results: Mapping[str, Result]) -> Iterator[Number]:
+def _of_tables(results: Mapping[str, Result]) -> Iterator[ShownNumber]:
     seen = set()
     for stage in ("check", "geometry"):
         for table in results.get(stage, {}).get("tables", ()):
@@ -85,7 +85,7 @@ def _of_tables(results: Mapping[str, Result]) -> Iterator[Number]:
                     label = row[0] if len(columns) == 1 else f"{row[0]}, {column}"
                     number, unit = _split(text)
                     shown = text if number is None else text[: len(text) - len(unit)].strip()
-                    yield Number(
+                    yield ShownNumber(
                         table["title"], f"{table['title']} {label}", label, shown, unit, number, "", stage
                     )
 
@@ -129,7 +129,7 @@ def compared(results: Mapping[str, Result], pinned: Mapping[str, Result]) -> lis
     return list(groups.values())
 
 
-def difference(now: Number, before: Number) -> str:
+def difference(now: ShownNumber, before: ShownNumber) -> str:
     """Difference of two numbers with its share of the older one, as text; "0" where there is none."""
     if now.value is None or before.value is None:
         return "0" if now.text == before.text else "changed"

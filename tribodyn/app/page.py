@@ -27,7 +27,7 @@ from tribodyn.app.parts import (
     VariantsPart,
 )
 from tribodyn.app.picture import gearbox_picture, pair_picture
-from tribodyn.app.window import Window
+from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError
 
 
@@ -64,7 +64,7 @@ class DesignPage:
         self.sliders = Sliders()
         self.problem: InputError | None = None
         self.errors: list[tuple[str, str, str]] = []
-        self.window = Window(folder, document, worker or Worker(), self.show)
+        self.window = DesignWindow(folder, document, worker or Worker(), self.show)
         client.on_delete(self.window.close)
         self._build()
         self.window.changed(["form", "pinned", "title"])

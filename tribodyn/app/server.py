@@ -101,6 +101,16 @@ def opened(scenario: str | None, folder: Path | None) -> tuple[WorkFolder, Docum
     return work_folder, document
 
 
+def _of_state(state: str, folder: WorkFolder, own: bool) -> Document:
+    """The document of a link; where the page itself has kept it, with the file that it was opened from."""
+    document = Document.of_link(state, folder.root)
+    if own and folder.holds(document.path) and document.path.is_file():
+        kept, document = document, Document.open(document.path)
+        document.set_text(kept.text)
+        document.variants = kept.variants
+    return document
+
+
 def _listen(port: int | None) -> socket.socket:
     """A socket of this machine alone."""
     for number in (USUAL_PORT, 0) if port is None else (port,):
@@ -129,13 +139,13 @@ def _application(folder: WorkFolder, first: Document, address: str, token: str, 
     from tribodyn.app.page import DesignPage
 
     @ui.page("/", title="tribodyn")
-    def design(client: Client, state: str = "", few: str = "") -> None:
+    def design(client: Client, state: str = "", few: str = "", own: str = "") -> None:
         document = Document(first.text, first.path, saved=not first.unsaved)
         document.variants = first.variants
         problem = ""
         if state:
             try:
-                document = Document.of_link(state, folder.root)
+                document = _of_state(state, folder, bool(own))
             except InputError as error:
                 problem = str(error)
         page = DesignPage(

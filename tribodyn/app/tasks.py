@@ -11,7 +11,7 @@ Words = Sequence[str]
 _KEY = ("Key", "drive.pinion.modification.tip_relief")
 
 
-class Task(NamedTuple):
+class VerbTask(NamedTuple):
     """A verb, and what it has to be told: label and example of each value. A label with ? may stay empty."""
 
     verb: str
@@ -42,9 +42,9 @@ class Task(NamedTuple):
 
 
 TASKS = {
-    "Run": Task("run", {}),
-    "Sweep": Task("sweep", {"key": _KEY, "values": ("Values", "0:20:4um")}),
-    "Search": Task(
+    "Run": VerbTask("run", {}),
+    "Sweep": VerbTask("sweep", {"key": _KEY, "values": ("Values", "0:20:4um")}),
+    "Search": VerbTask(
         "design",
         {
             "key": _KEY,
@@ -53,8 +53,8 @@ TASKS = {
             "evaluations": ("Evaluations?", "40"),
         },
     ),
-    "Assessment": Task("assess", {}),
-    "Map of losses": Task(
+    "Assessment": VerbTask("assess", {}),
+    "Map of losses": VerbTask(
         "map", {"torque": ("Torques?", "0:500:100N*m"), "speed": ("Speeds?", "500:3000:500rpm")}
     ),
 }

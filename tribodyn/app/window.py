@@ -20,7 +20,7 @@ _BETWEEN = 0.04
 Results = dict[str, Result]
 
 
-class Window:
+class DesignWindow:
     """What a browser window works on.
 
     Parameters
