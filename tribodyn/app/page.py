@@ -209,6 +209,9 @@ class DesignPage:
             self._complain(error)
             return
         self._complain(self.window.change(field.path, value, drag=bool(said.get("dragging"))))
+        if said.get("released"):  # the drag is one step of the history
+            with suppress(InputError):
+                self.window.document.set(field.path, value)
 
     def _unit(self, said: Mapping[str, Any]) -> None:
         field = self.fields.get(str(said.get("path")))

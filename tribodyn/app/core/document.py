@@ -271,9 +271,11 @@ class Document:
 
     def _go_on(self, text: str, dragged: str = "") -> None:
         """Add a state behind the present one, or put it in its place while one key is dragged."""
-        if text == self.text:
-            return
         now = self._states[self._at]
+        if text == now.text:
+            if not dragged:  # what is dragged from now on is a step of its own
+                self._states[self._at] = _State(text)
+            return
         kept = self._states[: self._at + (not dragged or now.dragged != dragged)]
         self._states = [*kept, _State(text, dragged)][-MOST_STATES:]
         self._at = len(self._states) - 1

@@ -116,12 +116,12 @@ export default {
       if (!this.late || this.waiting) return;
       this.waiting = setTimeout(() => { this.waiting = null; this.next(); }, 1000);
       this.$emit("edit", this.late);
-      if (!this.late.dragging) delete this.local[this.late.path];
+      if (this.late.released) delete this.local[this.late.path];
       this.late = null;
     },
     released(field, value) {
       this.local[field.path] = short(Number(value));
-      this.late = { path: field.path, text: this.local[field.path], dragging: false };
+      this.late = { path: field.path, text: this.local[field.path], dragging: true, released: true };
       this.next();
     },
     send(field, text) {
