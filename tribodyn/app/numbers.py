@@ -36,18 +36,19 @@ def numbers_of(results: Mapping[str, Result]) -> list[ShownNumber]:
 
 
 def _of_rows(results: Mapping[str, Result]) -> Iterator[ShownNumber]:
-    motion = results.get("motion", {})
-    for row in motion.get("rows", ()):
-        if row["heading"] not in _LEFT_OUT:
+    for stage in ("motion", "strength"):
+        for row in results.get(stage, {}).get("rows", ()):
+            if row["heading"] in _LEFT_OUT:
+                continue
             yield ShownNumber(
-                f"In motion: {row['heading'].lower()}",
+                f"In motion: {row['heading'].lower()}" if stage == "motion" else "Strength by ISO 6336",
                 row["name"],
                 row["label"],
                 row["text"],
                 row["unit"],
                 row["value"],
                 row["definition"],
-                "motion",
+                stage,
             )
 
 
