@@ -11,8 +11,10 @@ from urllib.parse import urlsplit
 import pytest
 
 from tests.support.design_page import (
+    RELIEF,
     browser,
     drag,
+    entry,
     eventually,
     number,
     opened,
@@ -21,7 +23,6 @@ from tests.support.design_page import (
 from tests.support.verbs import complaint, invoke
 from tribodyn.record.reader import Record
 
-RELIEF = "drive.pinion.modification.tip_relief"
 SWING = "transmission_error_peak_to_peak"
 
 
@@ -47,10 +48,6 @@ def page(chromium, address):
     shown = opened(chromium, address)
     yield shown
     assert shown.faults == []
-
-
-def entry(page, path: str):
-    return page.locator(f'[data-field="{path}"] input[type=text]')
 
 
 def test_a_dragged_value_moves_teeth_curves_and_numbers_beside_the_pinned_state(page):

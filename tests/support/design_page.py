@@ -19,6 +19,7 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", 
 PATIENCE = 120_000
 #: All stages of the newest value have been computed.
 UP_TO_DATE = ".tb-busy:not(.on)"
+RELIEF = "drive.pinion.modification.tip_relief"
 
 
 @contextmanager
@@ -79,6 +80,11 @@ def eventually(page: Any, what: Callable[[], bool]) -> None:
             return
         page.wait_for_timeout(100)
     raise AssertionError("it does not come to hold")
+
+
+def entry(page: Any, path: str) -> Any:
+    """The input of a field."""
+    return page.locator(f'[data-field="{path}"] input[type=text]')
 
 
 def number(page: Any, name: str, column: int = 1) -> float:

@@ -87,8 +87,11 @@ class Bar:
         self.say(f"Kept as {self.window.pinned_name}; what is changed now is drawn over it.")
 
     def _save(self) -> None:
-        if self.few or self.window.folder.holds(self.window.document.path):
+        folder, path = self.window.folder, self.window.document.path
+        if folder.holds(path):
             self._write(None)
+        elif self.few:
+            self._write(folder.new_file(path.name, ".toml"))
         else:
             self._save_as()
 

@@ -4,7 +4,7 @@ import socket
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tribodyn.app.core.document import Document
 from tribodyn.app.core.worker import Worker
@@ -12,6 +12,10 @@ from tribodyn.app.examples import FIRST
 from tribodyn.app.folder import WorkFolder
 from tribodyn.app.guard import SANDBOX, Guard, new_token
 from tribodyn.errors import InputError, quoted
+from tribodyn.numerics.processes import child
+
+if TYPE_CHECKING:
+    import subprocess
 
 HOST = "127.0.0.1"
 #: Port where none is named and it is free: what a browser keeps of a page it keeps by port.
@@ -75,14 +79,31 @@ def serve(
                 worker.close()
 
 
-def serve_for_parent(scenario: str, folder: str) -> None:
+def started(scenario: str, limit: float) -> "tuple[str, subprocess.Popen[bytes]]":
+    """Begin a server in a child process; its address and the process.
+
+    InputError where the scenario cannot be opened; TimeoutError where it does not begin within the limit, s.
+    """
+    opened(scenario, None)
+    process = child.start(f"{__name__}:serve_for_parent", scenario)
+    try:
+        address = child.answer(process, limit, line=True).decode().strip()
+        if not address:
+            raise TimeoutError("it ended")
+    except TimeoutError:
+        child.end(process)
+        raise
+    return address, process
+
+
+def serve_for_parent(scenario: str) -> None:
     """Serve a notebook; in a child process that writes the address as its answer."""
 
     def announce(address: str) -> None:
         sys.stdout.write(address + "\n")
         sys.stdout.flush()
 
-    serve(scenario, Path(folder), 0, announce)
+    serve(scenario, None, 0, announce)
 
 
 def opened(scenario: str | None, folder: Path | None) -> tuple[WorkFolder, Document]:
