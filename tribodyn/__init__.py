@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from tribodyn.interface import standards as standards
     from tribodyn.interface.drive import GearPair, NamedGear, constraints, drive, gear
     from tribodyn.interface.exchange import export, import_measured, import_scenario
+    from tribodyn.interface.explore import explore
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
     from tribodyn.interface.identify import Identified, identify
     from tribodyn.interface.line_contact import line_contact

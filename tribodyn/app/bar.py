@@ -1,6 +1,7 @@
 """What is done with the scenario as a whole: open, save, undo, pin, run, link."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -118,7 +119,7 @@ class Bar:
             def save() -> None:
                 try:
                     path = self.window.folder.new_file(name.value or "", ".toml")
-                    wrong.text = self._write(path, force=replace.value)
+                    wrong.text = self._write(path, force=bool(replace.value))
                 except InputError as error:
                     wrong.text = str(error)
                 if not wrong.text:
@@ -169,7 +170,7 @@ class Bar:
             for one in EXAMPLES:
                 with ui.element("p").classes("tb-choice"):
                     button = ui.button(one.task, color=None).props("no-caps outline")
-                    button.on_click(lambda one=one: open_named(one.task, one.scenario, one.field, one.hint))
+                    button.on_click(partial(open_named, one.task, one.scenario, one.field, one.hint))
                     ui.label(one.hint)
             files = folder.listed([".toml", *foreign])
             ui.label("Files of this folder").classes("tb-title").props("role=heading aria-level=3")
@@ -179,9 +180,7 @@ class Bar:
                 for name in files:
                     with ui.element("li"):
                         button = ui.button(name, color=None).props("no-caps flat dense")
-                        button.on_click(
-                            lambda name=name: open_named(name, folder.file(name, [".toml", *foreign]))
-                        )
+                        button.on_click(partial(open_named, name, folder.file(name, [".toml", *foreign])))
             ui.label("All shipped scenarios").classes("tb-title").props("role=heading aria-level=3")
             choice = ui.select(names(shipped(SCENARIOS)), label="Shipped scenario", with_input=True).classes(
                 "tb-wide-input"
