@@ -213,15 +213,19 @@ static enum status step(struct instance *one, double from, double size)
     return OK;
 }
 
+static size_t state_size(void)
+{
+    return held_count() * sizeof(double);
+}
+
 /* Copy all that changes to a state, which is made where there is none. */
 static enum status get_state(const struct instance *one, void **state)
 {
-    size_t bytes = held_count() * sizeof *one->held;
     if (*state == NULL)
-        *state = malloc(bytes);
+        *state = malloc(state_size());
     if (*state == NULL)
         return failed(one, "no memory for a state");
-    memcpy(*state, one->held, bytes);
+    memcpy(*state, one->held, state_size());
     return OK;
 }
 
@@ -229,35 +233,54 @@ static enum status set_state(struct instance *one, const void *state)
 {
     if (state == NULL)
         return failed(one, "there is no state to set");
-    memcpy(one->held, state, held_count() * sizeof *one->held);
+    memcpy(one->held, state, state_size());
     return OK;
 }
 
-/* A serialized state begins with the token of the FMU, so that no other one takes it. */
+/* A serialized state: the token of the FMU, so that no other one takes it, a checksum, the numbers. */
+enum { CHECKSUM = sizeof token - 1, NUMBERS = CHECKSUM + sizeof(uint64_t) };
+
 static size_t serialized_size(void)
 {
-    return strlen(token) + held_count() * sizeof(double);
+    return NUMBERS + state_size();
+}
+
+/* Checksum of the numbers of a state, Fowler-Noll-Vo 1a: bytes that changed on their way are no state. */
+static uint64_t checksum(const unsigned char *bytes)
+{
+    uint64_t sum = UINT64_C(14695981039346656037);
+    size_t i;
+    for (i = 0; i < state_size(); i++)
+        sum = (sum ^ bytes[i]) * UINT64_C(1099511628211);
+    return sum;
 }
 
 static enum status serialize(const struct instance *one, const void *state, unsigned char *bytes, size_t size)
 {
+    uint64_t sum;
     if (state == NULL || size < serialized_size())
         return failed(one, "a state takes %lu bytes", (unsigned long)serialized_size());
-    memcpy(bytes, token, strlen(token));
-    memcpy(bytes + strlen(token), state, held_count() * sizeof(double));
+    sum = checksum(state);
+    memcpy(bytes, token, CHECKSUM);
+    memcpy(bytes + CHECKSUM, &sum, sizeof sum);
+    memcpy(bytes + NUMBERS, state, state_size());
     return OK;
 }
 
 static enum status deserialize(
     const struct instance *one, const unsigned char *bytes, size_t size, void **state)
 {
-    if (size != serialized_size() || memcmp(bytes, token, strlen(token)) != 0)
+    uint64_t sum = 0;
+    int ours = size == serialized_size() && memcmp(bytes, token, CHECKSUM) == 0;
+    if (ours)
+        memcpy(&sum, bytes + CHECKSUM, sizeof sum);
+    if (!ours || sum != checksum(bytes + NUMBERS))
         return failed(one, "these bytes are no state of this FMU");
     if (*state == NULL)
-        *state = malloc(held_count() * sizeof(double));
+        *state = malloc(state_size());
     if (*state == NULL)
         return failed(one, "no memory for a state");
-    memcpy(*state, bytes + strlen(token), held_count() * sizeof(double));
+    memcpy(*state, bytes + NUMBERS, state_size());
     return OK;
 }
 
