@@ -142,6 +142,8 @@ def import_measured(
         write_output(path, content, force=force)
     write_output(target, text, force=force)
     remarks = [*measured.remarks, *keys.remarks]
+    if not values:
+        remarks.append("the scenario is as before: what was measured is no deviation of a tooth")
     if not kept:
         remarks.append("the scenario was written anew, without its comments")
     return MeasuredImport((target, *tables), evaluation, tuple(remarks))

@@ -102,6 +102,8 @@ def _worth_writing(table: ToothErrors | None) -> ToothErrors | None:
 def _run_out(radial: Float[Array, " gap"], gear: MountedGear, datum: str) -> RunOut:
     """The eccentricity in readings of all gaps; gap i is half a pitch clockwise of tooth i."""
     size, angle = eccentricity_of(radial)
+    if size < NOTHING:
+        return RunOut(gear.teeth)
     clockwise = angle + math.pi / gear.teeth
     own = clockwise if gear.clockwise(datum) else -clockwise
     return RunOut(gear.teeth, size, own % (2.0 * math.pi))
