@@ -169,7 +169,8 @@ def test_another_window_is_another_drive_and_a_mesh_is_chosen_by_key(chromium, a
     other.keyboard.press("Enter")
     other.wait_for_selector('[data-mesh="set-ring-1"][aria-pressed=true]')
     assert other.locator(".tb-teeth path.tb-ring").count() == 1
-    assert "quiet.toml" in page.locator("h1").inner_text()
+    assert "planetary" in other.locator("h1").inner_text()
+    assert "planetary" not in page.locator("h1").inner_text()
     assert other.faults == []
     other.close()
 

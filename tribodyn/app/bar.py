@@ -61,6 +61,10 @@ class Bar:
         """Show what is being computed."""
         self.part.give(busy=list(late))
 
+    def at_work(self, text: str) -> None:
+        """Say what takes long."""
+        self.part.give(work=text)
+
     def say(self, text: str) -> None:
         """Say what has been done, or why it was not."""
         self.part.run_method("say", text)

@@ -23,19 +23,19 @@ EXAMPLES = (
         "Hot film",
         "spur-25-51",
         "Raise the oil temperature: film and λ fall, friction and loss change.",
-        "oil_temperature",
+        "operating.oil_temperature",
     ),
     Example(
         "Planetary load sharing",
         "planetary-24-84",
         "Move one pin by its tangential error: the planets share the load otherwise.",
-        "stage.1.tangential_pin_errors",
+        "stage.0.tangential_pin_errors",
     ),
     Example(
         "Cracked tooth",
         "crack-18-36",
         "Change the depth of the crack: the stiffness falls while that tooth is in mesh.",
-        "damage.1.depth",
+        "damage.0.depth",
     ),
 )
 FIRST = EXAMPLES[0].scenario

@@ -67,6 +67,7 @@ class DesignPage:
         self.window = DesignWindow(folder, document, worker or Worker(), self.show)
         client.on_delete(self.window.close)
         self._build()
+        ui.timer(1.0, lambda: self.bar.at_work(self.window.at_work()))
         self.window.changed(["form", "pinned", "title"])
         self.window.compare()
 

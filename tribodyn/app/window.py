@@ -17,6 +17,8 @@ from tribodyn.errors import InputError
 
 #: A value that is dragged is computed at most this often, s: geometry follows within 100 ms.
 _BETWEEN = 0.04
+#: Seconds after which it is said what is computed.
+_SOON = 2.0
 Results = dict[str, Result]
 
 
@@ -193,6 +195,14 @@ class DesignWindow:
         variants = self.document.variants
         others = [(one.name, self.of_variants.get((one.text, self.mesh), {})) for one in variants]
         return [("", self.results), *others]
+
+    def at_work(self) -> str:
+        """What has been computed for a while; nothing of what takes no time."""
+        stage, seconds, share = self._worker.at_work
+        if not self.late or not stage or seconds < _SOON:
+            return ""
+        part = "" if share is None else f", {100.0 * share:.0f} %"
+        return f"{stage}: {seconds:.0f} s{part}"
 
     def sentences(self, name: str) -> list[str]:
         """What the computations say under a name, "warnings" or "remarks", each once."""

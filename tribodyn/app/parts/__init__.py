@@ -40,7 +40,7 @@ class BarPart(_Part, component="bar.js"):
 
     def __init__(self) -> None:
         super().__init__()
-        self.props.update(name="", unsaved=False, undo=False, redo=False, few=False, busy=[])
+        self.props.update(name="", unsaved=False, undo=False, redo=False, few=False, busy=[], work="")
 
 
 class FieldsPart(_Part, component="fields.js"):

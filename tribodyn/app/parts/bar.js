@@ -15,9 +15,9 @@ export default {
     <button type="button" class="tb-main" title="Ctrl S" @click="act('save')">Save</button>
     <span class="tb-busy" :class="{on: busy.length}" role="img" :aria-label="busy.length ? 'computing' : 'up to date'" :data-late="busy.join(' ')"></span>
   </div>
-  <p class="tb-said" role="status">{{ said }}</p>
+  <p class="tb-said" role="status">{{ said || (work ? "Computing " + work : "") }}</p>
 </div>`,
-  props: { name: String, unsaved: Boolean, undo: Boolean, redo: Boolean, few: Boolean, busy: Array },
+  props: { name: String, unsaved: Boolean, undo: Boolean, redo: Boolean, few: Boolean, busy: Array, work: String },
   emits: ["act"],
   data() { return { said: "" }; },
   mounted() {

@@ -31,10 +31,10 @@ export default {
             :aria-describedby="described(field)" :aria-invalid="Boolean(errors[field.path])" :list="field.choices.length ? id(field) + '-names' : null"
             @focus="begin(field, $event.target.value)" @input="typed(field, $event.target.value)" @change="send(field, $event.target.value)" @blur="end(field)" @keydown="stepped(field, $event)">
           <datalist v-if="field.choices.length" :id="id(field) + '-names'"><option v-for="choice in field.choices" :key="choice" :value="choice"></option></datalist>
-          <select v-if="field.units.length > 1" :aria-label="'Unit of ' + field.label" :value="unit(field)" @change="$emit('unit', {path: field.path, unit: $event.target.value})">
+          <select v-if="field.kind === 'number' && field.units.length > 1" :aria-label="'Unit of ' + field.label" :value="unit(field)" @change="$emit('unit', {path: field.path, unit: $event.target.value})">
             <option v-for="one in field.units" :key="one" :value="one">{{ one }}</option>
           </select>
-          <span v-else class="tb-unit">{{ unit(field) }}</span>
+          <span v-else-if="field.kind === 'number'" class="tb-unit">{{ unit(field) }}</span>
         </template>
       </div>
       <div class="tb-slide" v-if="ranges[field.path]">

@@ -7,7 +7,7 @@ export default {
       <g v-for="(body, k) in bodies" :key="body.name" :transform="'translate(' + body.x + ' ' + body.y + ') rotate(' + body.angle + ')'"><path :d="outlines[k]" fill-rule="evenodd" :class="'tb-wheel' + (body.internal ? ' tb-internal' : '') + (touched.includes(body.name) ? ' tb-chosen' : '')"/></g>
       <g v-for="mesh in meshes" :key="mesh.name" role="button" tabindex="0" :data-mesh="mesh.name" :aria-pressed="String(mesh.name === chosen)" :aria-label="'Mesh ' + mesh.name" :class="'tb-mesh' + (mesh.name === chosen ? ' tb-chosen' : '')" @click="$emit('choose', {mesh: mesh.name})" @keydown.enter.prevent="$emit('choose', {mesh: mesh.name})" @keydown.space.prevent="$emit('choose', {mesh: mesh.name})"><circle :cx="mesh.x" :cy="mesh.y" :r="0.045 * size"/><title>{{ mesh.name }}</title></g>
     </g>
-    <text v-for="body in bodies" :key="'t' + body.name" :x="body.x" :y="-body.y - 0.03 * size" :font-size="0.05 * size" text-anchor="middle">{{ body.name }}</text>
+    <text v-for="body in bodies" :key="'t' + body.name" :x="body.x" :y="body.internal ? 0.94 * body.reach - body.y : -body.y + 0.02 * size" :font-size="0.05 * size" text-anchor="middle">{{ body.name }}</text>
   </svg>
   <label class="tb-which">Mesh <select :value="chosen" @change="$emit('choose', {mesh: $event.target.value})"><option v-for="mesh in meshes" :key="mesh.name" :value="mesh.name">{{ mesh.name }}</option></select></label>
 </figure>`,
