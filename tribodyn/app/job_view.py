@@ -5,6 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
+from tribodyn.app.core.form import form_of
 from tribodyn.app.parts import JobsPart
 from tribodyn.app.tasks import TASKS, TaskRun
 from tribodyn.app.window import DesignWindow
@@ -12,6 +13,8 @@ from tribodyn.errors import InputError, OutputError
 
 #: How often progress is looked at, s; lines of output that are shown.
 _EACH, _LINES = 0.5, 60
+#: Fields that may be varied.
+_NUMBERS = ("quantity", "number", "whole")
 #: Results that the page links to.
 _PAGES = (".html", ".png", ".svg")
 
@@ -47,9 +50,18 @@ class JobsDialog:
         self.asked.clear()
         with self.asked:
             self.inputs = {
-                key: ui.input(label.rstrip("?"), placeholder=example).classes("tb-wide-input")
-                for key, (label, example) in TASKS[self.choice.value].asks.items()
+                key: ui.input(
+                    label.rstrip("?"),
+                    placeholder=example,
+                    autocomplete=self._numbers() if key == "key" else None,
+                ).classes("tb-wide-input")
+                for key, (label, example) in TASKS[self.choice.value or "Run"].asks.items()
             }
+
+    def _numbers(self) -> list[str]:
+        """Keys of the scenario's numbers."""
+        fields = [field for group in form_of(self.window.document) for field in group.fields]
+        return [field.path for field in fields if field.kind in _NUMBERS]
 
     def _start(self) -> None:
         document, folder = self.window.document, self.window.folder

@@ -102,7 +102,9 @@ class TaskRun:
     @property
     def files(self) -> list[Path]:
         """What was written, those of a folder that a verb made too."""
-        return list(dict.fromkeys(file for job in self._jobs for file in job.files))
+        made = [self.folder / word for job in self._jobs for word in job.words]
+        inside = [page for folder in made if folder.is_dir() for page in sorted(folder.glob("*.html"))]
+        return list(dict.fromkeys([*(file for job in self._jobs for file in job.files), *inside]))
 
     def cancel(self) -> None:
         """End it."""
