@@ -251,3 +251,14 @@ def test_hostile_titles_and_names_of_files_stay_text(tmp_path: Path):
     assert next(model.of_type("gear_unit")).name == '<!-- & "]]> --> \\u202e\\x07 <model>'
     (tmp_path / "back.toml").write_text(read(tmp_path / "set.rexs").toml, encoding="utf-8")
     assert load(tmp_path / "back.toml", {}).case.title.startswith('<!-- & "]]> -->')
+
+
+def test_what_holds_a_ring_against_rotation_comes_back(tmp_path: Path):
+    """As stiff as in a wind turbine; what is rigid is said to be changed."""
+    for value, kept in ((2e11, True), (1e15, False)):
+        path = tmp_path / f"{value:g}.rexs"
+        td.export(PLANETS, "rexs", path, {"stage.0.support_stiffness": f"{value:g} N*m/rad"})
+        found = td.import_scenario(path)
+        (stage,) = found.scenario["stage"]
+        assert (stage.get("support_stiffness") == "2e+11 N*m/rad") == kept
+        assert any("is rigid against rotation" in each for each in found.details["changed"]) != kept

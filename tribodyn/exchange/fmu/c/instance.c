@@ -134,7 +134,7 @@ static enum status get_value(struct instance *one, uint32_t reference, double *v
     if (variables[reference].role == OUTPUT && one->held[CURRENT] == 0.0
         && phase_of(one) != INSTANTIATED && phase_of(one) != FAILED) {
         start_if_due(one);
-        simulation_outputs(one->model, values_of(one), numbers_of(one));
+        find_outputs(one->model, values_of(one), numbers_of(one));
         one->held[CURRENT] = 1.0;
     }
     *value = values_of(one)[reference];
@@ -195,7 +195,7 @@ static enum status step(struct instance *one, double from, double size)
         return failed(one, "step size %.9g s: must be above 0", size);
     if (!(from - now <= allowed && now - from <= allowed))
         return failed(one, "communication point %.17g s: the instance is at %.17g s", from, now);
-    result = simulation_advance(
+    result = advance_simulation(
         one->model, values_of(one), numbers_of(one), now + size - one->held[BEGIN], one->held[TOLERANCE]);
     one->held[CURRENT] = 0.0;
     if (result != 0) {

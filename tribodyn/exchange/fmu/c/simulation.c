@@ -125,7 +125,7 @@ static void simulation_start(void *model, const double *values, double *numbers)
 @start_shaft
 }
 
-static int simulation_advance(
+static int advance_simulation(
     void *model, const double *values, double *numbers, double until, double tolerance)
 {
     struct simulation *one = model;
@@ -142,7 +142,7 @@ static int simulation_advance(
         until, &one->control, &one->model, numbers, numbers + CLOCK, one->work, one->buffer);
 }
 
-static void simulation_outputs(void *model, double *values, double *numbers)
+static void find_outputs(void *model, double *values, double *numbers)
 {
     struct simulation *one = model;
     double found[OUTPUTS];

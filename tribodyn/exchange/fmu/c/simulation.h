@@ -34,12 +34,12 @@ static void simulation_prepare(void *model);
 /* Put the numbers where the simulation begins, at time 0. */
 static void simulation_start(void *model, const double *values, double *numbers);
 /* Move on to a time, s since the start; 0, or what `simulation_reason` puts into words. */
-static int simulation_advance(
+static int advance_simulation(
     void *model, const double *values, double *numbers, double until, double tolerance);
 /* Time that has been reached, s since the start. */
 static double simulation_time(const double *numbers);
 /* Fill in the values of the outputs. */
-static void simulation_outputs(void *model, double *values, double *numbers);
+static void find_outputs(void *model, double *values, double *numbers);
 static const char *simulation_reason(int status);
 
 #endif

@@ -17,6 +17,8 @@ BEARINGS = (
 RIGID, STIFF, TYPICAL = 1e12, 1e10, 5e8
 #: The same of springs against tilts and twists, N m/rad.
 RIGID_TILT, STIFF_TILT = 1e11, 1e9
+#: The same of what holds a member of a set against rotation: that of a wind turbine has 1e11 N m/rad.
+RIGID_SUPPORT = 1e14
 #: Types with rollers, with a contact angle that is needed, with a direction of thrust.
 _ROLLERS = "cylindrical-roller", "needle-roller", "tapered-roller", "spherical-roller"
 _ANGLED = (

@@ -7,7 +7,7 @@ from tribodyn.exchange.rexs.file import attributes as rexs
 from tribodyn.exchange.rexs.file.model import Component
 from tribodyn.exchange.rexs.file.sheet import Sheet
 from tribodyn.exchange.rexs.reading.bearings import (
-    RIGID_TILT,
+    RIGID_SUPPORT,
     TYPICAL,
     hold_across,
     put_springs_of,
@@ -191,9 +191,11 @@ def put_set(draft: Draft, found: PlanetarySet) -> None:
         draft.assume("held", text(held), "its coupling is open in the file: no power would flow")
     for coupling in couplings_of(sheet, found.members[held]):
         value = sheet.si(coupling, rexs.TORSIONAL_STIFFNESS)
-        if value and value < RIGID_TILT:
+        if value and value < RIGID_SUPPORT:
             draft.put("support_stiffness", f'"{value:.9g} N*m/rad"')
             break
+        if value:
+            draft.change(coupling, "is rigid against rotation: the scenario's choice of support_stiffness")
     floating = [
         name
         for name, shafts in found.members.items()
