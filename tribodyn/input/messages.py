@@ -274,6 +274,9 @@ def _explain_one(detail: dict[str, Any], model: type[BaseModel]) -> InputError:
             return InputError(dotted, text, "not one of the choices", f"{mean}write {expected}")
         case "float_type" | "int_type" if isinstance(detail["input"], str) and range_for_one(detail["input"]):
             return InputError(dotted, text, *(range_for_one(detail["input"]) or ()))
+        case "string_pattern_mismatch":
+            more = "digits, space, - _ and ." if " " in context["pattern"] else "digits, - and _"
+            return InputError(dotted, text, "a character that is not allowed here", f"use letters, {more}")
         case "finite_number":
             return InputError(dotted, text, "not a finite number", "write a plain number, such as 1.0")
     rule, remedy = _PLAIN.get(detail["type"], (detail["msg"].lower(), ""))
@@ -286,10 +289,6 @@ _PLAIN = {
     "int_from_float": ("not a whole number", "write a whole number, such as 20"),
     "bool_type": ("not true or false", "write true or false, without quotes"),
     "string_type": ("not text", "write text in quotes"),
-    "string_pattern_mismatch": (
-        "a character that is not allowed here",
-        "use letters, digits, space, - _ and .",
-    ),
     "model_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
     "dict_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
     "tuple_type": ("not a list", "write a list: [ … ]"),

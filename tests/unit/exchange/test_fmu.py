@@ -308,6 +308,7 @@ def test_a_library_for_both_processors_holds_both():
         (PAIR, {"oil_temperature_min": "20 degC"}, "known at one temperature only"),
         (PAIR, {"mesh.formulation": "energy-consistent"}, "takes energy from the rotation"),
         ("planetary-24-84", {}, "counts the forces of the nominal speed"),
+        ("idler-train", {"gear.idler.eccentricity": "5 um"}, "leave out what single teeth have of their own"),
         ("efficiency-crc-23-47", {}, "has no motion in time"),
         ("two-stage-reducer-hunting", {"solver.max_period": "10"}, "are at their phases again after 61"),
     ],

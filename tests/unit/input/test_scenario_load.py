@@ -130,3 +130,10 @@ def test_physics_errors_are_given_the_file(written):
         raise InputError("drive.pinion.teeth", 5, "too few", "more")
     with pytest.raises(InputError, match=r"^output = "), loaded.naming():
         raise InputError("output", "x.h5", "the file exists")
+
+
+def test_what_a_name_may_hold_is_what_its_message_says():
+    """Names of parts stand in keys: no space and no point."""
+    for name in ("a b", "a.b"):
+        with pytest.raises(InputError, match="use letters, digits, - and _ "):
+            load_scenario("idler-train", {"stage.0.name": name})

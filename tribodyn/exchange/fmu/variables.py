@@ -119,7 +119,8 @@ def _held_output(gearbox: GearboxInTime) -> list[FmuVariable]:
 def _names_of_meshes(names: Sequence[str]) -> list[str]:
     """Names of meshes as parts of names of variables, each once."""
     plain = [re.sub(r"\W+", "_", name) for name in names]
-    return [name if plain.count(name) == 1 else f"{name}_{place}" for place, name in enumerate(plain)]
+    once = len(set(plain)) == len(plain)
+    return plain if once else [f"{name}_{place}" for place, name in enumerate(plain)]
 
 
 def _output(output: TimeOutput, place: int, meshes: Sequence[str]) -> FmuVariable:

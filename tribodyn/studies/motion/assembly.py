@@ -224,11 +224,16 @@ def start_slip_of(case: Gearbox) -> float:
 def refuse_in_time(case: Gearbox) -> None:
     """Raise InputError where a gearbox cannot be run by time."""
     refuse_long_period(case)
-    if len(case.meshes) > 1 and any(any(pair.teeth) for pair in case.pairs):
-        rule = "may come to any teeth, and those of several meshes that differ repeat too late"
-        remedy = "give solver.cycles in its place, or leave out what single teeth have of their own"
-        raise InputError("solver.duration", f"{case.solver.duration:g} s", rule, remedy)
+    own = [mesh.name for mesh in case.meshes if any(mesh.pair.teeth)]
+    if len(case.meshes) > 1 and own:
+        rule = (
+            "a motion by time may come to any teeth, and those of several meshes that differ repeat too late"
+        )
+        remedy = (
+            "leave out what single teeth have of their own; a run may have solver.cycles, no solver.duration"
+        )
+        raise InputError("mesh", own[0], rule, remedy)
     for one in case.sets:
         if one.frame_forces:
-            rule = "counts the forces of the nominal speed, and with solver.duration the gears may stand"
+            rule = "counts the forces of the nominal speed, and in a motion by time the gears may stand"
             raise InputError(f"{one.key}.frame_forces", True, rule, "set it to false")
