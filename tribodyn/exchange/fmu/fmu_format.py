@@ -98,9 +98,9 @@ def _oil(gearbox: GearboxInTime, choices: Mapping[str, Any]) -> tuple[OilTable |
     """Numbers over the temperature of the oil; or None, and why it is no input if remarks do not say it."""
     nominal, model_at = gearbox.oil_temperature, gearbox.at_temperature
     if nominal is None or model_at is None:
-        if choices.keys() & {"oil_temperature_min", "oil_temperature_max"}:
-            rule = "is of an oil whose temperature is no input"
-            raise InputError("oil_temperature_min", None, rule, "; ".join(gearbox.remarks) or "omit it")
+        for key in sorted(choices.keys() & {"oil_temperature_min", "oil_temperature_max"}):
+            said = " ".join(gearbox.remarks[-1:])  # of the oil
+            raise InputError(key, None, f"is no choice here: {said}", "omit it")
         return None, ""
     low = float(choices.get("oil_temperature_min", min(_COLDEST, nominal)))
     high = float(choices.get("oil_temperature_max", max(_WARMEST, nominal)))

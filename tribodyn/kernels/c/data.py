@@ -90,7 +90,7 @@ def _wrapped(text: str, indent: str) -> Iterator[str]:
 def needed_by(kind: CType) -> list[CType]:
     """Types that the declaration of a struct needs before."""
     if isinstance(kind, CRecord):
-        return [inner for inner in kind.stored.values()]
+        return list(kind.stored.values())
     if isinstance(kind, (CPointer, CSeveral)):
         return [kind.record]
     return [item for item in getattr(kind, "items", ()) if takes_place(item)]

@@ -1,7 +1,7 @@
 """What Python expressions become: values that are known when translating, and C expressions."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -124,13 +124,6 @@ def condition(value: Value, level: int = TERNARY) -> str:
         return text_of(value, level)
     compared = f"{text_of(value, EQUAL + 1)} != {'0.0' if kind == DOUBLE else '0'}"
     return compared if level <= EQUAL else f"({compared})"
-
-
-def as_whole(value: Value) -> Value:
-    """A truth as a number."""
-    if isinstance(value, Expression) and value.type == TRUTH:
-        return replace(value, type=WHOLE)
-    return value
 
 
 def python_number(value: Any) -> Any:

@@ -120,7 +120,7 @@ def leave_out_unread(unit: Unit, called: list[CFunction]) -> None:
 def written(
     unit: Unit, title: str, called: list[CFunction], data: dict[str, tuple[CType, str]]
 ) -> tuple[str, str]:
-    """PythonSource and header."""
+    """Source and header."""
     exported = [function for function in called if function.exported]
     types: list[CType] = [kind for kind, _ in data.values()]
     for function in exported:
@@ -140,7 +140,7 @@ def written(
     bodies = "\n".join(row for function in called for row in function_lines(function))
     values = "\n".join(f"const {declared(kind, name)} = {text};\n" for name, (kind, text) in data.items())
     mentioned = names_in(bodies) | names_in(values)
-    private = [row for row in struct_lines([*types, *_mentioned(inner, mentioned)])][len(public) :]
+    private = list(struct_lines([*types, *_mentioned(inner, mentioned)]))[len(public) :]
     constants = definitions({name: value for name, value in unit.constants.items() if name in mentioned})
     tables = [
         row
