@@ -262,3 +262,11 @@ def test_what_holds_a_ring_against_rotation_comes_back(tmp_path: Path):
         (stage,) = found.scenario["stage"]
         assert (stage.get("support_stiffness") == "2e+11 N*m/rad") == kept
         assert any("is rigid against rotation" in each for each in found.details["changed"]) != kept
+
+
+def test_a_link_that_is_rigid_is_said_to_be_changed(tmp_path: Path):
+    path = tmp_path / "rigid.rexs"
+    td.export("dtu-10mw-gearbox", "rexs", path, {"link.0.stiffness": "2e11 N*m/rad"})
+    found = td.import_scenario(path)
+    assert found.scenario["link"][0]["stiffness"] == "1e+09 N*m/rad"
+    assert sum("is rigid against twist" in each for each in found.details["changed"]) == 1

@@ -204,10 +204,11 @@ def _put_links(draft: Draft, sets: list[PlanetarySet]) -> None:
         if not value:
             draft.assume("stiffness", '"1e6 N*m/rad"')
         else:
-            limited = STIFF_TILT if value >= RIGID_TILT else value
-            draft.put(
-                "stiffness", f'"{limited:.9g} N*m/rad"', "rigid in the file" if limited != value else ""
-            )
+            rigid = value >= RIGID_TILT
+            if rigid:
+                draft.change(coupling, f"is rigid against twist: {STIFF_TILT:g} N*m/rad")
+            limited = STIFF_TILT if rigid else value
+            draft.put("stiffness", f'"{limited:.9g} N*m/rad"', "rigid in the file" if rigid else "")
         draft.assume("damping_ratio", "0.02")
 
 
