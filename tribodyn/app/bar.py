@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from nicegui import ui
 
@@ -12,8 +13,8 @@ from tribodyn.app.examples import EXAMPLES
 from tribodyn.app.job_view import JobsDialog
 from tribodyn.app.parts import BarPart, TourPart
 from tribodyn.app.window import DesignWindow
-from tribodyn.errors import InputError, OutputError
-from tribodyn.input.sources import SCENARIOS, names, shipped
+from tribodyn.errors import InputError, OutputError, quoted
+from tribodyn.input.sources import SCENARIOS, is_file, names, shipped
 from tribodyn.studies import handed_over
 
 #: Characters of a link that an address can hold.
@@ -55,7 +56,9 @@ class Bar:
         # a page that is loaded again shows what it showed
         link = document.link()
         if len(link) < _LONGEST_LINK:
-            self.part.run_method("keep", f"?state={link}&own=1{'&few=1' if self.few else ''}")
+            held = document.has_file and self.window.folder.holds(document.path)
+            own = f"&own={quote(self.window.folder.named(document.path))}" if held else ""
+            self.part.run_method("keep", f"?state={link}{own}{'&few=1' if self.few else ''}")
 
     def busy(self, late: tuple[str, ...]) -> None:
         """Show what is being computed."""
@@ -123,6 +126,9 @@ class Bar:
             def save() -> None:
                 try:
                     path = self.window.folder.new_file(name.value or "", ".toml")
+                    if is_file(path) and not replace.value:
+                        rule, remedy = "is there already", "tick Replace, or choose another name"
+                        raise InputError("file", quoted(path.name), rule, remedy)
                     wrong.text = self._write(path, force=bool(replace.value))
                 except InputError as error:
                     wrong.text = str(error)
@@ -158,10 +164,13 @@ class Bar:
         with ui.dialog(value=True).props('aria-label="Open"') as dialog, ui.card().classes("tb-dialog"):
             ui.label("Open").classes("tb-title").props("role=heading aria-level=2")
             wrong = ui.label().classes("tb-error").props("role=alert")
+            if self.window.document.unsaved:
+                shown = folder.named(self.window.document.path)
+                ui.label(f"{shown} has changes that are not saved. They are lost once another is opened.")
 
             def open_named(name: str, path: Path | str, field: str = "", hint: str = "") -> None:
                 try:
-                    self.window.open(self._read(path))
+                    self.window.open(Document.open(path))
                 except InputError as error:
                     wrong.text = str(error)
                     return
@@ -191,10 +200,3 @@ class Bar:
             )
             choice.on_value_change(lambda event: event.value and open_named(event.value, event.value))
             ui.button("Cancel", color=None, on_click=dialog.close).props("no-caps flat")
-
-    def _read(self, path: Path | str) -> Document:
-        """A scenario, or what a file of another program says as one."""
-        if isinstance(path, str) or path.suffix.lower() == ".toml":
-            return Document.open(path)
-        imported = handed_over.read_scenario(path)
-        return Document(imported.toml, path.with_suffix(".toml"))

@@ -1,5 +1,6 @@
 """The folder that the page works in: what may be opened and saved there, and nothing else."""
 
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
@@ -8,6 +9,10 @@ from tribodyn.errors import InputError, quoted
 
 #: Files that are listed, and folders below the one given in which they are looked for.
 MOST_FILES, DEEPEST = 400, 2
+#: Names of files that every system takes, and that no verb reads as an option.
+_PORTABLE = re.compile(
+    r"(?!(con|prn|aux|nul|com\d|lpt\d)\.)[^-.\s<>:\"|?*][^<>:\"|?*\x00-\x1f]{0,199}(?<![. ])\.\w+", re.I
+)
 REMEDY = "name a file of the folder that the page was started in, or start it with --folder"
 
 
@@ -28,7 +33,11 @@ class WorkFolder:
     def listed(self, endings: Iterable[str]) -> list[str]:
         """Names of files with these endings, relative to the folder, those of hidden folders left out."""
         endings = tuple(endings)
-        found = [path for path in self._below(self.root, DEEPEST) if path.suffix.lower() in endings]
+        found = [
+            path
+            for path in self._below(self.root, DEEPEST)
+            if path.suffix.lower() in endings and path.name.isprintable()
+        ]
         return sorted(path.relative_to(self.root).as_posix() for path in found)[:MOST_FILES]
 
     def file(self, name: str, endings: Iterable[str]) -> Path:
@@ -49,6 +58,9 @@ class WorkFolder:
         """Path of a file to write; the ending is added where it is missing."""
         name = name.strip()
         path = self.file(name if name.lower().endswith(ending) or not name else name + ending, [ending])
+        if not _PORTABLE.fullmatch(path.name):
+            rule = "not a name that every system takes"
+            raise InputError("file", quoted(path.name), rule, "write letters, digits, - and _")
         if not path.parent.is_dir():
             raise InputError("file", quoted(name), "its folder is not there", "choose one that is there")
         return path

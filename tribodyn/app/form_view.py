@@ -24,6 +24,8 @@ _SLIDERS: dict[str, tuple[float, float, str]] = {
 }
 #: Ends of other sliders over the value that they begin at.
 _BELOW, _ABOVE = 0.0, 2.0
+#: No slider is drawn about a number beyond this one.
+_LARGEST = 1e30
 _KINDS = {"quantity": "number", "number": "number", "whole": "number", "choice": "choice", "switch": "switch"}
 
 
@@ -133,6 +135,7 @@ def _in_unit(field: FormField, number: float, unit: str) -> float | None:
 
 def _number(text: str) -> float | None:
     try:
-        return float(text)
+        value = float(text)
     except ValueError:
         return None
+    return value if abs(value) < _LARGEST else None

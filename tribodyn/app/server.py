@@ -3,6 +3,7 @@
 import socket
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -122,11 +123,22 @@ def opened(scenario: str | None, folder: Path | None) -> tuple[WorkFolder, Docum
     return work_folder, document
 
 
-def _of_state(state: str, folder: WorkFolder, own: bool) -> Document:
-    """The document of a link; where the page itself has kept it, with the file that it was opened from."""
+def _anew(first: Document) -> Document:
+    """The document that is open at first, as its file says it now."""
+    if first.has_file:
+        with suppress(InputError):
+            return Document.open(first.path)
+    document = Document(first.text, first.path)
+    document.variants = first.variants
+    return document
+
+
+def _of_state(state: str, folder: WorkFolder, own: str) -> Document:
+    """The document of a link; where the page itself has kept it, with its own file in the folder."""
     document = Document.of_link(state, folder.root)
-    if own and folder.holds(document.path) and document.path.is_file():
-        kept, document = document, Document.open(document.path)
+    path = folder.file(own, [".toml"]) if own else document.path
+    if own and path.is_file():
+        kept, document = document, Document.open(path)
         document.set_text(kept.text)
         document.variants = kept.variants
     return document
@@ -161,12 +173,10 @@ def _application(folder: WorkFolder, first: Document, address: str, token: str, 
 
     @ui.page("/", title="tribodyn")
     def design(client: Client, state: str = "", few: str = "", own: str = "") -> None:
-        document = Document(first.text, first.path, saved=not first.unsaved)
-        document.variants = first.variants
-        problem = ""
+        document, problem = _anew(first), ""
         if state:
             try:
-                document = _of_state(state, folder, bool(own))
+                document = _of_state(state, folder, own)
             except InputError as error:
                 problem = str(error)
         page = DesignPage(

@@ -23,7 +23,8 @@ class VerbTask(NamedTuple):
             if not given.get(key, "").strip() and not label.endswith("?"):
                 raise InputError(label, None, "is missing", f"write it like {example}")
         values = {key: given.get(key, "").strip() for key in self.asks}
-        name = file.removesuffix(".toml").replace("/", "-")
+        name = file.removesuffix(".toml").replace("/", "-").lstrip("-")
+        file = f"./{file}"  # a name that begins with - is no option
         if self.verb == "assess":
             return [["assess", file, "-o", f"{name}-assessment", "--force"]]
         record = f"{name}-{self.verb}.h5"

@@ -60,7 +60,7 @@ def find_scenario(name: str) -> Path:
         _refuse_record(path)
         return path
     if path.suffix == ".toml":
-        _missing("scenario", name, path, "no such file")
+        _missing("scenario", name, path, "a folder" if path.is_dir() else "no such file")
     return _named("scenario", name, "scenario", [shipped(SCENARIOS)])
 
 
@@ -87,7 +87,7 @@ def file_name(path: Path, folder: Path) -> str:
 
 def _missing(key: str, name: str, path: Path, rule: str) -> NoReturn:
     """Refuse a path at which there is no file, and name one of its folder that is spelled much the same."""
-    near = near_name(path.stem, names(path.parent))
+    near = near_name(path.stem, [one for one in names(path.parent) if one != path.stem])
     remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
     raise InputError(key, quoted(name), rule, remedy)
 

@@ -22,9 +22,9 @@ from tribodyn.input.names import key_in
 from tribodyn.input.quantity import LIKE, defaults_written_out
 from tribodyn.input.resolve import Resolved, resolve_table, toml_value
 from tribodyn.input.schema import expanded, references
-from tribodyn.input.sources import MOST_TOML, find_scenario, read_text, shipped
+from tribodyn.input.sources import MOST_TOML, find_scenario, is_file, read_text, shipped
 from tribodyn.numerics.files.output_files import write_output
-from tribodyn.studies import DEFAULT
+from tribodyn.studies import DEFAULT, handed_over
 from tribodyn.studies.protocol.load import filled, table_of
 
 #: States that undo goes back to, at most; older ones are forgotten.
@@ -74,9 +74,11 @@ class Document:
 
     @classmethod
     def open(cls, name: str | Path) -> "Document":
-        """Open the file of a path, or a shipped scenario by its name; InputError where it cannot be read."""
+        """Open a file, one of another program too, or a shipped scenario; InputError where that fails."""
         path = find_scenario(str(name))
-        return cls(read_text(path, MOST_TOML), path, saved=True)
+        if path.suffix.lower() in ("", ".toml"):
+            return cls(read_text(path, MOST_TOML), path, saved=True)
+        return cls(handed_over.read_scenario(path).toml, path.with_suffix(".toml"))
 
     @classmethod
     def new(cls, kind: str, path: Path) -> "Document":
@@ -105,6 +107,11 @@ class Document:
     def unsaved(self) -> bool:
         """Whether the text differs from what was opened or saved last."""
         return self.text != self._saved
+
+    @property
+    def has_file(self) -> bool:
+        """Whether it was opened from its file, or saved there."""
+        return self._saved is not None
 
     @property
     def can_undo(self) -> bool:
@@ -223,8 +230,8 @@ class Document:
     def save(self, path: Path | None = None, *, force: bool = False) -> Path:
         """Write the file and return its path; files that it names beside itself are named from there.
 
-        A file that is there is replaced where it is the document's own, or by `force`. InputError else, and
-        for a file of the package; OutputError where there is no room.
+        A file that is there is replaced where it is the document's own and nobody has changed it meanwhile,
+        or by `force`. InputError else, and for a file of the package; OutputError where there is no room.
         """
         target = path or self.path
         if shipped("scenarios").resolve() in target.resolve().parents:
@@ -233,7 +240,13 @@ class Document:
         text = self.text
         if target.parent.resolve() != self.path.parent.resolve():
             text = self._named_from(target)
-        own = self._saved is not None and target.resolve() == self.path.resolve()
+        own = self.has_file and target.resolve() == self.path.resolve()
+        if own and not force and self._changed_by_others():
+            rule, remedy = (
+                "was changed elsewhere since it was opened",
+                "save it under another name, or open it",
+            )
+            raise InputError("output", quoted(str(target)), rule, remedy)
         write_output(target, text, force=force or own)
         self.path = target
         if text != self.text:
@@ -241,6 +254,12 @@ class Document:
         self._saved = text
         self.__dict__.pop("_read", None)
         return target
+
+    def _changed_by_others(self) -> bool:
+        try:
+            return read_text(self.path, MOST_TOML).splitlines() != (self._saved or "").splitlines()
+        except InputError:
+            return is_file(self.path)
 
     def _named_from(self, target: Path) -> str:
         """The text with the files that it names by paths, named from another file."""

@@ -92,10 +92,19 @@ def written_as(field: FormField, text: str, unit: str = "") -> Any:
     """What the text of an input, with the unit beside it, is for `Document.set`."""
     text = text.strip()
     if field.kind == "quantity":
-        return f"{text} {unit or field.unit}".strip()
+        own = not _is_number(text) and any(one.isalpha() for one in text)  # "20 um" has its unit
+        return text if own else f"{text} {unit or field.unit}".strip()
     if field.kind in ("number", "whole", "switch", "list", "other"):
         return toml_value(text)
     return _choice(field, text)
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def in_unit(text: str, unit: str, to: str) -> str:

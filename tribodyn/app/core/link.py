@@ -14,7 +14,7 @@ from tribodyn.input.sources import MOST_TOML
 #: What a link begins with: the form of what follows.
 _FORM = "1."
 #: Names of files that a link may hold.
-_NAME = re.compile(r"\w[\w .-]*")
+_NAME = re.compile(r"(?!\.\.?$)[^\\/:\x00-\x1f]+")
 
 
 def packed(name: str, texts: Mapping[str, str]) -> str:

@@ -1,0 +1,99 @@
+"""What strangers do to the page: names of files, another writer of the file, units within a field."""
+
+import json
+import shutil
+
+import pytest
+
+pytest.importorskip("nicegui", reason="the extra app is not installed")
+
+from tests.support.verbs import ROOT, complaint
+from tribodyn.app.core.document import Document
+from tribodyn.app.core.form import form_of, written_as
+from tribodyn.app.folder import WorkFolder
+from tribodyn.app.form_view import Sliders
+from tribodyn.app.server import _of_state
+from tribodyn.app.tasks import TASKS
+from tribodyn.errors import InputError
+
+PAIR = ROOT / "scenarios" / "involute-18-36-tip-relief.toml"
+RELIEF = "drive.pinion.modification.tip_relief"
+
+
+@pytest.mark.parametrize("name", ["my drive (1).toml", "sub/a+b.toml", "-o.toml", "日本 é.toml"])
+def test_a_page_loaded_again_keeps_file_and_state(tmp_path, name):
+    (tmp_path / "sub").mkdir()
+    shutil.copy(PAIR, tmp_path / name)
+    document = Document.open(tmp_path / name)
+    document.set(RELIEF, "13 um")
+    again = _of_state(document.link(), WorkFolder(tmp_path), name)
+    assert again.path.resolve() == (tmp_path / name).resolve()
+    assert again.text == document.text
+    again.save()
+    assert 'tip_relief = "13 um"' in (tmp_path / name).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("own", ["../a.toml", "/etc/a.toml", "a.html"])
+def test_a_state_leads_to_no_file_elsewhere(tmp_path, own):
+    with pytest.raises(InputError):
+        _of_state(Document.open(PAIR).link(), WorkFolder(tmp_path), own)
+
+
+def test_a_file_that_somebody_else_has_changed_is_not_replaced_unasked(tmp_path):
+    file = tmp_path / "mine.toml"
+    shutil.copy(PAIR, file)
+    first, second = Document.open(file), Document.open(file)
+    first.set(RELIEF, "13 um")
+    second.set(RELIEF, "14 um")
+    first.save()
+    with pytest.raises(InputError, match="changed elsewhere"):
+        second.save()
+    assert 'tip_relief = "13 um"' in file.read_text(encoding="utf-8")
+    second.save(file, force=True)
+    second.set(RELIEF, "15 um")
+    second.save()
+    assert 'tip_relief = "15 um"' in file.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["con", "NUL.toml", "a?b", ".hidden", "-o", "x" * 300, "<b>", "a.", " "])
+def test_names_that_some_system_refuses_are_refused(tmp_path, name):
+    with pytest.raises(InputError):
+        WorkFolder(tmp_path).new_file(name, ".toml")
+
+
+@pytest.mark.parametrize("name", ["a", "my drive (1)", "v1.2", "日本", "console", "a.TOML"])
+def test_usual_names_are_taken(tmp_path, name):
+    assert WorkFolder(tmp_path).new_file(name, ".toml").parent == tmp_path.resolve()
+
+
+def test_a_file_whose_name_looks_like_an_option_runs(tmp_path):
+    file = tmp_path / "--help.toml"
+    shutil.copy(PAIR, file)
+    (words,) = TASKS["Run"].steps(file.name, {})
+    assert "must be at least 4" in complaint(*words, "--set", "drive.pinion.teeth=0", folder=tmp_path)
+
+
+def test_a_field_takes_a_number_with_its_own_unit():
+    document = Document.open(PAIR)
+    field = {one.path: one for group in form_of(document) for one in group.fields}[RELIEF]
+    document.set(RELIEF, written_as(field, "0.02 mm", "um"))
+    in_mm = document.value(RELIEF)
+    document.set(RELIEF, written_as(field, "2e1", "um"))
+    assert document.messages() == ()
+    assert (in_mm, document.value(RELIEF)) == ("0.02 mm", "2e1 um")
+
+
+@pytest.mark.parametrize("text", ["1e308", "-1e308", "inf", "nan", "0", "1e29"])
+def test_ends_of_sliders_are_numbers_whatever_is_typed(text):
+    document = Document.open(PAIR)
+    document.set("operating.torque", f"{text} N*m")
+    document.set(RELIEF, f"{text} um")
+    fields = {one.path: one for group in form_of(document) for one in group.fields}
+    json.dumps(Sliders().of(fields), allow_nan=False)
+
+
+def test_a_folder_is_no_scenario(tmp_path):
+    (tmp_path / "dir.toml").mkdir()
+    assert "a folder" in complaint("app", "dir.toml", folder=tmp_path)
+    (tmp_path / "table.csv").write_text("a,b\n1,2\n")
+    assert "table.csv" in complaint("app", "table.csv", folder=tmp_path)
