@@ -7,7 +7,7 @@ from nicegui import ui
 
 from tribodyn.app.core.form import form_of
 from tribodyn.app.parts import JobsPart
-from tribodyn.app.tasks import TASKS, TaskRun
+from tribodyn.app.tasks import TASKS, TaskRun, tasks_of
 from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError, OutputError
 
@@ -41,7 +41,10 @@ class JobsDialog:
         self.timer = ui.timer(_EACH, self._show, active=False)
 
     def open(self) -> None:
-        """Show the dialog."""
+        """Show the dialog, with what suits this kind of study."""
+        suitable = tasks_of(self.window.document.kind)
+        chosen = self.choice.value if self.choice.value in suitable else suitable[0]
+        self.choice.set_options(suitable, value=chosen)
         self._ask()
         self.dialog.open()
 

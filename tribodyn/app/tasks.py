@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from tribodyn.app.core.job import Job, State
 from tribodyn.errors import InputError
+from tribodyn.studies import STUDIES
 
 Words = Sequence[str]
 _KEY = ("Key", "drive.pinion.modification.tip_relief")
@@ -59,6 +60,12 @@ TASKS = {
         "map", {"torque": ("Torques?", "0:500:100N*m"), "speed": ("Speeds?", "500:3000:500rpm")}
     ),
 }
+
+
+def tasks_of(kind: str) -> list[str]:
+    """Names of the tasks that a kind of study has: it is run or assessed, not both."""
+    own = STUDIES[kind].verb if kind in STUDIES else "run"
+    return [name for name, task in TASKS.items() if task.verb not in {"run", "assess"} - {own}]
 
 
 class TaskRun:

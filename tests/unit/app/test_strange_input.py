@@ -13,7 +13,7 @@ from tribodyn.app.core.form import form_of, written_as
 from tribodyn.app.folder import WorkFolder
 from tribodyn.app.form_view import Sliders
 from tribodyn.app.server import _of_state
-from tribodyn.app.tasks import TASKS
+from tribodyn.app.tasks import TASKS, tasks_of
 from tribodyn.errors import InputError
 
 PAIR = ROOT / "scenarios" / "involute-18-36-tip-relief.toml"
@@ -97,3 +97,16 @@ def test_a_folder_is_no_scenario(tmp_path):
     assert "a folder" in complaint("app", "dir.toml", folder=tmp_path)
     (tmp_path / "table.csv").write_text("a,b\n1,2\n")
     assert "table.csv" in complaint("app", "table.csv", folder=tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("name", "here", "elsewhere"),
+    [
+        ("spur-25-51", "Run", "Assessment"),
+        ("assessment-helical-24-95", "Assessment", "Run"),
+    ],
+)
+def test_work_is_offered_that_the_kind_has(name, here, elsewhere):
+    offered = tasks_of(Document.open(name).kind)
+    assert here in offered
+    assert elsewhere not in offered
