@@ -209,6 +209,23 @@ def test_the_page_itself_is_served_and_nothing_outside_the_folder(address, folde
         assert status(place.netloc, f"{place.path}files/{name}", {}) in (403, 404)
 
 
+def test_the_command_of_a_browser_leads_to_the_page_once_and_holds_no_token(tmp_path):
+    """Other users of the machine can read the words of a command."""
+    words, program = tmp_path / "words", tmp_path / "browser"
+    program.write_text(f'#!/bin/sh\necho "$@" > {words}.new; mv {words}.new {words}\n')
+    program.chmod(0o700)
+    with served(tmp_path, program=program) as (address, _):
+        for _ in range(200):
+            if words.is_file():
+                break
+            time.sleep(0.05)
+        invitation, place = urlsplit(words.read_text().strip()), urlsplit(address)
+        assert place.path.strip("/") not in invitation.path
+        assert status(place.netloc, invitation.path, {"Host": "evil.example"}) == 403
+        assert status(place.netloc, invitation.path, {}) == 303
+        assert status(place.netloc, invitation.path, {}) == 403
+
+
 def status(host: str, path: str, headers: dict[str, str]) -> int:
     connection = http.client.HTTPConnection(host, timeout=60)
     connection.putrequest("GET", path, skip_host="Host" in headers)

@@ -23,11 +23,17 @@ RELIEF = "drive.pinion.modification.tip_relief"
 
 
 @contextmanager
-def served(folder: Path, *words: str) -> Iterator[tuple[str, "subprocess.Popen[str]"]]:
-    """The address of a server of a folder, and its process."""
+def served(
+    folder: Path, *words: str, program: Path | None = None
+) -> Iterator[tuple[str, "subprocess.Popen[str]"]]:
+    """The address of a server of a folder, and its process; `program` stands for the user's browser."""
     # the library behaves otherwise where it believes itself within a test
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
-    command = [sys.executable, "-m", "tribodyn", "app", *words, "--no-browser", "--port", "0"]
+    command = [sys.executable, "-m", "tribodyn", "app", *words, "--port", "0"]
+    if program is None:
+        command.append("--no-browser")
+    else:
+        environment["BROWSER"] = str(program)
     process = subprocess.Popen(
         command,
         cwd=folder,

@@ -40,11 +40,15 @@ class Guard:
         First part of every path.
     port
         Port of the server, a part of Host and Origin.
+    invitation
+        A path that leads to the token once: the words of a command that starts a browser can be read by other
+        users of the machine.
     """
 
-    def __init__(self, inner: Application, token: str, port: int) -> None:
+    def __init__(self, inner: Application, token: str, port: int, invitation: str | None = None) -> None:
         self.inner = inner
         self.token = token.encode()
+        self.invitation = invitation
         self.hosts = tuple(f"{name}:{port}".encode() for name in HOSTS)
 
     async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:
@@ -55,7 +59,16 @@ class Guard:
         headers = [(name.lower(), value) for name, value in scope["headers"]]
         hosts = [value for name, value in headers if name == b"host"]
         origins = [value for name, value in headers if name == b"origin"]
-        if not self._allowed(scope, hosts, origins):
+        if not self._own(hosts, origins):
+            await _refuse(scope, receive, send)
+            return
+        named = (str(scope["path"]).split("/")[1:2] or [""])[0].encode()
+        invitation = self.invitation
+        if invitation is not None and secrets.compare_digest(named, invitation.encode()):
+            self.invitation = None
+            await _redirect(f"/{self.token.decode()}/", send)
+            return
+        if not secrets.compare_digest(named, self.token):
             await _refuse(scope, receive, send)
             return
 
@@ -80,12 +93,17 @@ class Guard:
 
         await self.inner(scope, receive, send_guarded)
 
-    def _allowed(self, scope: Message, hosts: list[bytes], origins: list[bytes]) -> bool:
+    def _own(self, hosts: list[bytes], origins: list[bytes]) -> bool:
         own = len(hosts) == 1 and hosts[0] in self.hosts
         # a browser names the origin of a page that opens a websocket or sends something
         same = all(origin in [b"http://" + host for host in self.hosts] for origin in origins)
-        named = str(scope["path"]).split("/")[1:2] or [""]
-        return own and same and secrets.compare_digest(named[0].encode(), self.token)
+        return own and same
+
+
+async def _redirect(path: str, send: Send) -> None:
+    headers = [(b"location", path.encode()), (b"content-length", b"0"), (b"referrer-policy", b"no-referrer")]
+    await send({"type": "http.response.start", "status": 303, "headers": headers})
+    await send({"type": "http.response.body", "body": b""})
 
 
 async def _refuse(scope: Message, receive: Receive, send: Send) -> None:

@@ -31,9 +31,9 @@ _STATE = "?state="
 
 def serve(
     scenario: str | None,
+    announce: Callable[[str, str], None],
     folder: Path | None = None,
     port: int | None = None,
-    announce: Callable[[str], None] = print,
 ) -> None:
     """Serve the page until the process is asked to end.
 
@@ -41,12 +41,12 @@ def serve(
     ----------
     scenario
         A file, the name of a shipped scenario or a link; None: an example.
+    announce
+        Called with the address, and with one that leads there once, before anybody is served.
     folder
         The only folder whose files are read and written; default: that of the file, or the current one.
     port
         None: the usual one, or any that is free.
-    announce
-        Called with the address, before anybody is served.
 
     Raises
     ------
@@ -57,11 +57,12 @@ def serve(
 
     work_folder, first = opened(scenario, folder)
     listening = _listen(port)
-    token = new_token()
+    token, invitation = new_token(), new_token()
     number = listening.getsockname()[1]
     address = f"http://{HOST}:{number}/{token}/"
     spare = [Worker()]  # it imports what it needs while this process does
-    application = Guard(_application(work_folder, first, address, token, spare), token, number)
+    inner = _application(work_folder, first, address, token, spare)
+    application = Guard(inner, token, number, invitation)
     config = uvicorn.Config(
         application,
         log_level="critical",
@@ -71,7 +72,7 @@ def serve(
         timeout_graceful_shutdown=1,
         ws_max_size=8 * 2**20,
     )
-    announce(address)
+    announce(address, f"http://{HOST}:{number}/{invitation}")
     with listening:
         try:
             uvicorn.Server(config).run([listening])
@@ -100,11 +101,11 @@ def started(scenario: str, limit: float) -> "tuple[str, subprocess.Popen[bytes]]
 def serve_for_parent(scenario: str) -> None:
     """Serve a notebook; in a child process that writes the address as its answer."""
 
-    def announce(address: str) -> None:
+    def announce(address: str, _: str) -> None:
         sys.stdout.write(address + "\n")
         sys.stdout.flush()
 
-    serve(scenario, None, 0, announce)
+    serve(scenario, announce, port=0)
 
 
 def opened(scenario: str | None, folder: Path | None) -> tuple[WorkFolder, Document]:

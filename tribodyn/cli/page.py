@@ -48,10 +48,10 @@ def app(
     from tribodyn.app.server import serve
     from tribodyn.numerics.processes.child import open_address
 
-    def announce(address: str) -> None:
+    def announce(address: str, once: str) -> None:
         sys.stdout.write(f"{address}\nOpen it in a browser on this machine. Ctrl-C ends the server.\n")
         sys.stdout.flush()
         if browser:
-            open_address(address)
+            open_address(once)
 
-    serve(scenario, folder, port, announce)
+    serve(scenario, announce, folder, port)
