@@ -39,8 +39,11 @@ CONTENTS = {
         "compare",
         "report",
         "export",
+        "app",
         "cad",
         "rexs",
+        "measured-flanks",
+        "fmu",
         "extending",
     ],
     "Reference": [

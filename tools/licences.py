@@ -20,6 +20,7 @@ from tools.marked_block import table as table_of
 PAGE = DOCS / "licences.md"
 #: What is not installed with the tests, and what metadata say without naming the licence, read in its files.
 READ_BY_HAND = {
+    "axe-playwright-python": "MIT; axe-core in it, MPL-2.0",
     "editables": "MIT",
     "exudyn": "its own, in the words of BSD-3-Clause",
     "scikit-sundae": "BSD-3-Clause",
