@@ -26,7 +26,7 @@ class _Superseded(BaseException):
     """A newer request has come."""
 
 
-class _Asked(NamedTuple):
+class _Requested(NamedTuple):
     """A request with its number, which grows."""
 
     number: int
@@ -53,7 +53,7 @@ class _Serving:
     def __init__(self, answers: BinaryIO) -> None:
         self._answers = answers
         self._changed = threading.Condition()
-        self._latest: _Asked | None = None
+        self._latest: _Requested | None = None
         self._done = -1
         self._at_work = False
         self._main = threading.get_ident()
@@ -93,7 +93,7 @@ class _Serving:
             self._at_work, self._done = False, asked.number
         self._answer(DONE, asked.number, None)
 
-    def _is_old(self, asked: _Asked) -> bool:
+    def _is_old(self, asked: _Requested) -> bool:
         return self._latest is not None and self._latest.number > asked.number
 
     def _read(self) -> None:
@@ -102,7 +102,7 @@ class _Serving:
             number, stages, request = json.loads(line)
             request["torques"] = tuple(request["torques"])
             with self._changed:
-                self._latest = _Asked(number, tuple(stages), LiveRequest(**request))
+                self._latest = _Requested(number, tuple(stages), LiveRequest(**request))
                 if self._at_work:
                     thread = ctypes.c_ulong(self._main)
                     ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(_Superseded))

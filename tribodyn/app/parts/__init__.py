@@ -15,7 +15,7 @@ STYLE = Path(__file__).with_name("page.css")
 _ = ui.plotly
 
 
-class _Part(Element):
+class _PagePart(Element):
     """A part that says what happens in it, and is drawn anew only where it has changed."""
 
     def tell(self, **handlers: Told) -> None:
@@ -35,7 +35,7 @@ def _said(event: GenericEventArguments) -> Mapping[str, Any]:
     return event.args if isinstance(event.args, Mapping) else {}
 
 
-class BarPart(_Part, component="bar.js"):
+class BarPart(_PagePart, component="bar.js"):
     """The bar at the top, and its keys. Tells ``act`` with a name."""
 
     def __init__(self) -> None:
@@ -43,7 +43,7 @@ class BarPart(_Part, component="bar.js"):
         self.props.update(name="", unsaved=False, undo=False, redo=False, few=False, busy=[], work="")
 
 
-class FieldsPart(_Part, component="fields.js"):
+class FieldsPart(_PagePart, component="fields.js"):
     """The form; `groups` changes seldom, `take` gives values. Tells ``edit``, ``unset``, ``unit``."""
 
     def __init__(self) -> None:
@@ -55,7 +55,7 @@ class FieldsPart(_Part, component="fields.js"):
         self.run_method("take", values, errors, ranges)
 
 
-class TeethPart(_Part, component="teeth.js"):
+class TeethPart(_PagePart, component="teeth.js"):
     """The teeth in mesh."""
 
     def __init__(self) -> None:
@@ -65,7 +65,7 @@ class TeethPart(_Part, component="teeth.js"):
         )
 
 
-class GearboxPart(_Part, component="gearbox.js"):
+class GearboxPart(_PagePart, component="gearbox.js"):
     """A gearbox along its axes. Tells ``choose``."""
 
     def __init__(self) -> None:
@@ -73,7 +73,7 @@ class GearboxPart(_Part, component="gearbox.js"):
         self.props.update(bodies=[], meshes=[], chosen="")
 
 
-class ChartsPart(_Part, component="charts.js"):
+class ChartsPart(_PagePart, component="charts.js"):
     """Charts by stage. Tells ``ready`` where they have to be given anew."""
 
     def take(self, stage: str, charts: list[dict[str, Any]], pinned: list[dict[str, Any]]) -> None:
@@ -85,7 +85,7 @@ class ChartsPart(_Part, component="charts.js"):
         self.run_method("wait", list(late))
 
 
-class NumbersPart(_Part, component="numbers.js"):
+class NumbersPart(_PagePart, component="numbers.js"):
     """Numbers, and those of the pinned variant."""
 
     def __init__(self) -> None:
@@ -93,7 +93,7 @@ class NumbersPart(_Part, component="numbers.js"):
         self.props.update(caption="", groups=[], compared=False, words=[], tables=[])
 
 
-class MessagesPart(_Part, component="messages.js"):
+class MessagesPart(_PagePart, component="messages.js"):
     """What is wrong, and warnings. Tells ``go``."""
 
     def __init__(self) -> None:
@@ -101,7 +101,7 @@ class MessagesPart(_Part, component="messages.js"):
         self.props.update(errors=[], warnings=[], remarks=[])
 
 
-class VariantsPart(_Part, component="variants.js"):
+class VariantsPart(_PagePart, component="variants.js"):
     """Variants side by side. Tells ``restore``, ``compare``, ``forget``."""
 
     def __init__(self) -> None:
@@ -109,7 +109,7 @@ class VariantsPart(_Part, component="variants.js"):
         self.props.update(names=[], chosen="", groups=[])
 
 
-class JobsPart(_Part, component="jobs.js"):
+class JobsPart(_PagePart, component="jobs.js"):
     """Longer work with its progress. Tells ``cancel``."""
 
     def __init__(self) -> None:
@@ -117,5 +117,5 @@ class JobsPart(_Part, component="jobs.js"):
         self.props.update(jobs=[])
 
 
-class TourPart(_Part, component="tour.js"):
+class TourPart(_PagePart, component="tour.js"):
     """Five steps for the first time; kept in the browser that they were seen."""

@@ -24,7 +24,7 @@ _NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
 _INDENT = "    "
 
 
-class _At(Template):
+class _CTemplate(Template):
     delimiter = "@"
 
 
@@ -137,7 +137,7 @@ def _simulation(
         "steps": _steps(kinds),
         "reasons": ", ".join(_text(reason) for reason in reasons),
     }
-    return _At(_own("simulation.c")).substitute(values)
+    return _CTemplate(_own("simulation.c")).substitute(values)
 
 
 def _number(value: object) -> str:

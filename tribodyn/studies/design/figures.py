@@ -31,7 +31,7 @@ START, BEST = QUIET, PALETTE[1]
 NO_DESIGN = ("search", "{path} holds no design to draw", "run the scenario again")
 
 
-class _Shown:
+class _ShownObjective:
     """An objective of a record in engineers' units."""
 
     def __init__(self, record: Record, place: int = 0) -> None:
@@ -73,7 +73,7 @@ def _overview(records: Sequence[Record], _view: View) -> Figure:
 
 def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
     """Objective of every candidate in their order, the best so far, and what the search ends on."""
-    shown = _Shown(records[0])
+    shown = _ShownObjective(records[0])
     seen = []
     for number, record in enumerate(records):
         values, feasible = shown.factor * record["objective"][searched(record)], _feasible(record)
@@ -108,7 +108,7 @@ def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
 def _draw_duties(axes: Axes, records: Sequence[Record]) -> None:
     """First objective at each duty, at the start and at the best, of the first record."""
     record = records[0]
-    shown, duties = _Shown(record), record.summary.get("duties")
+    shown, duties = _ShownObjective(record), record.summary.get("duties")
     names = duty_names(record.scenario["design"])
     if duties is None:
         heights = [[abs(shown.factor) * _first(record, name)] for name in ("objective_start", "objective")]
@@ -145,7 +145,7 @@ def _draw_values(axes: Axes, records: Sequence[Record]) -> None:
     record = records[0]
     entries = record.scenario["design"]["free"]
     names = [name for name in record if name.startswith("free_")]
-    shown, feasible = _Shown(record), _feasible(record)
+    shown, feasible = _ShownObjective(record), _feasible(record)
     values = shown.values * np.sign(shown.factor)
     least = np.nanmin(np.where(feasible, values, np.nan))
     span = abs(np.nan_to_num(_first(record, "objective_start")) * shown.factor)
@@ -197,7 +197,7 @@ def _number(value: Any, entry: Mapping[str, Any]) -> float:
 def _draw_sensitivities(axes: Axes, records: Sequence[Record]) -> None:
     """Change of the objective with one key or tolerance moved about the best, of the first record."""
     record = records[0]
-    shown, design = _Shown(record), record.scenario["design"]
+    shown, design = _ShownObjective(record), record.scenario["design"]
     keys = [naming_key(entry["key"]) for entry in design["free"]]
     names = [f"{name.replace('_', ' ')} ± 2 %" for name in apart(keys)]
     tolerances = design.get("tolerance", ())
@@ -225,7 +225,7 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
     """All feasible candidates, and those that no other is better than in both objectives."""
     for number, record in enumerate(records):
         color = PALETTE[number % len(PALETTE)]
-        views, feasible = [_Shown(record, place) for place in (0, 1)], _feasible(record)
+        views, feasible = [_ShownObjective(record, place) for place in (0, 1)], _feasible(record)
         every = (view.values[feasible] for view in views)
         axes.plot(*every, ".", color=color, markersize=3, alpha=0.35)
         front = record.summary.get("front", {})
@@ -240,7 +240,7 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
             if (values := record.summary.get(name)) is not None:
                 end = (abs(view.factor) * value for view, value in zip(views, values, strict=True))
                 axes.plot(*end, mark, color=shade, label=text)
-    axes.set(xlabel=_Shown(records[0], 0).label, ylabel=_Shown(records[0], 1).label)
+    axes.set(xlabel=_ShownObjective(records[0], 0).label, ylabel=_ShownObjective(records[0], 1).label)
     axes.margins(x=0.05)
     axes.set_title("Front", loc="left")
     axes.legend()
@@ -301,7 +301,7 @@ def page(record: Record) -> str:
         found=before_and_after(record),
         pictures=pictures,
         titles={
-            name: f"Objective: {_Shown(record, place).quantity.title}"
+            name: f"Objective: {_ShownObjective(record, place).quantity.title}"
             for place, name in enumerate(OBJECTIVES)
             if name in record
         },
