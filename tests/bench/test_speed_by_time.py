@@ -16,7 +16,7 @@ pytestmark = pytest.mark.bench
 RTOL, SAMPLES = 1e-6, 200
 
 
-def test_a_native_run_by_time_is_40_times_faster_than_scipy(capsys):
+def test_a_native_run_by_time_is_10_times_faster_than_scipy(capsys):
     """The shipped start from rest, no less exact than SciPy's at the same tolerance."""
     prepared = prepare(td.scenario("start-from-rest", {"solver.duration": "20 ms"}))
     model, cycles = prepared.model, prepared.case.solver.cycles
@@ -33,7 +33,7 @@ def test_a_native_run_by_time_is_40_times_faster_than_scipy(capsys):
         return np.concatenate(states)[:, : model.layout.mechanical], min(taken)
 
     exact, _ = run("dopri5", 1e-10)
-    (ours, own), (theirs, peer) = run("dopri5", repeats=5), run("dop853")
+    (ours, own), (theirs, peer) = run("dopri5", repeats=5), run("dop853", repeats=3)
     errors = [float(np.max(np.abs(found - exact) / np.ptp(exact, axis=0))) for found in (ours, theirs)]
     ratio = peer / own
     with capsys.disabled():
@@ -42,4 +42,4 @@ def test_a_native_run_by_time_is_40_times_faster_than_scipy(capsys):
             f"SciPy DOP853 {peer * 1e3:.0f} ms ({errors[1]:.1e}): {ratio:.0f} times"
         )
     assert errors[0] < 1e-4
-    assert ratio >= 40.0
+    assert ratio >= 10.0
