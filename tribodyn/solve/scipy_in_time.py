@@ -11,6 +11,7 @@ from tribodyn.dynamics.parameters import Model, with_shared_code
 from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.integrator import Status
+from tribodyn.solve.march.by_time import BEYOND
 from tribodyn.solve.march.crossing import cycles_at, nominal_time
 from tribodyn.solve.march.step_control import unbounded
 from tribodyn.solve.right_hand_side import rhs, work_array
@@ -19,9 +20,6 @@ from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import TransientSettings
 from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import PARAMETRIC
-
-#: Reference cycles beyond the end of an interval up to which a state is still in it: rounding.
-BEYOND = 1e-11
 
 
 class ScipyWalk:

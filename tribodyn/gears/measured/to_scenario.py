@@ -105,8 +105,7 @@ def _run_out(radial: Float[Array, " gap"], gear: MountedGear, datum: str) -> Run
     if size < NOTHING:
         return RunOut(gear.teeth)
     clockwise = angle + math.pi / gear.teeth
-    own = clockwise if gear.clockwise(datum) else -clockwise
-    return RunOut(gear.teeth, size, own % (2.0 * math.pi))
+    return RunOut(gear.teeth, size, (clockwise if gear.clockwise(datum) else -clockwise) % math.tau)
 
 
 def _check_teeth(measured: MeasuredGear, gear: MountedGear, file: str) -> None:
@@ -227,10 +226,8 @@ class _Converting:
                 f"{side} flanks: a profile covers {100 * short:.0f} % of the path of contact; beyond it, it "
                 "is as at its ends"
             )
-        inside = np.clip(places[0], 0.0, 1.0)
-        alike = all(len(p) == len(places[0]) and np.allclose(p, places[0], atol=1e-9) for p in places)
-        if alike and len(inside) <= MOST_KEPT:
-            return np.unique(np.round(np.concatenate(([0.0, 1.0], inside)), 12))
+        if _alike(places):
+            return np.unique(np.round([0.0, 1.0, *np.clip(places[0], 0.0, 1.0)], 12))
         return np.linspace(0.0, 1.0, EVEN_POINTS)
 
     def _faces(self, helices: Sequence[FlankTrace], traces: Sequence[FlankTrace]) -> Float[Array, " face"]:
@@ -250,8 +247,7 @@ class _Converting:
                     f"{1e3 * trace.place.min():.4g} mm, beside a face of {1e3 * width:.4g} mm"
                 )
                 raise InputError(self.gear.key, None, rule, "check the units", self.file)
-        alike = all(len(p) == len(places[0]) and np.allclose(p, places[0], atol=1e-9) for p in places)
-        if alike and len(places[0]) <= MOST_KEPT:
+        if _alike(places):
             return np.unique(np.round(np.clip(places[0], -width / 2.0, width / 2.0), 12))
         return np.linspace(-width / 2.0, width / 2.0, EVEN_POINTS)
 
@@ -307,8 +303,7 @@ class _Converting:
         return -self.gear.lean * (found - zero)
 
     def _at(self, trace: FlankTrace, height: float, flank: int) -> float:
-        place = self._height(trace.place, flank)
-        return float(_interpolated(np.array([height]), place, trace.deviation)[0])
+        return float(_interpolated(np.array([height]), self._height(trace.place, flank), trace.deviation)[0])
 
     def _along(self, trace: FlankTrace) -> float:
         """Where a profile was taken, from mid-face."""
@@ -318,6 +313,12 @@ class _Converting:
         """Height at which a helix was taken."""
         diameter = self.measured.diameter if helix.at is None else helix.at
         return self.gear.measuring_height(flank, diameter)
+
+
+def _alike(places: Sequence[Float[Array, " point"]]) -> bool:
+    """Whether all traces have the same points, few enough to be kept."""
+    same = all(len(each) == len(places[0]) and np.allclose(each, places[0], atol=1e-9) for each in places)
+    return same and len(places[0]) <= MOST_KEPT
 
 
 def _interpolated(

@@ -198,11 +198,7 @@ DECLARED(fmi2Status, fmi2SetFMUstate)(fmi2Component one, fmi2FMUstate state)
 DECLARED(fmi2Status, fmi2FreeFMUstate)(fmi2Component one, fmi2FMUstate *state)
 {
     (void)one;
-    if (state != NULL) {
-        free(*state);
-        *state = NULL;
-    }
-    return OK;
+    return (fmi2Status)free_state(state);
 }
 
 DECLARED(fmi2Status, fmi2SerializedFMUstateSize)(fmi2Component one, fmi2FMUstate state, size_t *size)

@@ -249,11 +249,7 @@ DECLARED(fmi3Status, fmi3SetFMUState)(fmi3Instance one, fmi3FMUState state)
 DECLARED(fmi3Status, fmi3FreeFMUState)(fmi3Instance one, fmi3FMUState *state)
 {
     (void)one;
-    if (state != NULL) {
-        free(*state);
-        *state = NULL;
-    }
-    return OK;
+    return (fmi3Status)free_state(state);
 }
 
 DECLARED(fmi3Status, fmi3SerializedFMUStateSize)(fmi3Instance one, fmi3FMUState state, size_t *size)

@@ -218,14 +218,28 @@ static size_t state_size(void)
     return held_count() * sizeof(double);
 }
 
-/* Copy all that changes to a state, which is made where there is none. */
-static enum status get_state(const struct instance *one, void **state)
+/* Copy numbers, all that changes, to a state, which is made where there is none. */
+static enum status keep_state(const struct instance *one, void **state, const void *numbers)
 {
     if (*state == NULL)
         *state = malloc(state_size());
     if (*state == NULL)
         return failed(one, "no memory for a state");
-    memcpy(*state, one->held, state_size());
+    memcpy(*state, numbers, state_size());
+    return OK;
+}
+
+static enum status get_state(const struct instance *one, void **state)
+{
+    return keep_state(one, state, one->held);
+}
+
+static enum status free_state(void **state)
+{
+    if (state != NULL) {
+        free(*state);
+        *state = NULL;
+    }
     return OK;
 }
 
@@ -276,12 +290,7 @@ static enum status deserialize(
         memcpy(&sum, bytes + CHECKSUM, sizeof sum);
     if (!ours || sum != checksum(bytes + NUMBERS))
         return failed(one, "these bytes are no state of this FMU");
-    if (*state == NULL)
-        *state = malloc(state_size());
-    if (*state == NULL)
-        return failed(one, "no memory for a state");
-    memcpy(*state, bytes + NUMBERS, state_size());
-    return OK;
+    return keep_state(one, state, bytes + NUMBERS);
 }
 
 /* Choose what is logged; an unknown category is an error. */
