@@ -13,7 +13,6 @@ from time import perf_counter, process_time
 
 import pytest
 
-pytest.importorskip("tomlkit")
 from tribodyn.app.core.document import Document
 from tribodyn.app.core.live import Live, LiveRequest
 from tribodyn.app.core.worker import Worker

@@ -41,10 +41,9 @@ def app(
     """Design on a page in the browser: drag a value, see teeth and curves follow."""
     from tribodyn.errors import InputError
 
-    for package in ("nicegui", "tomlkit"):
-        if find_spec(package) is None:
-            remedy = 'install it: pip install "tribodyn[app]"'
-            raise InputError("app", None, f"the package {package} is not installed", remedy)
+    if find_spec("nicegui") is None:
+        remedy = 'install it: pip install "tribodyn[app]"'
+        raise InputError("app", None, "the package nicegui is not installed", remedy)
     from tribodyn.app.server import serve
     from tribodyn.numerics.processes.child import open_address
 

@@ -98,7 +98,7 @@ def _step(
     if (field := fields_of(model).get(name)) is not None:
         inner_models = list(inner_tables(field.annotation))
     else:
-        extra = _extra(model)
+        extra = extra_table(model)
         return (extra, place + 1)
     in_list = [inner for inner in inner_models if inner.held is tuple]
     if in_list and (isinstance(following, int) or len(in_list) == len(inner_models)):
@@ -111,7 +111,7 @@ def _step(
     return None, place + 1
 
 
-def _extra(model: type[BaseModel]) -> type[BaseModel] | None:
+def extra_table(model: type[BaseModel]) -> type[BaseModel] | None:
     """The table of keys that a table does not name, where it has any."""
     annotation = model.__annotations__.get("__pydantic_extra__")
     return next((inner.table for inner in inner_tables(annotation)), None)

@@ -1,6 +1,7 @@
 """Measured gears into a scenario, and the gears of a scenario as they would be measured."""
 
 import math
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from functools import reduce
 from pathlib import Path
@@ -12,10 +13,12 @@ from tribodyn.gears.measured.evaluated import Evaluation, evaluation_of
 from tribodyn.gears.measured.from_scenario import measured_of
 from tribodyn.gears.measured.mounted_gear import END, START, MountedGear
 from tribodyn.gears.measured.to_scenario import FlankKeys, ToothErrors, keys_of
+from tribodyn.input.edit import Models, with_values
+from tribodyn.input.messages import Key
+from tribodyn.input.quantity import defaults_written_out
 from tribodyn.input.sources import MOST_TOML, find_scenario, read_text, read_toml
-from tribodyn.input.toml_text import put_key, with_keys
 from tribodyn.numerics.files.output_files import check_output, write_output
-from tribodyn.studies.protocol.load import Loaded, load, load_data
+from tribodyn.studies.protocol.load import Loaded, load, load_data, table_of
 
 _MARK = "# written by tribodyn from a measurement\n"
 _DATUMS = START, END
@@ -134,30 +137,29 @@ def import_measured(
     if target.suffix != ".toml":
         raise InputError("--output", str(target), "a scenario ends in .toml", f'write "{target.stem}.toml"')
     tables, inline, values = _written(keys, mounting, target)
-    _check(read_toml(source), inline, target)
-    text, kept = with_keys(read_text(source, MOST_TOML), values)
+    data, text = read_toml(source), read_text(source, MOST_TOML)
+    models = Models(defaults_written_out(data, table_of(data)), table_of(data), source)
+    load_data(tomllib.loads(with_values(text, inline, models)), str(target.with_suffix("")))
     for path in (target, *tables):
         check_output(path, force)
     for path, content in tables.items():
         write_output(path, content, force=force)
-    write_output(target, text, force=force)
+    write_output(target, with_values(text, values, models), force=force)
     remarks = [*measured.remarks, *keys.remarks]
     if not values:
         remarks.append("the scenario is as before: what was measured is no deviation of a tooth")
-    if not kept:
-        remarks.append("the scenario was written anew, without its comments")
     return MeasuredImport((target, *tables), evaluation, tuple(remarks))
 
 
 def _written(
     keys: FlankKeys, gear: MountedGear, target: Path
-) -> tuple[dict[Path, str], dict[tuple[str, ...], Any], dict[tuple[str, ...], str]]:
+) -> tuple[dict[Path, str], dict[Key, Any], dict[Key, Any]]:
     """Tables with their contents; what the keys mean; and the keys as texts of the scenario."""
     of_gear = tuple(gear.key.split("."))
     name = "".join(c if c.isalnum() or c in "-_" else "-" for c in gear.name)
     tables: dict[Path, str] = {}
-    inline: dict[tuple[str, ...], Any] = {}
-    values: dict[tuple[str, ...], str] = {}
+    inline: dict[Key, Any] = {}
+    values: dict[Key, Any] = {}
 
     def add(key: str, content: str, meaning: Any) -> None:
         path = target.with_name(f"{target.stem}-{name}-{key.replace('_', '-')}.csv")
@@ -185,10 +187,3 @@ def _csv(table: ToothErrors) -> str:
     head = ",".join(f"{name} [{column['unit']}]" for name, column in columns.items())
     rows = zip(*(column["values"] for column in columns.values()), strict=True)
     return "\n".join([head, *(",".join(f"{value:.12g}" for value in row) for row in rows)]) + "\n"
-
-
-def _check(data: dict[str, Any], inline: Mapping[tuple[str, ...], Any], target: Path) -> None:
-    """Load the scenario with the tables written out, before anything is written."""
-    for key, value in inline.items():
-        put_key(data, key, value)
-    load_data(data, str(target.with_suffix("")))

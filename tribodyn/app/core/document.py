@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 
 import tomlkit
 
-from tribodyn.app.core.edit import Models, leaves, put, table_added, taken_out
 from tribodyn.app.core.link import packed, unpacked
 from tribodyn.app.core.messages import Message, data_of, findings
 from tribodyn.errors import InputError, quoted
-from tribodyn.input.messages import value_at
+from tribodyn.input.edit import Models, leaves, table_added, taken_out, with_values
+from tribodyn.input.messages import Key, value_at
 from tribodyn.input.names import key_in
 from tribodyn.input.quantity import LIKE, defaults_written_out
 from tribodyn.input.resolve import Resolved, resolve_table, toml_value
@@ -164,9 +164,8 @@ class Document:
         table; what is wrong with the value is said by `messages`.
         """
         value = toml_value(value) if isinstance(value, str) else value
-        changed = tomlkit.parse(self._sound())
-        put(changed, key_in(self.resolved.data, key), value, self._models())
-        self._go_on(tomlkit.dumps(changed), key if drag else "")
+        place = key_in(self.resolved.data, key)
+        self._go_on(with_values(self._sound(), {place: value}, self._models()), key if drag else "")
 
     def set_text(self, text: str) -> None:
         """Replace the whole text, as from an editor."""
@@ -265,7 +264,7 @@ class Document:
         """The text with the files that it names by paths, named from another file."""
         if self._read.broken:
             return self.text
-        changed = tomlkit.parse(self.text)
+        names: dict[Key, str] = {}
         written = self.written()
         for pattern in references(table_of(written)):
             for key in expanded(pattern, written):
@@ -275,8 +274,8 @@ class Document:
                     if file is None or not file.is_file() or Path(name).is_absolute():
                         continue
                     named = os.path.relpath(file.resolve(), target.parent.resolve())
-                    put(changed, place, Path(named).as_posix(), self._models())
-        return tomlkit.dumps(changed)
+                    names[place] = Path(named).as_posix()
+        return with_values(self.text, names, self._models())
 
     def _models(self) -> Models:
         table = table_of(self.written())

@@ -32,7 +32,7 @@ from tribodyn.input.messages import Origins
 from tribodyn.input.names import named_in, speaks_of_pair, worded
 from tribodyn.input.quantity import LIKE, Column, Columns, FamilyShape, Reference, meaning
 from tribodyn.input.resolve import toml_value
-from tribodyn.input.schema import EACH, Inner, inner_tables, parts_of, tagged
+from tribodyn.input.schema import EACH, Inner, extra_table, inner_tables, parts_of, tagged
 from tribodyn.studies import DEFAULT, STUDIES
 from tribodyn.studies.protocol.load import filled, table_of
 from tribodyn.tribology.law import AUTO
@@ -170,7 +170,7 @@ class _Form:
                 inside += self._inside(place, field, key, tables)
             elif key != LIKE:
                 fields.append(self._field(_type(place.table, name, path), path, whole.get(key), written))
-        held = _of_any_name(place.table)
+        held = extra_table(place.table)
         for key, value in whole.items():
             path = (*place.path, key)
             if key in known or key == LIKE:
@@ -275,12 +275,6 @@ def _tables_of(field: FieldInfo) -> list[Inner]:
     """Tables that a field may hold; none where it is a curve, whose columns a file has."""
     inner = list(inner_tables(field.annotation))
     return [] if any(issubclass(one.table, (Columns, Column)) for one in inner) else inner
-
-
-def _of_any_name(table: type[BaseModel]) -> type[BaseModel] | None:
-    """The table of keys that a table does not name, where it has any."""
-    annotation = table.__annotations__.get("__pydantic_extra__")
-    return next((inner.table for inner in inner_tables(annotation)), None)
 
 
 def _of_list(field: FieldInfo, tables: list[Inner], value: Any) -> type[BaseModel]:

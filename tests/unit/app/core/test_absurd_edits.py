@@ -4,12 +4,10 @@ import random
 
 import pytest
 
-from tribodyn.errors import InputError
-
-pytest.importorskip("tomlkit")
 from tribodyn.app.core.document import Document
 from tribodyn.app.core.form import form_of, written_as
 from tribodyn.app.core.live import Live, LiveRequest
+from tribodyn.errors import InputError
 
 TYPED = (
     *("", "0", "-1", "nan", "inf", "1e400", "1e-400", "many", "true", "[]", "[1, 2]", "{a = 1}", '"', "'"),

@@ -5,12 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from tribodyn.app.core.document import BY_DEFAULT, Document
 from tribodyn.errors import InputError
 from tribodyn.input.sources import names, shipped
 from tribodyn.studies.protocol.load import load
-
-pytest.importorskip("tomlkit")
-from tribodyn.app.core.document import BY_DEFAULT, Document
 
 SCENARIOS = [name for name in names(shipped("scenarios")) if name not in ("wear-18-36",)]
 

@@ -4,12 +4,10 @@ import tomllib
 
 import pytest
 
-from tribodyn.input.quantity import meanings
-from tribodyn.input.sources import shipped
-
-pytest.importorskip("tomlkit")
 from tribodyn.app.core.document import BY_DEFAULT, Document
 from tribodyn.app.core.form import FormField, form_of, in_unit, written_as
+from tribodyn.input.quantity import meanings
+from tribodyn.input.sources import shipped
 
 #: One of every kind that is shipped.
 KINDS = (

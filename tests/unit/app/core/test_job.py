@@ -2,9 +2,6 @@
 
 from time import monotonic, sleep
 
-import pytest
-
-pytest.importorskip("tomlkit")
 from tests.support.verbs import invoke
 from tribodyn.app.core.job import Job
 

@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 
 from tests.support.verbs import complaints
+from tribodyn.app.core.document import Document
+from tribodyn.app.core.live import STAGES, Live, LiveRequest
 from tribodyn.input.sources import shipped
 from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load
-
-pytest.importorskip("tomlkit")
-from tribodyn.app.core.document import Document
-from tribodyn.app.core.live import STAGES, Live, LiveRequest
 
 #: Quantities of a run that tell of the machine.
 OF_THE_MACHINE = {"wall_time"}

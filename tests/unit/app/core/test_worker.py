@@ -8,7 +8,6 @@ from time import monotonic, sleep
 
 import pytest
 
-pytest.importorskip("tomlkit")
 from tribodyn.app.core.document import Document
 from tribodyn.app.core.live import LiveRequest
 from tribodyn.app.core.worker import Worker

@@ -59,6 +59,14 @@ class Models(NamedTuple):
         return next((mark for pattern, mark in marks if mark.folder and matches(pattern, key)), None)
 
 
+def with_values(text: str, values: Mapping[Key, Any], models: Models) -> str:
+    """The text of a scenario with values put in, all else as it is; see `put`."""
+    document = tomlkit.parse(text)
+    for key, value in values.items():
+        put(document, key, value, models)
+    return tomlkit.dumps(document)
+
+
 def put(document: MutableMapping[str, Any], key: Key, value: Any, models: Models) -> None:
     """Put a value in; tables on the way are made, models on the way become tables that are like them.
 
