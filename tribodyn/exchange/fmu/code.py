@@ -66,7 +66,7 @@ def sources_of(
     files = {
         "model.h": translation.header,
         "model.c": translation.source,
-        **{name: _own(name) for name in ("simulation.h", "instance.c")},
+        **{name: _own(name) for name in ("simulation.h", "instance.c", "functions.c")},
     }
     main = f"fmi{version[0]}.c"
     files[main] = _own(main)

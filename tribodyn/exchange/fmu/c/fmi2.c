@@ -3,23 +3,14 @@
  * Names, types and values are those of "Functional Mock-up Interface for Model Exchange and Co-Simulation",
  * version 2.0.
  */
-#include "instance.c"
-
+#define STANDARD fmi2
+#define BOOLEAN int
+#define STATE(verb) JOIN(verb, FMUstate)
+#define DESERIALIZE DeSerialize
 #if defined(FMI2_FUNCTION_PREFIX)
-#define JOINED(prefix, name) prefix##name
-#define NAMED(prefix, name) JOINED(prefix, name)
-#define FUNCTION(name) NAMED(FMI2_FUNCTION_PREFIX, name)
-#else
-#define FUNCTION(name) name
+#define PREFIX FMI2_FUNCTION_PREFIX
 #endif
-
-#if defined(_WIN32)
-#define EXPORTED __declspec(dllexport)
-#elif defined(__GNUC__)
-#define EXPORTED __attribute__((visibility("default")))
-#else
-#define EXPORTED
-#endif
+#include "functions.c"
 
 typedef void *fmi2Component;
 typedef void *fmi2ComponentEnvironment;
@@ -56,8 +47,6 @@ static void report(const struct instance *one, enum status status, const char *c
         ((fmi2Logger)one->logger)(one->environment, one->name, (fmi2Status)status, category, "%s", message);
 }
 
-#define DECLARED(type, name) EXPORTED type FUNCTION(name)
-
 DECLARED(const char *, fmi2GetTypesPlatform)(void)
 {
     return "default";
@@ -68,20 +57,12 @@ DECLARED(const char *, fmi2GetVersion)(void)
     return "2.0";
 }
 
-DECLARED(fmi2Status, fmi2SetDebugLogging)(
-    fmi2Component one, fmi2Boolean on, size_t count, const fmi2String names[])
-{
-    return (fmi2Status)set_logging(one, on, count, names);
-}
-
 DECLARED(fmi2Component, fmi2Instantiate)(
     fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
     const fmi2CallbackFunctions *callbacks, fmi2Boolean visible, fmi2Boolean logging)
 {
     const char *wrong = NULL;
     struct instance *one = instantiated(name);
-    (void)resources;
-    (void)visible;
     if (one == NULL)
         return NULL;
     one->report = report;
@@ -102,16 +83,9 @@ DECLARED(fmi2Component, fmi2Instantiate)(
     return one;
 }
 
-DECLARED(void, fmi2FreeInstance)(fmi2Component one)
-{
-    release(one);
-}
-
 DECLARED(fmi2Status, fmi2SetupExperiment)(
     fmi2Component one, fmi2Boolean given, fmi2Real tolerance, fmi2Real start, fmi2Boolean ends, fmi2Real stop)
 {
-    (void)ends;
-    (void)stop;
     if (refused(one, "fmi2SetupExperiment", INSTANTIATED, INSTANTIATED))
         return ERROR;
     return (fmi2Status)set_experiment(one, start, given, tolerance);
@@ -125,47 +99,16 @@ DECLARED(fmi2Status, fmi2EnterInitializationMode)(fmi2Component one)
     return OK;
 }
 
-DECLARED(fmi2Status, fmi2ExitInitializationMode)(fmi2Component one)
-{
-    if (refused(one, "fmi2ExitInitializationMode", INITIALIZING, INITIALIZING))
-        return ERROR;
-    start_if_due(one);
-    enter(one, STEPPING);
-    return OK;
-}
-
-DECLARED(fmi2Status, fmi2Terminate)(fmi2Component one)
-{
-    if (refused(one, "fmi2Terminate", STEPPING, STEPPING))
-        return ERROR;
-    enter(one, TERMINATED);
-    return OK;
-}
-
-DECLARED(fmi2Status, fmi2Reset)(fmi2Component one)
-{
-    reset(one);
-    return OK;
-}
-
 DECLARED(fmi2Status, fmi2GetReal)(
     fmi2Component one, const fmi2ValueReference references[], size_t count, fmi2Real values[])
 {
-    size_t i;
-    for (i = 0; i < count; i++)
-        if (get_value(one, references[i], &values[i]) != OK)
-            return ERROR;
-    return OK;
+    return (fmi2Status)get_values(one, references, count, values);
 }
 
 DECLARED(fmi2Status, fmi2SetReal)(
     fmi2Component one, const fmi2ValueReference references[], size_t count, const fmi2Real values[])
 {
-    size_t i;
-    for (i = 0; i < count; i++)
-        if (set_value(one, references[i], values[i]) != OK)
-            return ERROR;
-    return OK;
+    return (fmi2Status)set_values(one, references, count, values);
 }
 
 /* Variables of other types: there are none. */
@@ -173,9 +116,7 @@ DECLARED(fmi2Status, fmi2SetReal)(
     DECLARED(fmi2Status, name)(                                                                        \
         fmi2Component one, const fmi2ValueReference references[], size_t count, type values[])         \
     {                                                                                                  \
-        (void)references;                                                                              \
-        (void)values;                                                                                  \
-        return count == 0 ? OK : (fmi2Status)failed(one, #name ": all variables are real numbers");    \
+        return count == 0 ? OK : failed(one, #name ": all variables are real numbers");                \
     }
 
 WITHOUT(fmi2GetInteger, fmi2Integer)
@@ -185,45 +126,8 @@ WITHOUT(fmi2SetInteger, const fmi2Integer)
 WITHOUT(fmi2SetBoolean, const fmi2Boolean)
 WITHOUT(fmi2SetString, const fmi2String)
 
-DECLARED(fmi2Status, fmi2GetFMUstate)(fmi2Component one, fmi2FMUstate *state)
-{
-    return (fmi2Status)get_state(one, state);
-}
-
-DECLARED(fmi2Status, fmi2SetFMUstate)(fmi2Component one, fmi2FMUstate state)
-{
-    return (fmi2Status)set_state(one, state);
-}
-
-DECLARED(fmi2Status, fmi2FreeFMUstate)(fmi2Component one, fmi2FMUstate *state)
-{
-    (void)one;
-    return (fmi2Status)free_state(state);
-}
-
-DECLARED(fmi2Status, fmi2SerializedFMUstateSize)(fmi2Component one, fmi2FMUstate state, size_t *size)
-{
-    (void)one;
-    (void)state;
-    *size = serialized_size();
-    return OK;
-}
-
-DECLARED(fmi2Status, fmi2SerializeFMUstate)(
-    fmi2Component one, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
-{
-    return (fmi2Status)serialize(one, state, (unsigned char *)bytes, size);
-}
-
-DECLARED(fmi2Status, fmi2DeSerializeFMUstate)(
-    fmi2Component one, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
-{
-    return (fmi2Status)deserialize(one, (const unsigned char *)bytes, size, state);
-}
-
 DECLARED(fmi2Status, fmi2DoStep)(fmi2Component one, fmi2Real from, fmi2Real size, fmi2Boolean final)
 {
-    (void)final;
     if (refused(one, "fmi2DoStep", STEPPING, STEPPING))
         return ERROR;
     return (fmi2Status)step(one, from, size);
@@ -244,17 +148,8 @@ DECLARED(fmi2Status, fmi2GetBooleanStatus)(fmi2Component one, const fmi2StatusKi
     return OK;
 }
 
-/* What this FMU does not have: its flags in modelDescription.xml say so. */
-#define UNSUPPORTED(name, parameters)                                       \
-    DECLARED(fmi2Status, name) parameters                                   \
-    {                                                                       \
-        return (fmi2Status)failed(one, #name ": this FMU does not have it"); \
-    }
+/* What this FMU does not have. */
 #define STANDARD_2 fmi2Component one
-
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#endif
 
 UNSUPPORTED(fmi2GetStatus, (STANDARD_2, const fmi2StatusKind kind, fmi2Status *value))
 UNSUPPORTED(fmi2GetIntegerStatus, (STANDARD_2, const fmi2StatusKind kind, fmi2Integer *value))

@@ -2,30 +2,18 @@
  *
  * Names, types and values are those of "Functional Mock-up Interface Specification", version 3.0.
  */
-#include "instance.c"
-
 #include <stdbool.h>
 
+#define STANDARD fmi3
+#define BOOLEAN bool
+#define STATE(verb) JOIN(verb, FMUState)
+#define DESERIALIZE Deserialize
 #if defined(FMI3_OVERRIDE_FUNCTION_PREFIX) && defined(FMI3_ACTUAL_FUNCTION_PREFIX)
 #define PREFIX FMI3_ACTUAL_FUNCTION_PREFIX
 #elif !defined(FMI3_OVERRIDE_FUNCTION_PREFIX) && defined(FMI3_FUNCTION_PREFIX)
 #define PREFIX FMI3_FUNCTION_PREFIX
 #endif
-#if defined(PREFIX)
-#define JOINED(prefix, name) prefix##name
-#define NAMED(prefix, name) JOINED(prefix, name)
-#define FUNCTION(name) NAMED(PREFIX, name)
-#else
-#define FUNCTION(name) name
-#endif
-
-#if defined(_WIN32)
-#define EXPORTED __declspec(dllexport)
-#elif defined(__GNUC__)
-#define EXPORTED __attribute__((visibility("default")))
-#else
-#define EXPORTED
-#endif
+#include "functions.c"
 
 typedef void *fmi3Instance;
 typedef void *fmi3InstanceEnvironment;
@@ -64,17 +52,9 @@ static void report(const struct instance *one, enum status status, const char *c
         ((fmi3LogMessageCallback)one->logger)(one->environment, (fmi3Status)status, category, message);
 }
 
-#define DECLARED(type, name) EXPORTED type FUNCTION(name)
-
 DECLARED(const char *, fmi3GetVersion)(void)
 {
     return "3.0";
-}
-
-DECLARED(fmi3Status, fmi3SetDebugLogging)(
-    fmi3Instance one, fmi3Boolean on, size_t count, const fmi3String names[])
-{
-    return (fmi3Status)set_logging(one, on, count, names);
 }
 
 /* A new instance; NULL, and the reason is logged, where something is `wrong`. */
@@ -104,11 +84,6 @@ DECLARED(fmi3Instance, fmi3InstantiateCoSimulation)(
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger, fmi3IntermediateUpdateCallback update)
 {
     const char *wrong = NULL;
-    (void)resources;
-    (void)visible;
-    (void)early;
-    (void)required;
-    (void)update;
     if (events)
         wrong = "fmi3InstantiateCoSimulation: this FMU has no event mode";
     else if (count > 0)
@@ -120,8 +95,6 @@ DECLARED(fmi3Instance, fmi3InstantiateModelExchange)(
     fmi3String name, fmi3String given, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger)
 {
-    (void)resources;
-    (void)visible;
     return made(
         name, given, "fmi3InstantiateModelExchange: this FMU is for co-simulation alone", logging,
         environment, logger);
@@ -132,27 +105,15 @@ DECLARED(fmi3Instance, fmi3InstantiateScheduledExecution)(
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger, fmi3ClockUpdateCallback update,
     fmi3LockPreemptionCallback lock, fmi3LockPreemptionCallback unlock)
 {
-    (void)resources;
-    (void)visible;
-    (void)update;
-    (void)lock;
-    (void)unlock;
     return made(
         name, given, "fmi3InstantiateScheduledExecution: this FMU is for co-simulation alone", logging,
         environment, logger);
-}
-
-DECLARED(void, fmi3FreeInstance)(fmi3Instance one)
-{
-    release(one);
 }
 
 DECLARED(fmi3Status, fmi3EnterInitializationMode)(
     fmi3Instance one, fmi3Boolean given, fmi3Float64 tolerance, fmi3Float64 start, fmi3Boolean ends,
     fmi3Float64 stop)
 {
-    (void)ends;
-    (void)stop;
     if (refused(one, "fmi3EnterInitializationMode", INSTANTIATED, INSTANTIATED)
         || set_experiment(one, start, given, tolerance) != OK)
         return ERROR;
@@ -160,53 +121,22 @@ DECLARED(fmi3Status, fmi3EnterInitializationMode)(
     return OK;
 }
 
-DECLARED(fmi3Status, fmi3ExitInitializationMode)(fmi3Instance one)
-{
-    if (refused(one, "fmi3ExitInitializationMode", INITIALIZING, INITIALIZING))
-        return ERROR;
-    start_if_due(one);
-    enter(one, STEPPING);
-    return OK;
-}
-
-DECLARED(fmi3Status, fmi3Terminate)(fmi3Instance one)
-{
-    if (refused(one, "fmi3Terminate", STEPPING, STEPPING))
-        return ERROR;
-    enter(one, TERMINATED);
-    return OK;
-}
-
-DECLARED(fmi3Status, fmi3Reset)(fmi3Instance one)
-{
-    reset(one);
-    return OK;
-}
-
 DECLARED(fmi3Status, fmi3GetFloat64)(
     fmi3Instance one, const fmi3ValueReference references[], size_t count, fmi3Float64 values[],
     size_t value_count)
 {
-    size_t i;
     if (value_count != count)
         return (fmi3Status)failed(one, "fmi3GetFloat64: all variables are scalars");
-    for (i = 0; i < count; i++)
-        if (get_value(one, references[i], &values[i]) != OK)
-            return ERROR;
-    return OK;
+    return (fmi3Status)get_values(one, references, count, values);
 }
 
 DECLARED(fmi3Status, fmi3SetFloat64)(
     fmi3Instance one, const fmi3ValueReference references[], size_t count, const fmi3Float64 values[],
     size_t value_count)
 {
-    size_t i;
     if (value_count != count)
         return (fmi3Status)failed(one, "fmi3SetFloat64: all variables are scalars");
-    for (i = 0; i < count; i++)
-        if (set_value(one, references[i], values[i]) != OK)
-            return ERROR;
-    return OK;
+    return (fmi3Status)set_values(one, references, count, values);
 }
 
 /* Variables of other types: there are none. */
@@ -215,10 +145,7 @@ DECLARED(fmi3Status, fmi3SetFloat64)(
         fmi3Instance one, const fmi3ValueReference references[], size_t count, type values[],            \
         size_t value_count)                                                                              \
     {                                                                                                    \
-        (void)references;                                                                                \
-        (void)values;                                                                                    \
-        (void)value_count;                                                                               \
-        return count == 0 ? OK : (fmi3Status)failed(one, #name ": all variables are of type Float64");   \
+        return count == 0 ? OK : failed(one, #name ": all variables are of type Float64");               \
     }
 #define WITHOUT_BOTH(type)                      \
     WITHOUT(fmi3Get##type, fmi3##type)          \
@@ -236,48 +163,11 @@ WITHOUT_BOTH(UInt64)
 WITHOUT_BOTH(Boolean)
 WITHOUT_BOTH(String)
 
-DECLARED(fmi3Status, fmi3GetFMUState)(fmi3Instance one, fmi3FMUState *state)
-{
-    return (fmi3Status)get_state(one, state);
-}
-
-DECLARED(fmi3Status, fmi3SetFMUState)(fmi3Instance one, fmi3FMUState state)
-{
-    return (fmi3Status)set_state(one, state);
-}
-
-DECLARED(fmi3Status, fmi3FreeFMUState)(fmi3Instance one, fmi3FMUState *state)
-{
-    (void)one;
-    return (fmi3Status)free_state(state);
-}
-
-DECLARED(fmi3Status, fmi3SerializedFMUStateSize)(fmi3Instance one, fmi3FMUState state, size_t *size)
-{
-    (void)one;
-    (void)state;
-    *size = serialized_size();
-    return OK;
-}
-
-DECLARED(fmi3Status, fmi3SerializeFMUState)(
-    fmi3Instance one, fmi3FMUState state, fmi3Byte bytes[], size_t size)
-{
-    return (fmi3Status)serialize(one, state, bytes, size);
-}
-
-DECLARED(fmi3Status, fmi3DeserializeFMUState)(
-    fmi3Instance one, const fmi3Byte bytes[], size_t size, fmi3FMUState *state)
-{
-    return (fmi3Status)deserialize(one, bytes, size, state);
-}
-
 DECLARED(fmi3Status, fmi3DoStep)(
     fmi3Instance one, fmi3Float64 from, fmi3Float64 size, fmi3Boolean no_return, fmi3Boolean *events,
     fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *reached)
 {
     enum status status;
-    (void)no_return;
     if (events != NULL)
         *events = false;
     if (terminate != NULL)
@@ -290,18 +180,9 @@ DECLARED(fmi3Status, fmi3DoStep)(
     return (fmi3Status)status;
 }
 
-/* What this FMU does not have: its flags in modelDescription.xml say so. */
-#define UNSUPPORTED(name, parameters)                                       \
-    DECLARED(fmi3Status, name) parameters                                   \
-    {                                                                       \
-        return (fmi3Status)failed(one, #name ": this FMU does not have it"); \
-    }
+/* What this FMU does not have. */
 #define STANDARD_3 fmi3Instance one
 #define OF_VARIABLES fmi3Instance one, const fmi3ValueReference references[], size_t count
-
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#endif
 
 UNSUPPORTED(fmi3GetBinary, (OF_VARIABLES, size_t sizes[], fmi3Binary values[], size_t value_count))
 UNSUPPORTED(
