@@ -84,6 +84,9 @@ def export(
     if output.suffix and output.suffix not in form.endings:
         rule = f"{to} writes {' or '.join(form.endings)}"
         raise InputError("--output", str(output), rule, f'write "{output.with_suffix(form.endings[0])}"')
+    if output.is_dir():
+        inside = output / f"{Path(source).stem}{form.endings[0]}"
+        raise InputError("--output", str(output), "is a folder", f'write "{inside}"')
     if not output.absolute().parent.is_dir():
         raise InputError("--output", str(output), "its folder is not there", "make it, or choose another")
     check_output(output if output.suffix else output.with_suffix(form.endings[0]), force)

@@ -139,7 +139,10 @@ def import_measured(
     tables, inline, values = _written(keys, mounting, target)
     data, text = read_toml(source), read_text(source, MOST_TOML)
     models = Models(defaults_written_out(data, table_of(data)), table_of(data), source)
-    load_data(tomllib.loads(with_values(text, inline, models)), str(target.with_suffix("")))
+    try:
+        load_data(tomllib.loads(with_values(text, inline, models)), str(target.with_suffix("")))
+    except InputError as error:  # the scenario by itself was right
+        raise error.moved(lambda _: file) from None
     for path in (target, *tables):
         check_output(path, force)
     for path, content in tables.items():

@@ -38,6 +38,12 @@ def test_power_flows_back_with_two_less_the_inverse(tmp_path: Path):
     assert np.allclose(backward, 2 - 1 / forward, rtol=1e-12)
 
 
+def test_a_folder_is_no_name_of_a_file(losses: Path):
+    said = complaint("export", losses, "--to", "csv", "-o", losses.parent)
+    assert "is a folder" in said
+    assert str(losses.parent / "map.csv") in said
+
+
 def test_values_in_a_table_are_those_of_the_map(losses: Path):
     done = td.export(losses, "csv", losses.with_name("out"), force=True)
     table, statics = done.files

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tests.support.verbs import complaint, invoke
+from tests.support.verbs import complaint, complaints, invoke
 from tribodyn.exchange.measured_gear import HELIX, LEFT, PROFILE, RIGHT, ROLL_ANGLE
 from tribodyn.gears.measured.machine_tables import read
 
@@ -116,6 +116,15 @@ def test_what_is_refused(text: str, said: str, tmp_path: Path):
         read(path)
     assert said in str(caught.value)
     assert str(path) in str(caught.value)
+
+
+def test_a_wrong_unit_is_said_of_the_measurement_and_leaves_no_files(tmp_path: Path):
+    path = written(tmp_path, TRACES.replace("[um]", "[mm]"))
+    into = "--into", "involute-23-47", "--gear", "pinion", "-o", "m.toml"
+    for said in complaints("import", path, *into, folder=tmp_path):
+        assert f"{path}: " in said
+        assert "more than a quarter of the module" in said
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_several_files_of_one_gear_go_into_a_scenario_together(tmp_path: Path):

@@ -184,6 +184,11 @@ RADIAL = {"radial_stiffness": "3e8 N / m"}
             "",
         ),
         (RADIAL | {"bending_stiffness": "5e7 N mm / rad"}, {"stiffness_tilt": "50000 N*m/rad"}, ""),
+        (
+            RADIAL | {"bending_stiffness": "1e18 N mm / rad"},
+            {"stiffness_tilt": "1e+09 N*m/rad"},
+            "is rigid; here stiffness_tilt",
+        ),
     ],
 )
 def test_concept_bearings_are_springs(

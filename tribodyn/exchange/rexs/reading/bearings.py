@@ -188,20 +188,24 @@ def _put_springs(draft: Draft, bearing: Component, kind: str | None) -> None:
             draft.change(bearing, "takes axial force one way alone; here its spring holds both ways")
     tilt = sheet.si(bearing, rexs.TILT_STIFFNESS)
     if tilt:
-        limited = min(tilt, STIFF_TILT) if tilt >= RIGID_TILT else tilt
-        draft.put(
-            "stiffness_tilt", f'"{limited:.9g} N*m/rad"', "rigid in the file" if limited != tilt else ""
-        )
+        _put_limited(draft, bearing, "stiffness_tilt", tilt)
 
 
 def _put_spring(draft: Draft, bearing: Component, key: str, value: float | None) -> None:
     if not value:
         draft.assume(key, f'"{TYPICAL:g} N/m"')
-    elif value >= RIGID:
-        draft.put(key, f'"{STIFF:g} N/m"', "rigid in the file")
-        draft.change(bearing, f"is rigid; here {key} = {STIFF:g} N/m")
     else:
-        draft.put(key, f'"{value:.9g} N/m"')
+        _put_limited(draft, bearing, key, value)
+
+
+def _put_limited(draft: Draft, part: Component, key: str, value: float) -> None:
+    """Write a stiffness, SI; what is rigid is as stiff as is of use, and listed as changed."""
+    tilts = key == "stiffness_tilt"
+    rigid, most, unit = (RIGID_TILT, STIFF_TILT, "N*m/rad") if tilts else (RIGID, STIFF, "N/m")
+    if value >= rigid:
+        draft.change(part, f"is rigid; here {key} = {most:g} {unit}")
+    shown, comment = (most, "rigid in the file") if value >= rigid else (value, "")
+    draft.put(key, f'"{shown:.9g} {unit}"', comment)
 
 
 def put_springs_of(draft: Draft, name: str, supports: list[Support]) -> None:
@@ -217,28 +221,19 @@ def put_springs_of(draft: Draft, name: str, supports: list[Support]) -> None:
     ]
     tilt = [sheet.si(part, rexs.TILT_STIFFNESS) or 0.0 for part in parts]
     if across and all(stiffness):
-        total = sum(value or 0.0 for value in stiffness)
-        if total >= RIGID:
-            draft.change(across[0], f"is rigid, as others of {name}; here {STIFF:g} N/m")
-        put_stiffness(draft, total, sum(along), sum(tilt))
+        put_stiffness(draft, parts[0], sum(value or 0.0 for value in stiffness), sum(along), sum(tilt))
     else:
         for key in ("stiffness_x", "stiffness_y"):
             draft.assume(key, f'"{TYPICAL:g} N/m"', "floats: does not count" if not across else UNKNOWN)
-        put_stiffness(draft, 0.0, sum(along), sum(tilt))
+        put_stiffness(draft, parts[0], 0.0, sum(along), sum(tilt))
     draft.assume("damping_ratio", "0.05")
 
 
-def put_stiffness(draft: Draft, across: float, along: float, tilt: float) -> None:
-    """Write the stiffness of springs, SI; 0: nothing."""
-    for key, value, rigid, most, unit in (
-        ("stiffness_x", across, RIGID, STIFF, "N/m"),
-        ("stiffness_y", across, RIGID, STIFF, "N/m"),
-        ("stiffness_axial", along, RIGID, STIFF, "N/m"),
-        ("stiffness_tilt", tilt, RIGID_TILT, STIFF_TILT, "N*m/rad"),
-    ):
-        shown = most if value >= rigid else value
+def put_stiffness(draft: Draft, part: Component, across: float, along: float, tilt: float) -> None:
+    """Write the stiffness of springs, SI, that stand for a part and those beside it; 0: nothing."""
+    for direction, value in {"x": across, "y": across, "axial": along, "tilt": tilt}.items():
         if value:
-            draft.put(key, f'"{shown:.9g} {unit}"', "rigid in the file" if value >= rigid else "")
+            _put_limited(draft, part, f"stiffness_{direction}", value)
 
 
 def hold_across(sheet: Sheet, supports: list[Support]) -> bool:

@@ -313,5 +313,5 @@ def _put_coupled(draft: Draft, name: str, coupling: Component) -> None:
     if not across:
         for key in ("stiffness_x", "stiffness_y"):
             draft.assume(key, f'"{TYPICAL:g} N/m"')
-    put_stiffness(draft, across, along, tilt)
+    put_stiffness(draft, coupling, across, along, tilt)
     draft.assume("damping_ratio", "0.05")
