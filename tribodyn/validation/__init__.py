@@ -75,7 +75,9 @@ PAPERS = {
         "tribodyn.validation.books.helical_report_2017",
         "Design report of a helical stage (KISSsoft 2017): ISO 6336 and its parts, row by row",
         "as the report does: load factors from its tolerances, roots with tips in the middle of theirs, "
-        "X_J 1",
+        "C_ZL = σ_Hlim/4375 + 0.6357 at 1200 N/mm2 too, 0.3333 for 1/3 in Rz10, X_J 1; readings that give "
+        "its numbers: F_t/cos β in μ_mC, F_t cos β_b in the mean friction, j_n = j_t cos α_n cos β, "
+        "stiffness at the input of c_γβ times d/d_w",
         source=Listing(
             "KISSsoft, release 03/2017 A",
             "ISO 6336:2006, ISO/TR 15144-1:2014, ISO/TR 13989:2000, ISO/DTR 19042-1 (2016), DIN 3960:1987, "
@@ -90,7 +92,9 @@ PAPERS = {
     "stplus-fzg-c": Paper(
         "tribodyn.validation.books.stplus_fzg_c",
         "FZG gears of type C in the listing of STplus 11.1F: geometry, ISO 6336 of 2019, scuffing",
-        "as the listing does: K_v K_Hbeta by its pressures, endurance, flanks that are not run in",
+        "as the listing does: K_v K_Hbeta by its pressures, endurance, flanks that are not run in; readings "
+        "that give its numbers: density falls by 0.65 kg/(m3 K), the integral temperature with the working "
+        "circle's speed and the printed viscosity, flash temperatures without K_v",
         source=Listing(
             "FVA STplus 11.1F (2025-12-01)",
             "ISO 6336-1, -2, -3:2019, ISO/TS 6336-4:2019, ISO/TS 6336-20 and -21:2017, DIN 3960:1987",
@@ -102,7 +106,8 @@ PAPERS = {
     "fzg-gears-gearpie": Paper(
         "tribodyn.validation.books.fzg_gears_gearpie",
         "FZG gears in the reports of GEARpie: loss factors, mean friction and losses of five pairs",
-        "as the program does: radius of curvature of the transverse section, least lines of contact",
+        "as the program does: radius of curvature of the transverse section, least lines of contact, loss "
+        "factors by sums over a thousand places",
         source=Listing(
             "GEARpie (2025-01-10)",
             "Ohlendorf, Wimmer, Schlenk, Fernandes, Martins & Seabra (2014)",

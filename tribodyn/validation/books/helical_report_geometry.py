@@ -212,7 +212,7 @@ def _tight(tips: np.ndarray, roots: np.ndarray) -> dict[str, Any]:
             f"aControl_{end}": centres,
             f"jta_{end}": centres - CENTRES,
             f"jtw_{wide}": open_by,
-            f"jnw_{wide}": open_by * math.cos(angle) * math.cos(BASE_HELIX),
+            f"jnw_{wide}": open_by * math.cos(ALPHA) * math.cos(HELIX),  # as the report does
             f"jrw_{wide}": far - centres,
             f"j_tSys_{wide}": math.degrees(2.0 * open_by / (BASES[0] / math.cos(angle))),
             f"jtw_Aa_{wide}": 2.0 * math.tan(working_angle()) * (far - CENTRES),

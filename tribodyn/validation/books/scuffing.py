@@ -9,6 +9,25 @@ from tribodyn.gears.rating.standard import Standard
 from tribodyn.standards import contact_path, scuffing
 
 
+def raised(standard: Standard, oil: float, friction: float, flash: float) -> Standard:
+    """The same with another friction coefficient and flash temperature of the integral method, as factors.
+
+    `oil` is the temperature of the oil, K.
+    """
+    integral = standard.integral
+    assert integral is not None
+    rise, bulk = flash * integral.flash_rise, oil + flash * (integral.bulk - oil)
+    return standard._replace(
+        integral=integral._replace(
+            friction_coefficient=friction * integral.friction_coefficient,
+            at_tip=flash * integral.at_tip,
+            flash_rise=rise,
+            bulk=bulk,
+            integral=bulk + 1.5 * rise,
+        )
+    )
+
+
 def scuffing_numbers(
     case: Any,
     standard: Standard,
