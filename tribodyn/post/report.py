@@ -98,8 +98,7 @@ def on_methods(summary: Mapping[str, Any]) -> list[str]:
         sentences.append(f"Solved by {summary['solver']} ({summary['solver_reason']}).")
     if summary.get("compliance_remark"):
         sentences.append(str(summary["compliance_remark"]))
-    if summary.get("slice_remark"):
-        sentences.append(str(summary["slice_remark"]))
+    sentences += [str(summary[name]) for name in ("slice_remark", "settling_remark") if summary.get(name)]
     cycles = summary.get("averaging_cycles")
     if cycles is not None:
         sentences.append(f"Means are over the last {cycles} mesh cycle{'s' if cycles != 1 else ''}.")

@@ -47,8 +47,8 @@ _MEANS = {
     "U ≥": "speed or viscosity is low",
     "U ≤": "speed or viscosity is high",
     "Newtonian stress": "the oil is sheared less than it takes to reach its limit",
-    "V ≤": "the steel is harder than it was fitted for",
-    "V ≥": "the steel is softer than it was fitted for",
+    "V ≤": "the flanks are harder for their modulus than it was fitted for",
+    "V ≥": "the flanks are softer for their modulus than it was fitted for",
     "G ≤": "the oil thickens much under pressure",
     "G ≥": "the oil thickens little under pressure",
     "viscosity measured": "the viscosity at high pressure is estimated by the oil's type",
@@ -229,7 +229,8 @@ def first(record: Record) -> Iterable[str]:
 def of_gears(record: Record) -> list[str]:
     """Lines of a record of gears; of any record those for which it has the quantities."""
     summary = over_course(record.summary)
-    parts = (moved(summary), pressed(summary), lost(summary), outside(summary), advised(summary))
+    start = filter(None, [summary.get("settling_remark")])
+    parts = (moved(summary), start, pressed(summary), lost(summary), outside(summary), advised(summary))
     return [line for part in parts for line in part]
 
 

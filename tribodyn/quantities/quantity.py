@@ -119,7 +119,10 @@ class Quantity(NamedTuple):
         if isinstance(value, float) and not math.isfinite(value):
             return "–"
         number = self.in_unit(value)
-        return format(int(number) if self.digits.endswith("d") else number, self.digits)
+        if self.digits.endswith("d"):
+            return format(int(number), self.digits)
+        few = self.digits.endswith("f") and 0.0 < abs(number) < 10.0 ** (1 - int(self.digits[-2]))
+        return format(number, ".3g" if few else self.digits)  # small numbers are not rounded to zero
 
     def written_of(self, values: Mapping[str, Any]) -> str:
         """Its value in a mapping by names; a lower bound, where ``NAME_unlimited`` is true, with "≥"."""

@@ -55,6 +55,11 @@ def test_a_sound_run_says_what_moves_presses_and_is_lost_and_nothing_to_do():
     assert len(text.splitlines()) <= LINES
 
 
+def test_a_start_that_has_not_faded_is_said_before_what_follows_from_it():
+    remark = "The motion has not settled."
+    assert said(GOOD | laws(0.3, 0.3, settling_remark=remark)).splitlines()[1] == remark
+
+
 @pytest.mark.parametrize("what", ["film", "friction"])
 def test_a_law_in_doubt_says_by_how_much_and_why(what: str):
     """The printed value over the ratio to the solved contact outside the limits."""

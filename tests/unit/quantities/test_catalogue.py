@@ -54,6 +54,14 @@ def test_values_are_written_with_their_digits():
     assert film.written(np.array([1e-6, 2e-6])) == "2 / 1"
     assert film._replace(listed=True).written(np.array([1e-6, 2e-6])) == "1 / 2"
     assert Quantity("steps", "Steps", digits=",d").written(12345.0) == "12,345"
+    load, share = Quantity("load", "Load", "N", ",.0f"), Quantity("share", "Share", "%", ".3f")
+    assert [load.written(value) for value in (12345.6, -42.3, 0.0, 0.13862)] == [
+        "12,346",
+        "-42",
+        "0",
+        "0.139",
+    ]
+    assert [share.written(value) for value in (0.99467, 6.5312e-6, 0.0)] == ["99.467", "0.000653", "0.000"]
     assert film.variable()[:3] == ((), "m", "film")
     assert (film.title, film.titled, film.in_table) == ("Film h", "Film h (µm)", "Film h")
 

@@ -3,7 +3,7 @@
 Means are of the recorded samples and of integrated works; extremes of the dense motion, samples included.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,9 @@ HARMONICS = 5
 LAST_ORDER = 20.0
 #: Share of the loss that friction may give to the vibration before it is said.
 FEEDS = 0.01
+#: Share of its swing by which the transmission error of a settled motion may change from period to period,
+#: and over several of them where it repeats after these.
+SETTLED, REPEATED = 0.05, 0.005
 #: What that means, by `friction.sliding`.
 ABOUT_FEEDING = {
     "kinematic": 'which kinematic sliding makes of nothing: use friction.sliding = "dynamic"',
@@ -103,6 +106,26 @@ def mesh_quantities(
         "spectrum_amplitudes": spectrum.amplitudes[keep],
         **({"axial_force_mean": float(np.mean(window["axial_force"]))} if cycle.slices > 1 else {}),
     }
+
+
+def on_settling(errors: Sequence[np.ndarray], period: int) -> str:
+    """Say where the transmission errors of meshes do not repeat after a period, a number of samples, or some.
+
+    "" where all do, and where the samples are of less than two periods, which tell nothing.
+    """
+    worst = 0.0
+    for error in errors:
+        lags, swing = range(period, len(error) // 2 + 1, period), float(np.ptp(error))
+        changes = [float(np.max(np.abs(error[lag:] - error[:-lag]))) for lag in lags]
+        if changes and min(changes) > REPEATED * swing:
+            worst = max(worst, changes[0] / swing)
+    if not worst > SETTLED:
+        return ""
+    return (
+        "The motion has not settled: from one mesh cycle to the next the transmission error still changes "
+        f"by {100.0 * worst:.2g} % of its swing. More solver.cycles let the start fade; tribodyn sweep seeks "
+        "the steady motion."
+    )
 
 
 def at_rest(case: LubricatedCase, tabulated: Tabulated | PreparedGears[Any]) -> dict[str, Any]:

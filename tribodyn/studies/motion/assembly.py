@@ -12,6 +12,7 @@ import numpy as np
 from tribodyn.dynamics import parameters
 from tribodyn.dynamics.data import matrices_in_space, spring_damping
 from tribodyn.errors import InputError
+from tribodyn.gears.bearings_in_time import cages_turn
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.model import resting_slopes, tilting_inertia
 from tribodyn.gears.prepare import Thermal, assembled
@@ -182,6 +183,17 @@ def loads_in_own_sense(case: Gearbox) -> list[LoadData]:
         else load
         for load in case.loads
     ]
+
+
+def teeth_differ(case: Gearbox) -> bool:
+    """Whether teeth of one gear differ, so that no mesh cycle is like the one before."""
+    return any(any(pair.teeth) for pair in case.pairs)
+
+
+def settles(case: Gearbox) -> bool:
+    """Whether what moves a case repeats with its meshes: no load or cage has a period of its own."""
+    varying = any(load.table or load.harmonics for load in case.loads)
+    return not (case.in_time or varying or teeth_differ(case) or cages_turn(case.system))
 
 
 def varying_of(case: Gearbox) -> LoadData:

@@ -166,7 +166,8 @@ def verdict(record: Record) -> list[str]:
     if not meshes:
         return []
     summary, meshes = of_course(summary, meshes)
-    sentences = [*_moved(summary, meshes), *_pressed(summary, meshes), *_lost(summary, meshes)]
+    sentences = [*_moved(summary, meshes), *filter(None, [summary.get("settling_remark")])]
+    sentences += [*_pressed(summary, meshes), *_lost(summary, meshes)]
     name = max(meshes, key=lambda name: _beyond(meshes[name]))
     for line in of_any.outside(meshes[name]):
         sentences.append(f"Mesh {name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)

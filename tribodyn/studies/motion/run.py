@@ -15,13 +15,13 @@ from tribodyn.gears.case import STAGES
 from tribodyn.gears.check import oil_data
 from tribodyn.gears.motion.march import record_motion, run_until_warm
 from tribodyn.gears.motion.running import RunStatistics
-from tribodyn.gears.motion.steady import limits_in, warning_of
+from tribodyn.gears.motion.steady import limits_in, on_settling, warning_of
 from tribodyn.gears.sensing.signal_quantities import signal_quantities
 from tribodyn.record.reader import MESHES
 from tribodyn.record.sensors import write_sensed
 from tribodyn.record.trust import judge_tribology
 from tribodyn.record.withheld_efficiency import remarked
-from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.assembly import PreparedGearbox, settles
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.heat.settled import in_balance, prepare_settled, warmer
 from tribodyn.studies.motion.heat.thermal_iteration import at_own_temperatures
@@ -161,6 +161,9 @@ def _concluded(
         whole[STAGES] = stages = stage_quantities(prepared, windows, each)
         whole |= worst_stage(stages)
     fed = warning_of(whole["friction_work_on_vibration"], case.meshes[0].pair.friction.sliding)
+    if settles(case) and not changes:
+        errors = [window["transmission_error_rotational"] for window in windows]
+        whole["settling_remark"] = on_settling(errors, samples * case.period) or None
     whole["warning"] = remarked(*jams(prepared), fed or "") or None
     statistics.judge.take({"efficiency": whole["efficiency"]})
     return whole | statistics.judge.summary()

@@ -14,6 +14,7 @@ from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
+from tribodyn.studies.motion.assembly import teeth_differ
 from tribodyn.studies.motion.batch.evaluate import at_length, evaluate
 from tribodyn.studies.motion.batch.gearboxes import (
     MOST_STATES,
@@ -23,7 +24,6 @@ from tribodyn.studies.motion.batch.gearboxes import (
     refuse_steady,
     run_speed_of,
     shape_of,
-    teeth_differ,
 )
 from tribodyn.studies.motion.batch.signals import SignalBatch, SignalSettings
 from tribodyn.studies.motion.batch.swept import SweepSettings, layout_of, row_bytes

@@ -14,7 +14,7 @@ from tribodyn.gears.motion.extremes import RunningExtremes
 from tribodyn.gears.tabulated import table_key
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.sweep_schema import OF_MESH as OF_MESH
-from tribodyn.studies.motion.assembly import PreparedGearbox
+from tribodyn.studies.motion.assembly import PreparedGearbox, teeth_differ
 from tribodyn.studies.motion.batch.swept import SweepSettings, state_names
 from tribodyn.studies.motion.case import Gearbox, refuse_long_period
 from tribodyn.studies.motion.heat.thermal_iteration import at_own_temperatures
@@ -99,11 +99,6 @@ def refuse_steady(case: Gearbox) -> None:
         remedy = "march: --transient 100, or keep what sensors hear: --signals 1s; or leave force out"
         raise InputError("--steady", None, rule, remedy)
     refuse_long_period(case)
-
-
-def teeth_differ(case: Gearbox) -> bool:
-    """Whether teeth of one gear differ, so that no mesh cycle is like the one before."""
-    return any(any(pair.teeth) for pair in case.pairs)
 
 
 def run_speed_of(case: Gearbox) -> RunSpeed:

@@ -1,0 +1,55 @@
+"""Whether a run has settled, told by its last cycles: of known decays, and against the steady motion."""
+
+import numpy as np
+import pytest
+
+import tribodyn as td
+from tribodyn.gears.motion.steady import on_settling
+
+SAMPLES = 100
+CYCLES = np.arange(10 * SAMPLES) / SAMPLES
+
+
+def motion(order: float, amplitude: float, decay: float) -> np.ndarray:
+    """The mesh's own motion of amplitude 1, and another one that decays by so much per cycle."""
+    return np.sin(2.0 * np.pi * CYCLES) + amplitude * np.exp(-decay * CYCLES) * np.cos(
+        2.0 * np.pi * order * CYCLES
+    )
+
+
+@pytest.mark.parametrize(
+    ("order", "amplitude", "decay", "said"),
+    [
+        (0.26, 0.5, 0.05, True),
+        (0.26, 0.01, 0.05, False),
+        (0.5, 0.5, 0.0, False),  # repeats after two cycles
+        (1.0, 2.0, 0.3, True),  # of the mesh's own frequency, but it falls
+        (3.0, 0.5, 0.0, False),
+    ],
+)
+def test_what_still_changes_is_no_steady_motion(order: float, amplitude: float, decay: float, said: bool):
+    assert bool(on_settling([motion(order, amplitude, decay)], SAMPLES)) is said
+
+
+def test_less_than_two_periods_and_teeth_at_rest_say_nothing():
+    assert on_settling([motion(0.26, 0.5, 0.05)], 6 * SAMPLES) == ""
+    assert on_settling([np.zeros(400)], SAMPLES) == ""
+
+
+def test_a_run_that_says_so_is_far_from_the_steady_motion_and_one_that_does_not_is_there():
+    """Of a pair at 15 000 rpm: 20 cycles end before the bearings' vibration does."""
+    source, free, speed = "spur-25-51", {"friction.law": "none"}, "15000 rpm"
+    short, long = (
+        td.run(
+            source,
+            free | {"operating.pinion_speed": speed, "solver.cycles": cycles},
+            progress=False,
+        ).summary
+        for cycles in (20, 400)
+    )
+    steady = td.sweep(source, {"operating.pinion_speed": [speed]}, free, progress=False)
+    swing = steady["transmission_error_peak_to_peak"].item()
+    assert "not settled" in short["settling_remark"]
+    assert short["transmission_error_peak_to_peak"] > 1.2 * swing
+    assert not long.get("settling_remark")
+    assert long["transmission_error_peak_to_peak"] == pytest.approx(swing, rel=5e-3)
