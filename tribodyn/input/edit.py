@@ -1,6 +1,6 @@
 """Values put into the text of a scenario, comments kept: into tables, lists of tables, and models' tables."""
 
-from collections.abc import Iterator, Mapping, MutableMapping
+from collections.abc import Mapping, MutableMapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -25,7 +25,7 @@ class Models(NamedTuple):
 
     def begun(self, key: Key) -> dict[str, Any]:
         """What a table at a key begins with that the scenario does not write out: its model, or defaults."""
-        name = self._raw(key)
+        name = self.raw(key)
         if isinstance(name, str):
             self.require_model(key, name)
             return {LIKE: name}
@@ -40,7 +40,7 @@ class Models(NamedTuple):
             rule = f"{dotted} is {quoted(name)}, whose values are changed there"
             raise InputError(dotted, quoted(name), rule, "edit that file, or write the table out")
 
-    def _raw(self, key: Key) -> Any:
+    def raw(self, key: Key) -> Any:
         """What stands at a key as it is written, in the scenario or in a model on the way; else None."""
         here: Any = self.data
         file = self.path
@@ -63,6 +63,7 @@ def with_values(text: str, values: Mapping[Key, Any], models: Models) -> str:
     """The text of a scenario with values put in, all else as it is; see `put`."""
     document = tomlkit.parse(text)
     for key, value in values.items():
+        written_out(document, key, models)
         put(document, key, value, models)
     return tomlkit.dumps(document)
 
@@ -130,6 +131,15 @@ def _no_table(key: Key, depth: int, value: Any, place: Any) -> InputError:
     return InputError(dotted, quoted(value), rule, "see the keys with: tribodyn schema")
 
 
+def written_out(document: MutableMapping[str, Any], key: Key, models: Models) -> None:
+    """Write the lists of tables out that a key leads into, where only a model has them."""
+    for depth, part in enumerate(key):
+        if isinstance(part, int) and value_at(document, key[:depth]) is None:
+            rows = models.raw(key[:depth])
+            if isinstance(rows, list) and rows:
+                put(document, key[:depth], rows, models)
+
+
 def taken_out(document: MutableMapping[str, Any], key: Key) -> bool:
     """Take out what is written at a key; False: nothing is."""
     place: Any = document
@@ -140,6 +150,8 @@ def taken_out(document: MutableMapping[str, Any], key: Key) -> bool:
         return False
     if isinstance(place, list):
         del place[int(last)]
+        if not place:
+            taken_out(document, key[:-1])
     else:
         place.pop(str(last))
     return True
@@ -151,26 +163,7 @@ def table_added(document: MutableMapping[str, Any], key: Key, table: Mapping[str
     for part in key[:-1]:
         place = _inside(place, part)
     tables = _inside(place, key[-1])
-    if tables is None:
-        place[str(key[-1])] = tables = tomlkit.aot()
-        tables = place[str(key[-1])]
-    if not isinstance(tables, list):
-        raise InputError(".".join(map(str, key)), quoted(tables), "not a list of tables", "write [[…]]")
     new = tomlkit.table()
     new.update(table)
     tables.append(new if isinstance(tables, AoT) else dict(table))
     return len(tables) - 1
-
-
-def leaves(data: Any, above: str = "") -> Iterator[tuple[str, Any]]:
-    """Go through dotted keys and values of all that is no table, in order; lists of tables number them."""
-    inside: Any = ()
-    if isinstance(data, Mapping):
-        inside = data.items()
-    elif isinstance(data, list) and data and all(isinstance(one, Mapping) for one in data):
-        inside = enumerate(data)
-    elif above:
-        yield above, data
-        return
-    for name, value in inside:
-        yield from leaves(value, f"{above}.{name}" if above else str(name))

@@ -16,7 +16,7 @@ import tomlkit
 from tribodyn.app.core.link import packed, unpacked
 from tribodyn.app.core.messages import Message, data_of, findings
 from tribodyn.errors import InputError, quoted
-from tribodyn.input.edit import Models, leaves, table_added, taken_out, with_values
+from tribodyn.input.edit import Models, put, table_added, taken_out, with_values, written_out
 from tribodyn.input.messages import Key, value_at
 from tribodyn.input.names import key_in
 from tribodyn.input.quantity import LIKE, defaults_written_out
@@ -39,14 +39,6 @@ class Variant:
 
     name: str
     text: str
-
-
-class KeyChange(NamedTuple):
-    """What differs between two states at a key; None: nothing is written there."""
-
-    key: str
-    before: Any
-    after: Any
 
 
 class _State(NamedTuple):
@@ -178,11 +170,33 @@ class Document:
             self._go_on(tomlkit.dumps(changed))
 
     def append(self, key: str, table: Mapping[str, Any]) -> str:
-        """Add a table to a list of tables, such as ``stage``; return its key, ``stage.2``."""
+        """Add a table to a list of tables, such as ``stage``; return its key, ``stage.2``.
+
+        A list that a model has is written out, with the table behind it.
+        """
         changed = tomlkit.parse(self._sound())
-        number = table_added(changed, key_in(self.written(), key), table)
+        place = key_in(self.resolved.data, key)
+        written_out(changed, (*place, 0), self._models())
+        if isinstance(value_at(changed, place), list):
+            number = table_added(changed, place, table)
+        else:
+            put(changed, place, [dict(table)], self._models())
+            number = 0
         self._go_on(tomlkit.dumps(changed))
         return f"{key}.{number}"
+
+    def take_out(self, key: str) -> None:
+        """Take out a table; of a list that a model has the others are written out."""
+        changed = tomlkit.parse(self._sound())
+        place = key_in(self.resolved.data, key)
+        written_out(changed, place, self._models())
+        if taken_out(changed, place):
+            self._go_on(tomlkit.dumps(changed))
+
+    def rows(self, key: str) -> list[Any]:
+        """Tables of a list as they are written, here or in a model."""
+        found = self._models().raw(key_in(self.resolved.data, key))
+        return found if isinstance(found, list) else []
 
     def undo(self) -> bool:
         """Go back to the state before; False: there is none."""
@@ -214,17 +228,6 @@ class Document:
             rule = f"there is: {', '.join(one.name for one in self.variants) or 'none'}"
             raise InputError("variant", quoted(name), "no such variant", rule)
         self._go_on(variant.text)
-
-    def changes(self, variant: Variant | None = None) -> list[KeyChange]:
-        """What is written otherwise than in a variant; None: than in the file that was opened or saved."""
-        before = (self._saved or "") if variant is None else variant.text
-        then = dict(leaves(data_of(before, self.path)[0]))
-        now = dict(leaves(self.written()))
-        return [
-            KeyChange(key, then.get(key), now.get(key))
-            for key in dict.fromkeys((*then, *now))
-            if then.get(key) != now.get(key)
-        ]
 
     def save(self, path: Path | None = None, *, force: bool = False) -> Path:
         """Write the file and return its path; files that it names beside itself are named from there.

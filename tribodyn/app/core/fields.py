@@ -3,17 +3,19 @@
 import json
 import re
 import typing
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from types import UnionType
 from typing import Any, Literal, Union, get_args, get_origin
 
 import tomli_w
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from tribodyn.gears.plausibility import USUAL, UsualRange
-from tribodyn.input.quantity import InUnit, Names, Reference, Table, meaning
-from tribodyn.input.schema import inner_tables, parts_of
+from tribodyn.input.quantity import Column, Columns, InUnit, Names, Reference, Table, meaning
+from tribodyn.input.schema import Inner, extra_table, inner_tables, parts_of
 from tribodyn.input.sources import SCENARIOS, names, shipped
 from tribodyn.input.unit_grammar import COMMON_UNITS, OWN_UNITS
 from tribodyn.input.units import QUANTITIES, TEMPERATURE_KIND, Kind, NotAQuantity, to_si
@@ -117,6 +119,27 @@ def type_of_model(reference: Reference) -> FieldType:
     folder = shipped(SCENARIOS) if reference.folder == SCENARIOS else shipped("models") / reference.folder
     known, about = tuple(names(folder)), reference.what
     return FieldType("model", "Like", about, (), known, None, "", None, None, None, False, None)
+
+
+def tables_of(field: FieldInfo, value: Any = None) -> list[Inner]:
+    """Tables that a field may hold; none where it is a list of values, or a curve, which a file may have."""
+    if isinstance(value, list) and value and not any(isinstance(one, Mapping) for one in value):
+        return []
+    inner = list(inner_tables(field.annotation))
+    return [] if any(issubclass(one.table, (Columns, Column)) for one in inner) else inner
+
+
+@cache
+def many_tables(table: type[BaseModel]) -> tuple[tuple[str, Inner], ...]:
+    """Lists of tables and tables by name in a table, by key; "": its own keys are names."""
+    found = [
+        (field.alias or name, inner)
+        for name, field in table.model_fields.items()
+        for inner in {one.held: one for one in tables_of(field)}.values()
+        if inner.held in (tuple, dict)
+    ]
+    own = extra_table(table)
+    return tuple(found) if own is None else (*found, ("", Inner(own, dict)))
 
 
 def without_none(annotation: Any) -> Any:

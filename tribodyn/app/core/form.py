@@ -18,21 +18,22 @@ from tribodyn.app.core.fields import (
     FieldType,
     Sort,
     as_toml,
-    converted,
     is_first,
     label_of,
+    many_tables,
     of_parameter,
     of_value,
     parts_of_quantity,
+    tables_of,
     type_of,
     type_of_model,
 )
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.input.messages import Origins
 from tribodyn.input.names import named_in, speaks_of_pair, worded
-from tribodyn.input.quantity import LIKE, Column, Columns, FamilyShape, Reference, meaning
+from tribodyn.input.quantity import LIKE, FamilyShape, Reference, meaning
 from tribodyn.input.resolve import toml_value
-from tribodyn.input.schema import EACH, Inner, extra_table, inner_tables, parts_of, tagged
+from tribodyn.input.schema import EACH, Inner, extra_table, parts_of, tagged
 from tribodyn.studies import DEFAULT, STUDIES
 from tribodyn.studies.protocol.load import filled, table_of
 from tribodyn.tribology.law import AUTO
@@ -66,6 +67,16 @@ class FormField:
     source: str  # where the value is from: "" this scenario, `BY_DEFAULT`, or a model's file
 
 
+class HeldTables(NamedTuple):
+    """Tables that a table may have any number of."""
+
+    path: str  # dotted key of the list, or of the table that holds them by name
+    label: str
+    about: str
+    table: type[BaseModel]
+    named: bool  # by name; else in a list
+
+
 @dataclass(frozen=True)
 class FormGroup:
     """A table of the scenario."""
@@ -78,6 +89,8 @@ class FormGroup:
     present: bool  # whether the scenario, or a model that it names, has the table
     optional: bool  # whether it may be taken out
     one_of: str  # key of the list or the named tables that it is one of; "": of none
+    given: bool  # whether this scenario writes it out
+    holds: tuple[HeldTables, ...]  # where tables can be added
 
 
 def form_of(document: Document) -> tuple[FormGroup, ...]:
@@ -105,11 +118,6 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-def in_unit(text: str, unit: str, to: str) -> str:
-    """The number of a quantity's input in another unit; as it is where it is none."""
-    return converted(text, unit, to)
 
 
 def _choice(field: FormField, text: str) -> Any:
@@ -166,7 +174,7 @@ class _Form:
             known.add(key)
             if any(isinstance(part, FamilyShape) for part in parts_of(field)):
                 fields += self._shape(path, whole, written)
-            elif tables := _tables_of(field):
+            elif tables := tables_of(field, whole.get(key)):
                 inside += self._inside(place, field, key, tables)
             elif key != LIKE:
                 fields.append(self._field(_type(place.table, name, path), path, whole.get(key), written))
@@ -189,11 +197,24 @@ class _Form:
             isinstance(place.whole, Mapping),
             place.optional,
             place.one_of,
+            isinstance(place.written, Mapping),
+            tuple(self._held(place)) if isinstance(place.whole, Mapping) else (),
         )
         for each in inside:
             # of a table that is not there, those that it might hold are not offered
             if isinstance(place.whole, Mapping):
                 yield from self.groups(each)
+
+    def _held(self, place: _Place) -> Iterator[HeldTables]:
+        """Lists and named tables that a table may hold."""
+        for name, inner in many_tables(place.table):
+            key = worded(name, self.of_pair)
+            there = place.whole.get(key) if key else None
+            if isinstance(there, Mapping) and inner.held is tuple:  # one table stands in the list's place
+                continue
+            path = _dotted((*place.path, *([key] if key else [])))
+            label, about = label_of(key) or _label(place.path), meaning(place.table, name)
+            yield HeldTables(path, label, about, inner.table, inner.held is dict)
 
     def _inside(self, place: _Place, field: FieldInfo, key: str, tables: list[Inner]) -> Iterator[_Place]:
         """The tables that a field holds."""
@@ -241,13 +262,14 @@ class _Form:
         self, of: FieldType, path: tuple[Step, ...], value: Any, written: Mapping[Any, Any]
     ) -> FormField:
         value = written.get(path[-1], of.default if value is None else value)
-        shown, unit = parts_of_quantity(value) if of.kind == "quantity" else (as_toml(value), "")
+        plain = of.kind != "quantity" or isinstance(value, list)
+        shown, unit = (as_toml(value), "") if plain else parts_of_quantity(value)
         given, origin, usual = path[-1] in written, self.origins.of(path), of.usual
         return FormField(
             path=_dotted(path),
             label=of.label,
             about=of.about,
-            kind=of.kind,
+            kind="list" if isinstance(value, list) else of.kind,
             value=value,
             shown=shown,
             unit=unit or next(iter(of.units), ""),
@@ -269,12 +291,6 @@ class _Form:
 
 def _table(value: Any) -> Mapping[str, Any]:
     return value if isinstance(value, Mapping) else {}
-
-
-def _tables_of(field: FieldInfo) -> list[Inner]:
-    """Tables that a field may hold; none where it is a curve, whose columns a file has."""
-    inner = list(inner_tables(field.annotation))
-    return [] if any(issubclass(one.table, (Columns, Column)) for one in inner) else inner
 
 
 def _of_list(field: FieldInfo, tables: list[Inner], value: Any) -> type[BaseModel]:

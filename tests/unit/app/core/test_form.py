@@ -5,7 +5,8 @@ import tomllib
 import pytest
 
 from tribodyn.app.core.document import BY_DEFAULT, Document
-from tribodyn.app.core.form import FormField, form_of, in_unit, written_as
+from tribodyn.app.core.fields import converted
+from tribodyn.app.core.form import FormField, form_of, written_as
 from tribodyn.input.quantity import meanings
 from tribodyn.input.sources import shipped
 
@@ -132,14 +133,14 @@ def test_a_table_that_is_not_there_is_made_by_its_first_value():
     ],
 )
 def test_numbers_go_from_unit_to_unit_and_back(number, unit, to, expected):
-    there = in_unit(number, unit, to)
+    there = converted(number, unit, to)
     assert float(there) == pytest.approx(expected, rel=1e-8)
-    assert float(in_unit(there, to, unit)) == pytest.approx(float(number), rel=1e-8)
+    assert float(converted(there, to, unit)) == pytest.approx(float(number), rel=1e-8)
 
 
 @pytest.mark.parametrize(("number", "unit", "to"), [("", "mm", "um"), ("many", "mm", "um"), ("3", "mm", "K")])
 def test_what_has_no_other_unit_stays(number, unit, to):
-    assert in_unit(number, unit, to) == number
+    assert converted(number, unit, to) == number
 
 
 def test_a_kind_that_there_is_not_has_the_form_of_the_usual_one():
