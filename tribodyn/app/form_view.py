@@ -4,7 +4,8 @@ from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from typing import Any
 
-from tribodyn.app.core.form import FormField, FormGroup, in_unit
+from tribodyn.app.core.fields import converted
+from tribodyn.app.core.form import FormField, FormGroup
 from tribodyn.errors import InputError
 
 #: Groups that are open at first, by the end of their path.
@@ -47,11 +48,27 @@ def groups_of(groups: Iterable[FormGroup]) -> list[dict[str, Any]]:
                 "description": group.about,
                 "present": group.present,
                 "open": group.present and group.path.endswith(_OPEN),
+                "copied": bool(group.one_of) and steps[-1].isdecimal(),
+                "removed": group.present and group.optional and (group.given or steps[-1].isdecimal()),
                 "further": any(field["advanced"] for field in fields),
                 "fields": fields,
             }
         )
     return drawn
+
+
+def held_of(groups: Iterable[FormGroup]) -> list[dict[str, Any]]:
+    """Where tables can be added, with what there is to say of them."""
+    return [
+        {
+            "path": held.path,
+            "label": " › ".join(filter(None, [group.label if group.path else "", held.label])),
+            "about": held.about,
+            "named": held.named,
+        }
+        for group in groups
+        for held in group.holds
+    ]
 
 
 def _structure(field: FormField, group: FormGroup) -> dict[str, Any]:
@@ -129,7 +146,7 @@ def _in_unit(field: FormField, number: float, unit: str) -> float | None:
     if field.kind != "quantity":
         return number
     with suppress(InputError, ValueError, TypeError):
-        return float(in_unit(repr(number), unit, field.unit))
+        return float(converted(repr(number), unit, field.unit))
     return None
 
 

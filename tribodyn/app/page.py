@@ -1,6 +1,6 @@
 """The page of one window: its parts, and what they show of the window's state."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -8,25 +8,27 @@ from nicegui import Client, ui
 
 from tribodyn.app.bar import Bar
 from tribodyn.app.core.document import Document
-from tribodyn.app.core.form import FormField, form_of, in_unit, written_as
+from tribodyn.app.core.fields import converted
+from tribodyn.app.core.form import FormField, HeldTables, form_of, written_as
 from tribodyn.app.core.live import STAGES
+from tribodyn.app.core.offers.tables import add_table, copy_table
 from tribodyn.app.core.worker import Worker
 from tribodyn.app.curves import charts_of
 from tribodyn.app.folder import WorkFolder
-from tribodyn.app.form_view import Sliders, groups_of, values_of
+from tribodyn.app.form_view import Sliders, groups_of, held_of, values_of
 from tribodyn.app.numbers import compared, other_tables, side_by_side
 from tribodyn.app.parts import (
     STYLE,
     ChartsPart,
     FieldsPart,
     GearboxPart,
-    MessagesPart,
     NumbersPart,
     TeethPart,
     TourPart,
     VariantsPart,
 )
 from tribodyn.app.picture import gearbox_picture, pair_picture
+from tribodyn.app.text_view import TextView
 from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError
 
@@ -61,8 +63,10 @@ class DesignPage:
         self.client, self.few, self.address = client, few, address
         self.structure: Any = None
         self.fields: dict[str, FormField] = {}
+        self.held: dict[str, HeldTables] = {}
         self.sliders = Sliders()
         self.problem: InputError | None = None
+        self.problem_at = ""
         self.errors: list[tuple[str, str, str]] = []
         self.window = DesignWindow(folder, document, worker or Worker(), self.show)
         client.on_delete(self.window.close)
@@ -87,10 +91,12 @@ class DesignPage:
                     self.gearbox.tell(choose=lambda said: self.window.choose(str(said["mesh"])))
                     self.teeth = TeethPart()
                 with _section("tb-form", "Scenario"):
-                    self.messages = MessagesPart()
-                    self.messages.tell(go=lambda said: self.form.run_method("go", said["path"]))
+                    self.text = TextView(
+                        self.window, lambda path: self.form.run_method("go", path), self._complain
+                    )
                     self.form = FieldsPart()
                     self.form.tell(edit=self._edit, unset=self._unset, unit=self._unit, ready=self._fill)
+                    self.form.tell(add=self._add, copy=self._copy, remove=self._remove)
                 with _section("tb-results", "Numbers"):
                     self.numbers = NumbersPart()
                 with _section("tb-curves", "Curves"):
@@ -131,10 +137,11 @@ class DesignPage:
     def _show_form(self) -> None:
         groups = form_of(self.window.document)
         self.fields = {field.path: field for group in groups for field in group.fields}
+        self.held = {one.path: one for group in groups for one in group.holds}
         structure = groups_of(groups)
         if structure != self.structure:
             self.structure = structure
-            self.form.give(groups=structure)
+            self.form.give(groups=structure, held=held_of(groups))
         self._show_messages()
         self._fill()
 
@@ -146,13 +153,9 @@ class DesignPage:
     def _show_messages(self) -> bool:
         """Show what is wrong; whether that has changed."""
         before, self.errors = self.errors, self.window.errors()
-        if (one := self.problem) is not None:
+        if (one := self.problem) is not None and self.problem_at == self.window.document.text:
             self.errors.append((one.key, str(one), f"{one.rule}; {one.remedy}".rstrip("; ")))
-        self.messages.give(
-            errors=[{"key": key if key in self.fields else "", "text": text} for key, text, _ in self.errors],
-            warnings=self.window.sentences("warnings"),
-            remarks=self.window.sentences("remarks"),
-        )
+        self.text.say(self.errors, self.fields)
         return self.errors != before
 
     def _show_teeth(self) -> None:
@@ -220,7 +223,7 @@ class DesignPage:
         if field is None or unit not in field.units:
             return
         with suppress(ValueError, InputError):
-            text = in_unit(field.shown, field.unit, unit) if field.shown else ""
+            text = converted(field.shown, field.unit, unit) if field.shown else ""
             if text:
                 self._complain(self.window.change(field.path, written_as(field, text, unit)))
 
@@ -233,8 +236,35 @@ class DesignPage:
             return
         self.window.changed(["form", "title"])
 
+    def _add(self, said: Mapping[str, Any]) -> None:
+        path, document = str(said.get("path")), self.window.document
+        if said.get("held"):
+            self._with_tables(lambda: add_table(document, self.held[path], str(said.get("name", ""))))
+        else:
+            self._with_tables(lambda: document.set(path, {}) or path)
+
+    def _copy(self, said: Mapping[str, Any]) -> None:
+        self._with_tables(lambda: copy_table(self.window.document, str(said.get("path"))))
+
+    def _remove(self, said: Mapping[str, Any]) -> None:
+        self._with_tables(lambda: self.window.document.take_out(str(said.get("path"))) or "")
+
+    def _with_tables(self, change: Callable[[], str]) -> None:
+        """Add a table or take one out, and go to the first field of the one that it leads to."""
+        try:
+            path = change()
+        except (InputError, LookupError) as error:
+            self._complain(error if isinstance(error, InputError) else None)
+            return
+        self._complain(None)
+        self.window.changed(["form", "title"])
+        first = next((field for field in self.fields if field.startswith(f"{path}.")), "")
+        if path and first:
+            self.form.run_method("go", first)
+
     def _complain(self, error: InputError | None) -> None:
         before, self.problem = self.problem, error
+        self.problem_at = self.window.document.text  # another state has other problems
         if error is not None or before is not None:
             self._show_messages()
             self._fill()

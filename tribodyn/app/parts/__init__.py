@@ -44,11 +44,11 @@ class BarPart(_PagePart, component="bar.js"):
 
 
 class FieldsPart(_PagePart, component="fields.js"):
-    """The form; `groups` changes seldom, `take` gives values. Tells ``edit``, ``unset``, ``unit``."""
+    """The form; `groups` changes seldom, `take` gives values. Tells what to ``edit``, ``unset``, ``add``."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.props.update(groups=[])
+        self.props.update(groups=[], held=[])
 
     def take(self, values: Mapping[str, Any], errors: Mapping[str, str], ranges: Mapping[str, Any]) -> None:
         """Show values, messages and usual ranges by path."""
@@ -94,11 +94,19 @@ class NumbersPart(_PagePart, component="numbers.js"):
 
 
 class MessagesPart(_PagePart, component="messages.js"):
-    """What is wrong, and warnings. Tells ``go``."""
+    """What is wrong, and warnings. Tells ``go``, ``mend``."""
 
     def __init__(self) -> None:
         super().__init__()
         self.props.update(errors=[], warnings=[], remarks=[])
+
+
+class TextPart(_PagePart, component="text.js"):
+    """The scenario as text. Tells ``show``, ``text``."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.props.update(open=False, text="", wrong=[])
 
 
 class VariantsPart(_PagePart, component="variants.js"):

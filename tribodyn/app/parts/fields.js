@@ -9,9 +9,14 @@ export default {
   <p class="tb-search"><label :for="name + '-search'">Find a field</label>
     <input :id="name + '-search'" type="search" v-model="wanted" autocomplete="off" placeholder="tip relief, oil, speed …" data-search></p>
   <p class="tb-quiet" role="status">{{ wanted ? found + (found === 1 ? " field" : " fields") : "" }}</p>
-  <details v-for="(group, g) in groups" :key="group.path" v-show="shown(group).length && (group.present || absent || wanted || wrong(group))" :class="{absent: !group.present}" :open="opened(group, g)" @toggle="toggled(group, g, $event)">
+  <details v-for="(group, g) in groups" :key="group.path" v-show="(shown(group).length || (!wanted && (group.removed || !group.present))) && (group.present || absent || wanted || wrong(group))" :class="{absent: !group.present}" :open="opened(group, g)" @toggle="toggled(group, g, $event)">
     <summary><span>{{ group.title }}</span><span class="tb-count" v-if="wrong(group)">{{ wrong(group) }} to mend</span></summary>
     <p class="tb-quiet" v-if="group.description">{{ group.description }}</p>
+    <p class="tb-rows" v-if="group.copied || group.removed || (!group.present && opened(group, g))">
+      <button v-if="!group.present" type="button" :aria-label="'Add ' + group.title" @click="$emit('add', {path: group.path})">Add this table</button>
+      <button v-if="group.copied" type="button" :aria-label="'Copy ' + group.title" @click="$emit('copy', {path: group.path})">Copy</button>
+      <button v-if="group.removed" type="button" :aria-label="'Remove ' + group.title" @click="$emit('remove', {path: group.path})">Remove</button>
+    </p>
     <div v-if="opened(group, g)">
     <div v-for="field in shown(group)" :key="field.path" class="tb-field" :class="{wrong: errors[field.path], set: isSet(field)}" :data-field="field.path">
       <div class="tb-label">
@@ -49,14 +54,22 @@ export default {
     <p v-if="group.further && opened(group, g) && !wanted"><button type="button" class="tb-plain" @click="all[group.path] = !all[group.path]">{{ all[group.path] ? "Fewer fields" : "All fields of " + group.title }}</button></p>
   </details>
   <p v-if="!wanted && groups.some((group) => !group.present)"><button type="button" class="tb-plain" :aria-expanded="String(absent)" @click="absent = !absent">{{ absent ? "Hide tables that are not written" : "Tables that this scenario does not have yet" }}</button></p>
+  <form v-if="!wanted && held.length" class="tb-add" @submit.prevent="added">
+    <label :for="name + '-add'">Add one of</label>
+    <select :id="name + '-add'" v-model="adding"><option value="">–</option><option v-for="one in held" :key="one.path" :value="one.path">{{ one.label }}</option></select>
+    <template v-if="chosen && chosen.named"><label :for="name + '-new'">Its name</label><input :id="name + '-new'" type="text" v-model="called" autocomplete="off" spellcheck="false"></template>
+    <button type="submit" :disabled="!chosen || (chosen.named && !called)">Add</button>
+    <p class="tb-quiet" v-if="chosen && chosen.about">{{ chosen.about }}</p>
+  </form>
 </div>`,
-  props: { groups: Array },
-  emits: ["edit", "unset", "unit", "ready"],
+  props: { groups: Array, held: Array },
+  emits: ["edit", "unset", "unit", "ready", "add", "copy", "remove"],
   mounted() { this.$emit("ready"); },
   data() {
-    return { values: {}, errors: {}, ranges: {}, absent: false, wanted: "", about: "", open: {}, all: {}, local: {}, name: "tb" + ++forms };
+    return { values: {}, errors: {}, ranges: {}, absent: false, wanted: "", about: "", open: {}, all: {}, local: {}, adding: "", called: "", name: "tb" + ++forms };
   },
   computed: {
+    chosen() { return this.held.find((one) => one.path === this.adding); },
     found() { return this.groups.reduce((sum, group) => sum + this.shown(group).length, 0); },
   },
   methods: {
@@ -82,6 +95,10 @@ export default {
     wrong(group) { return group.fields.filter((field) => this.errors[field.path]).length; },
     opened(group, g) { return Boolean(this.wanted) || (this.open[group.path] ?? (group.open || false)); },
     toggled(group, g, event) { if (!this.wanted) this.open[group.path] = event.target.open; },
+    added() {
+      this.$emit("add", { path: this.adding, name: this.chosen.named ? this.called.trim() : "", held: true });
+      this.adding = this.called = "";
+    },
     step(field) { const [low, high] = this.ranges[field.path]; return field.whole ? 1 : (high - low) / 200; },
     place(field) {
       const value = number(this.text(field) || field.default);

@@ -1,0 +1,53 @@
+// The whole scenario as text, with line numbers; it stands in place of the form.
+export default {
+  template: `
+<div class="tb-text">
+  <p><button type="button" :aria-pressed="String(open)" @click="$emit('show', {open: !open})">Edit as text</button></p>
+  <div v-show="open" class="tb-editor">
+    <div class="tb-lines" aria-hidden="true" ref="lines"><span v-for="n in count" :key="n" :class="{wrong: wrong.includes(n)}">{{ n }}</span></div>
+    <textarea ref="area" wrap="off" spellcheck="false" autocapitalize="off" autocomplete="off" aria-label="Scenario as text" :aria-invalid="Boolean(wrong.length)" @input="typed" @change="send" @scroll="$refs.lines.scrollTop = $event.target.scrollTop"></textarea>
+  </div>
+</div>`,
+  props: { open: Boolean, text: String, wrong: Array },
+  emits: ["show", "text"],
+  data() { return { count: 1, sent: null }; },
+  mounted() { this.put(this.text); this.place(); },
+  watch: {
+    // what has been typed meanwhile stays
+    text(text) { if (text !== this.sent) this.put(text); },
+    open() { this.place(); },
+  },
+  methods: {
+    place() { document.documentElement.classList.toggle("tb-as-text", this.open); },
+    put(text) {
+      const area = this.$refs.area, [top, at] = [area.scrollTop, area.selectionStart];
+      clearTimeout(this.timer);
+      this.sent = area.value = text;
+      this.count = text.split("\n").length;
+      area.selectionStart = area.selectionEnd = at;
+      area.scrollTop = top;
+    },
+    typed() {
+      this.count = this.$refs.area.value.split("\n").length;
+      clearTimeout(this.timer);
+      this.timer = setTimeout(() => this.send(), 400);
+    },
+    send() {
+      clearTimeout(this.timer);
+      const text = this.$refs.area.value;
+      if (text === this.sent) return;
+      this.sent = text;
+      this.$emit("text", { text: text });
+    },
+    go(line) {
+      this.$nextTick(() => {
+        const area = this.$refs.area, lines = area.value.split("\n");
+        const begin = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0);
+        area.focus();
+        area.setSelectionRange(begin, begin + (lines[line - 1] || "").length);
+        area.scrollTop = area.scrollHeight * (line - 1) / lines.length - area.clientHeight / 3;
+        area.scrollLeft = 0;
+      });
+    },
+  },
+};
