@@ -189,18 +189,21 @@ def test_energy_balances_with_clutch_and_brake():
     assert imbalance(whole) < 1e-6
 
 
-def test_every_compiler_makes_the_same_of_a_clutch(rng):
-    """Behind a motor; and behind a prescribed speed, with a brake."""
-    for made in (scenario(constant(static_ratio=1.2)), closing()):
-        assert_right_hand_sides_agree(at_several_conditions(spring_model(made).model, 3), rng, rtol=1e-9)
-
-
-@pytest.mark.parametrize("slip", [0.02, 0.3, -20.0])
-@pytest.mark.parametrize(
+#: Behind a motor; and behind a prescribed speed, with a brake.
+either = pytest.mark.parametrize(
     "made",
     [pytest.param(scenario(constant(static_ratio=1.2)), marks=pytest.mark.soak), closing()],
     ids=["motor", "brake"],
 )
+
+
+@either
+def test_every_compiler_makes_the_same_of_a_clutch(made, rng):
+    assert_right_hand_sides_agree(at_several_conditions(spring_model(made).model, 3), rng, rtol=1e-9)
+
+
+@pytest.mark.parametrize("slip", [0.02, 0.3, -20.0])
+@either
 def test_jacobian_is_that_of_the_right_hand_side(made, slip):
     """By central differences in every coordinate, where the clutch creeps and where it slips."""
     model = with_shared_code(spring_model(made).model)

@@ -15,12 +15,33 @@ from tribodyn.studies.protocol.run import run
 FINITE_ELEMENTS = ("load-contact", "design", "assessment")
 #: A law whose machine code many tests have.
 COULOMB: dict[str, Any] = {"friction.law": "coulomb", "friction.coefficient": 0.05}
+#: Gears of all that finite elements are made of here, which are then solved once.
+GEARS: dict[str, dict[str, Any]] = {
+    "pinion": {"teeth": 18, "profile_shift": 0.0, "face_width": "26.7 mm", "bore_radius": "12 mm"},
+    "gear": {"teeth": 36, "profile_shift": 0.0, "face_width": "26.7 mm", "bore_radius": "25 mm"},
+}
+PAIR: dict[str, Any] = {
+    "drive.material": "18CrNiMo7-6",
+    **{f"drive.{side}.{key}": value for side, keys in GEARS.items() for key, value in keys.items()},
+}
+TRAIN: dict[str, Any] = {
+    "scenario.stage.1.module": "3 mm",
+    "scenario.operating.output_torque": "400 N*m",
+    **{
+        f"scenario.gear.{part}-{stage}.{key.replace('radius', 'diameter')}": two
+        if key == "bore_radius"
+        else value
+        for stage in (1, 2)
+        for part, side, two in (("pinion", "pinion", "24 mm"), ("wheel", "gear", "50 mm"))
+        for key, value in GEARS[side].items()
+    },
+}
 #: Kind -> overrides under which its template takes seconds; that of another kind is taken as it stands.
 SHORT: dict[str, dict[str, Any]] = {
     "gear-pair": {"solver.cycles": 4, "output.samples_per_cycle": 40},
     "gear-train": {"solver.cycles": 4, "output.samples_per_cycle": 40, **COULOMB},
     "efficiency": {"output.samples_per_cycle": 40},
-    "load-contact": {"output.positions_per_cycle": 12, "mesh.slices": 7},
+    "load-contact": {**PAIR, "output.positions_per_cycle": 12, "mesh.slices": 7},
     "wear": {
         "output.positions_per_cycle": 16,
         "output.every": 4e7,
@@ -36,22 +57,15 @@ SHORT: dict[str, dict[str, Any]] = {
         "design.sensitivities": False,
         "scenario.output.positions_per_cycle": 12,
     },
-    # the gears of the load contact study's template, whose finite elements are then solved once
     "assessment": {
-        "drive.pinion.teeth": 18,
-        "drive.gear.teeth": 36,
-        "drive.pinion.profile_shift": 0.0,
-        "drive.gear.profile_shift": 0.0,
+        **PAIR,
         "drive.centre_distance": "81 mm",
-        "drive.material": "18CrNiMo7-6",
-        **{f"drive.{side}.face_width": "26.7 mm" for side in ("pinion", "gear")},
-        "drive.pinion.bore_radius": "12 mm",
-        "drive.gear.bore_radius": "25 mm",
         "assessment.speeds": 8,
         "assessment.samples": 2,
         "assessment.friction_laws": ["niemann", "masjedi-khonsari"],  # steady states under a mean coefficient
     },
     "train-assessment": {
+        **TRAIN,
         "scenario.solver.cycles": 4,
         "scenario.output.samples_per_cycle": 40,
         **{f"scenario.{key}": value for key, value in COULOMB.items()},
