@@ -4,21 +4,22 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
-from urllib.parse import quote
 
 from nicegui import ui
 
 from tribodyn.app.core.document import Document
 from tribodyn.app.examples import EXAMPLES
 from tribodyn.app.job_view import JobsDialog
+from tribodyn.app.kept import KeptDocuments
 from tribodyn.app.parts import BarPart, TourPart
 from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError, OutputError, quoted
 from tribodyn.input.sources import SCENARIOS, is_file, names, shipped
 from tribodyn.studies import handed_over
 
-#: Characters of a link that an address can hold.
-_LONGEST_LINK = 30_000
+#: Characters of a state that the address of the page holds, of an address that a server takes, and of a word
+#: of a command (of Linux, 128 KiB).
+_LONGEST_STATE, _LONGEST_ADDRESS, _LONGEST_WORD = 30_000, 60_000, 130_000
 
 
 class Bar:
@@ -30,14 +31,27 @@ class Bar:
         What the page works on.
     address
         Of the page.
+    kept
+        Documents that the browser goes back to.
     few
         Whether files, jobs and tour are left out.
     go
         Shows a field of the form.
     """
 
-    def __init__(self, window: DesignWindow, address: str, *, few: bool, go: Callable[[str], Any]) -> None:
-        self.window, self.address, self.few, self.go = window, address, few, go
+    def __init__(
+        self,
+        window: DesignWindow,
+        address: str,
+        kept: KeptDocuments,
+        *,
+        few: bool,
+        go: Callable[[str], Any],
+    ) -> None:
+        self.window, self.address, self.kept, self.few, self.go = window, address, kept, few, go
+        self._shown: Document | None = None
+        self._key, self._linked = "", ()
+        self._gone_back = False
         self.tour: TourPart | None = None
         self.part = BarPart()
         self.part.give(few=few)
@@ -53,12 +67,37 @@ class Bar:
             undo=document.can_undo,
             redo=document.can_redo,
         )
-        # a page that is loaded again shows what it showed
-        link = document.link()
-        if len(link) < _LONGEST_LINK:
-            held = document.has_file and self.window.folder.holds(document.path)
-            own = f"&own={quote(self.window.folder.named(document.path))}" if held else ""
-            self.part.run_method("keep", f"?state={link}{own}{'&few=1' if self.few else ''}")
+        if document is not self._shown:
+            # of every document that was opened the browser's history has an entry
+            is_new, self._shown = self._shown is not None and not self._gone_back, document
+            self._key, self._gone_back = self.kept.keep(document), False
+            self.part.run_method("keep", self._query(), is_new)
+
+    def keep_state(self) -> None:
+        """Let the address hold the state, so that it outlives this server where it is short."""
+        document = self.window.document
+        state = document.path, document.text, document.variants
+        if self._linked != state:
+            self._linked = state
+            self.part.run_method("keep", self._query(), False)
+
+    def _query(self) -> str:
+        link = self._link()
+        state = f"state={link}&" if len(link) < _LONGEST_STATE else ""
+        return f"?{state}at={self._key}{'&few=1' if self.few else ''}"
+
+    def _link(self) -> str:
+        document, folder = self.window.document, self.window.folder
+        return document.link(f"./{folder.named(document.path)}" if folder.holds(document.path) else "")
+
+    def _go_back(self, key: str) -> None:
+        """Show the document that was open before, where the browser goes back to it, or forth again."""
+        document = self.kept.copy(key)
+        if document is None:
+            self.say("This server does not keep that state any more.")
+            return
+        self._gone_back = True
+        self.window.open(document)
 
     def busy(self, late: tuple[str, ...]) -> None:
         """Show what is being computed."""
@@ -80,7 +119,8 @@ class Bar:
             "pin": self._pin,
             "save": self._save,
             "save-as": self._save_as,
-            "link": self._link,
+            "link": self._show_link,
+            "back": lambda: self._go_back(str(said.get("at", ""))),
             "jobs": lambda: self.jobs and self.jobs.open(),
             "tour": lambda: self.tour and self.tour.run_method("show", 0),
         }
@@ -140,19 +180,19 @@ class Bar:
                 ui.button("Save", color=None, on_click=save).props("no-caps unelevated")
                 ui.button("Cancel", color=None, on_click=dialog.close).props("no-caps flat")
 
-    def _link(self) -> None:
-        link = self.window.document.link()
+    def _show_link(self) -> None:
+        address = f"{self.address}?state={self._link()}"
+        what = "It opens here while the server runs; later, or on another machine: tribodyn app 'LINK'."
+        if len(address) > _LONGEST_ADDRESS:
+            what = "It is too long for an address. It opens by: tribodyn app 'LINK'."
+        if len(address) > _LONGEST_WORD:
+            what = "It is too long for an address and for a command: save the scenario, and pass the file on."
         with ui.dialog(value=True).props('aria-label="Link"') as dialog, ui.card().classes("tb-dialog"):
             ui.label("Link").classes("tb-title").props("role=heading aria-level=2")
             ui.label(
-                "It holds this scenario and its variants. It opens here while the server runs; later, or on "
-                "another machine: tribodyn app 'LINK'. It names no file of yours but this one."
+                f"It holds this scenario and its variants. {what} It names no file of yours but this one."
             )
-            text = (
-                ui.input("Link", value=f"{self.address}?state={link}")
-                .props("readonly")
-                .classes("tb-wide-input")
-            )
+            text = ui.input("Link", value=address).props("readonly").classes("tb-wide-input")
             with ui.element("p").classes("tb-choice"):
                 copy = ui.button("Copy", color=None).props("no-caps unelevated")
                 copy.on_click(lambda: self.part.run_method("copy", text.value))
@@ -166,7 +206,7 @@ class Bar:
             wrong = ui.label().classes("tb-error").props("role=alert")
             if self.window.document.unsaved:
                 shown = folder.named(self.window.document.path)
-                ui.label(f"{shown} has changes that are not saved. They are lost once another is opened.")
+                ui.label(f"{shown} has changes that are not saved. The browser's Back brings them back.")
 
             def open_named(name: str, path: Path | str, field: str = "", hint: str = "") -> None:
                 try:

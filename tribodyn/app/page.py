@@ -16,6 +16,7 @@ from tribodyn.app.core.worker import Worker
 from tribodyn.app.curves import charts_of
 from tribodyn.app.folder import WorkFolder
 from tribodyn.app.form_view import Sliders, groups_of, held_of, values_of
+from tribodyn.app.kept import KeptDocuments
 from tribodyn.app.numbers import compared, other_tables, side_by_side
 from tribodyn.app.parts import (
     STYLE,
@@ -44,6 +45,8 @@ class DesignPage:
         What is open at first.
     address
         Of the page.
+    kept
+        Documents that pages of this server go back to.
     few
         Whether it stands within another page, as in a notebook: without files, jobs and tour.
     worker
@@ -56,11 +59,12 @@ class DesignPage:
         document: Document,
         client: Client,
         address: str,
+        kept: KeptDocuments,
         *,
         few: bool = False,
         worker: Worker | None = None,
     ) -> None:
-        self.client, self.few, self.address = client, few, address
+        self.client, self.few, self.address, self.kept = client, few, address, kept
         self.structure: Any = None
         self.fields: dict[str, FormField] = {}
         self.held: dict[str, HeldTables] = {}
@@ -71,7 +75,7 @@ class DesignPage:
         self.window = DesignWindow(folder, document, worker or Worker(), self.show)
         client.on_delete(self.window.close)
         self._build()
-        ui.timer(1.0, lambda: self.bar.at_work(self.window.at_work()))
+        ui.timer(1.0, self._each_second)
         self.window.changed(["form", "pinned", "title"])
         self.window.compare()
 
@@ -82,6 +86,7 @@ class DesignPage:
                 self.bar = Bar(
                     self.window,
                     self.address,
+                    self.kept,
                     few=self.few,
                     go=lambda field: self.form.run_method("go", field),
                 )
@@ -111,6 +116,10 @@ class DesignPage:
                     )
             if not self.few:
                 self.bar.tour = TourPart()
+
+    def _each_second(self) -> None:
+        self.bar.at_work(self.window.at_work())
+        self.bar.keep_state()
 
     def show(self, parts: Sequence[str]) -> None:
         """Bring parts of the page in step with the window."""

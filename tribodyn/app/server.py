@@ -12,7 +12,9 @@ from tribodyn.app.core.worker import Worker
 from tribodyn.app.examples import FIRST
 from tribodyn.app.folder import WorkFolder
 from tribodyn.app.guard import SANDBOX, Guard, new_token
+from tribodyn.app.kept import KeptDocuments
 from tribodyn.errors import InputError, quoted
+from tribodyn.input.sources import is_shipped
 from tribodyn.numerics.processes import child
 
 if TYPE_CHECKING:
@@ -112,9 +114,7 @@ def opened(scenario: str | None, folder: Path | None) -> tuple[WorkFolder, Docum
     """The folder to work in, and the document that is open at first."""
     if scenario is not None and _STATE in scenario:
         work_folder = WorkFolder(folder or Path.cwd())
-        return work_folder, Document.of_link(
-            scenario.partition(_STATE)[2].partition("&")[0], work_folder.root
-        )
+        return work_folder, _of_state(scenario.partition(_STATE)[2].partition("&")[0], work_folder)
     document = Document.open(scenario or FIRST)
     own = scenario is not None and Path(scenario).is_file()
     work_folder = WorkFolder(folder or (document.path.parent if own else Path.cwd()))
@@ -134,14 +134,11 @@ def _anew(first: Document) -> Document:
     return document
 
 
-def _of_state(state: str, folder: WorkFolder, own: str) -> Document:
-    """The document of a link; where the page itself has kept it, with its own file in the folder."""
+def _of_state(state: str, folder: WorkFolder) -> Document:
+    """The document of a link. A file of its name may have been changed since: it is not taken for saved."""
     document = Document.of_link(state, folder.root)
-    path = folder.file(own, [".toml"]) if own else document.path
-    if own and path.is_file():
-        kept, document = document, Document.open(path)
-        document.set_text(kept.text)
-        document.variants = kept.variants
+    if not folder.holds(document.path) and not is_shipped(document.path):
+        raise InputError("link", quoted(document.path.name), "leads out of this folder", "name its --folder")
     return document
 
 
@@ -172,17 +169,19 @@ def _application(folder: WorkFolder, first: Document, address: str, token: str, 
 
     from tribodyn.app.page import DesignPage
 
+    kept = KeptDocuments()
+
     @ui.page("/", title="tribodyn")
-    def design(client: Client, state: str = "", few: str = "", own: str = "") -> None:
-        document, problem = _anew(first), ""
-        if state:
+    def design(client: Client, state: str = "", few: str = "", at: str = "") -> None:
+        document, problem = kept.copy(at), ""
+        if document is None:
+            document = _anew(first)
             try:
-                document = _of_state(state, folder, own)
+                document = _of_state(state, folder) if state else document
             except InputError as error:
                 problem = str(error)
-        page = DesignPage(
-            folder, document, client, address, few=bool(few), worker=spare.pop() if spare else None
-        )
+        worker = spare.pop() if spare else None
+        page = DesignPage(folder, document, client, address, kept, few=bool(few), worker=worker)
         if problem:
             page.bar.say(problem)
 

@@ -40,6 +40,11 @@ def shipped(folder: str) -> Path:
     return inside if inside.is_dir() else _PACKAGE.parent / folder
 
 
+def is_shipped(path: Path) -> bool:
+    """Whether a path is of a shipped scenario, which is not written."""
+    return shipped(SCENARIOS).resolve() in path.resolve().parents
+
+
 def is_file(path: Path) -> bool:
     """Whether a file is there; a name that no file can have is none."""
     try:

@@ -12,31 +12,72 @@ from tribodyn.app.core.document import Document
 from tribodyn.app.core.form import form_of, written_as
 from tribodyn.app.folder import WorkFolder
 from tribodyn.app.form_view import Sliders
-from tribodyn.app.server import _of_state
+from tribodyn.app.kept import MOST_KEPT, KeptDocuments
+from tribodyn.app.server import opened
 from tribodyn.app.tasks import TASKS, tasks_of
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, OutputError
 
 PAIR = ROOT / "scenarios" / "involute-18-36-tip-relief.toml"
 RELIEF = "drive.pinion.modification.tip_relief"
 
 
-@pytest.mark.parametrize("name", ["my drive (1).toml", "sub/a+b.toml", "-o.toml", "日本 é.toml"])
-def test_a_page_loaded_again_keeps_file_and_state(tmp_path, name):
+@pytest.mark.parametrize(
+    "name", ["my drive (1).toml", "sub/a+b.toml", "-o.toml", "日本 é.toml", "spur-25-51.toml"]
+)
+def test_a_link_leads_to_its_file_in_the_folder_and_does_not_replace_it(tmp_path, name):
     (tmp_path / "sub").mkdir()
-    shutil.copy(PAIR, tmp_path / name)
+    (tmp_path / name).write_text(PAIR.read_text(encoding="utf-8"), encoding="utf-8")
     document = Document.open(tmp_path / name)
     document.set(RELIEF, "13 um")
-    again = _of_state(document.link(), WorkFolder(tmp_path), name)
+    link = document.link(f"./{WorkFolder(tmp_path).named(document.path)}")
+    _, again = opened(f"http://127.0.0.1:1/token/?state={link}&at=key", tmp_path)
     assert again.path.resolve() == (tmp_path / name).resolve()
     assert again.text == document.text
-    again.save()
+    with pytest.raises((InputError, OutputError)):
+        again.save()
+    assert again.save(force=True) == again.path
     assert 'tip_relief = "13 um"' in (tmp_path / name).read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("own", ["../a.toml", "/etc/a.toml", "a.html"])
-def test_a_state_leads_to_no_file_elsewhere(tmp_path, own):
+def test_a_link_in_a_subfolder_names_files_from_there(tmp_path):
+    (tmp_path / "sub").mkdir()
+    shutil.copy(PAIR, tmp_path / "base.toml")
+    (tmp_path / "sub" / "mine.toml").write_text('kind = "design"\nscenario = "../base.toml"\n')
+    document = Document.open(tmp_path / "sub" / "mine.toml")
+    _, again = opened(f"?state={document.link('./sub/mine.toml')}", tmp_path)
+    assert again.value("scenario.drive.pinion.teeth") == document.value("scenario.drive.pinion.teeth") == 18
+
+
+@pytest.mark.parametrize(
+    "name", ["../a.toml", "/etc/a.toml", "./../a.toml", "./a/../b.toml", "./link/a.toml"]
+)
+def test_a_link_leads_to_no_file_elsewhere(tmp_path, name):
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "folder" / "link").symlink_to(tmp_path)
     with pytest.raises(InputError):
-        _of_state(Document.open(PAIR).link(), WorkFolder(tmp_path), own)
+        opened(f"?state={Document.open(PAIR).link(name)}", tmp_path / "folder")
+
+
+def test_a_page_loaded_again_has_history_and_what_was_saved_last(tmp_path):
+    file = tmp_path / "mine.toml"
+    shutil.copy(PAIR, file)
+    kept, document = KeptDocuments(), Document.open(file)
+    key = kept.keep(document)
+    document.set(RELIEF, "13 um")
+    document.set("title", "another")
+    file.write_text(file.read_text(encoding="utf-8") + "# another editor was here\n", encoding="utf-8")
+    again = kept.copy(key)
+    assert again is not None
+    assert again.text == document.text
+    with pytest.raises(InputError, match="changed elsewhere"):
+        again.save()
+    assert again.undo()
+    assert again.undo()
+    assert not again.unsaved
+    assert document.unsaved  # windows do not disturb one another
+    for _ in range(MOST_KEPT):
+        kept.keep(document)
+    assert kept.copy(key) is None
 
 
 def test_a_file_that_somebody_else_has_changed_is_not_replaced_unasked(tmp_path):

@@ -22,7 +22,7 @@ from tribodyn.input.names import key_in
 from tribodyn.input.quantity import LIKE, defaults_written_out
 from tribodyn.input.resolve import Resolved, resolve_table, toml_value
 from tribodyn.input.schema import expanded, references
-from tribodyn.input.sources import MOST_TOML, find_scenario, is_file, read_text, shipped
+from tribodyn.input.sources import MOST_TOML, find_scenario, is_file, is_shipped, read_text, shipped
 from tribodyn.numerics.files.output_files import write_output
 from tribodyn.studies import DEFAULT, handed_over
 from tribodyn.studies.protocol.load import filled, table_of
@@ -82,13 +82,24 @@ class Document:
         """The document that a link holds, as a file of the folder; InputError where it is no such link."""
         name, texts = unpacked(link)
         path = shipped("scenarios") / name
-        document = cls(texts.pop("", ""), path if path.is_file() else folder / name)
+        own = name.startswith("./") or not path.is_file()
+        document = cls(texts.pop("", ""), folder / name if own else path)
         document.variants = tuple(Variant(name, text) for name, text in texts.items())
         return document
 
-    def link(self) -> str:
-        """Text and variants, compressed to characters that an address may have."""
-        return packed(self.path.name, {"": self.text} | {one.name: one.text for one in self.variants})
+    def copy(self) -> "Document":
+        """Another one as this one is, with its history."""
+        other = Document(self.text, self.path)
+        other.variants, other._saved = self.variants, self._saved
+        other._states, other._at = list(self._states), self._at
+        return other
+
+    def link(self, name: str = "") -> str:
+        """Text and variants, compressed to characters that an address may have.
+
+        `name` is that of the file in a folder, ``./sub/drive.toml``; without it a shipped one may be meant.
+        """
+        return packed(name or self.path.name, {"": self.text} | {one.name: one.text for one in self.variants})
 
     @property
     def text(self) -> str:
@@ -236,7 +247,7 @@ class Document:
         or by `force`. InputError else, and for a file of the package; OutputError where there is no room.
         """
         target = path or self.path
-        if shipped("scenarios").resolve() in target.resolve().parents:
+        if is_shipped(target):
             rule, remedy = "a scenario of the package", "save it in a folder of your own"
             raise InputError("output", quoted(str(target)), rule, remedy)
         text = self.text

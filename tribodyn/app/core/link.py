@@ -6,15 +6,15 @@ import json
 import re
 import zlib
 from collections.abc import Mapping
-from pathlib import PurePath
 
 from tribodyn.errors import InputError
 from tribodyn.input.sources import MOST_TOML
 
 #: What a link begins with: the form of what follows.
 _FORM = "1."
-#: Names of files that a link may hold.
-_NAME = re.compile(r"(?!\.\.?$)[^\\/:\x00-\x1f]+")
+#: Names of files that a link may hold: of one that is shipped or new, or of one in a folder.
+_PART = r"(?!\.\.?(?:/|$))[^\\/:\x00-\x1f]+"
+_NAME = re.compile(rf"{_PART}|\./{_PART}(?:/{_PART})*")
 
 
 def packed(name: str, texts: Mapping[str, str]) -> str:
@@ -35,7 +35,7 @@ def unpacked(link: str) -> tuple[str, dict[str, str]]:
         if opened.unconsumed_tail or not opened.eof:
             raise ValueError("too long, or cut")
         name, texts = json.loads(content)
-        if not (isinstance(name, str) and _NAME.fullmatch(name) and PurePath(name).name == name):
+        if not (isinstance(name, str) and _NAME.fullmatch(name)):
             raise ValueError("no name of a file")
         if not (isinstance(texts, dict) and all(isinstance(text, str) for text in texts.values())):
             raise ValueError("no texts")

@@ -31,10 +31,12 @@ export default {
       else this.act(name);
     };
     this.stay = (event) => { if (this.unsaved && !this.few) event.preventDefault(); };
+    this.back = () => this.$emit("act", { name: "back", at: new URLSearchParams(location.search).get("at") || "" });
     document.addEventListener("keydown", this.keys);
+    window.addEventListener("popstate", this.back);
     window.addEventListener("beforeunload", this.stay);
   },
-  unmounted() { document.removeEventListener("keydown", this.keys); window.removeEventListener("beforeunload", this.stay); },
+  unmounted() { window.removeEventListener("popstate", this.back); document.removeEventListener("keydown", this.keys); window.removeEventListener("beforeunload", this.stay); },
   methods: {
     act(name) {
       // a value that is still being typed counts
@@ -42,7 +44,7 @@ export default {
       this.$emit("act", { name: name });
     },
     say(text) { this.said = text; clearTimeout(this.timer); this.timer = setTimeout(() => { this.said = ""; }, 8000); },
-    keep(state) { history.replaceState(null, "", state); },
+    keep(state, isNew) { history[isNew ? "pushState" : "replaceState"](null, "", state); },
     copy(text) { if (navigator.clipboard) navigator.clipboard.writeText(text).catch(() => {}); },
   },
 };
