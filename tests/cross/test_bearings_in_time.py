@@ -10,6 +10,7 @@ from scipy.optimize import root
 import tribodyn as td
 from tests.support.bearings_in_time import alone, on_bearings, shafts_of
 from tests.support.drawn_shafts import BALL, ROLLER
+from tests.support.plain_kernels import interpreted
 from tests.support.right_hand_sides import assert_right_hand_sides_agree
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.equations import derivatives
@@ -156,11 +157,11 @@ def test_jacobian_is_the_slope_of_the_equations(formulation: str, rng: np.random
     y, (phase, interval) = random_state(rng, model), random_place(rng, model.schedule, 0)[:2]
     f, work = np.zeros(states), work_array(model)
     native = with_shared_code(model)
-    rhs(phase, 3.0, interval, y, native, work, f)
+    interpreted(rhs)(phase, 3.0, interval, y, native, work, f)
     into = Differences(np.zeros(states), np.zeros((states, states)), np.zeros(states))
     scale = np.full(states, 1e-5)
     end = float(model.schedule.end[interval])
-    differentiate(Place(phase, 3.0, interval, end), y, f, scale, native, work, into)
+    interpreted(differentiate)(Place(phase, 3.0, interval, end), y, f, scale, native, work, into)
     for j in displacements(model.layout):
         step = 1e-9 * np.eye(states)[j]
         ahead, behind = (_rates(model, y + sign * step, phase, interval) for sign in (1.0, -1.0))

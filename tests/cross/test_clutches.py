@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
+from tests.support.plain_kernels import interpreted
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.support.spring_trains import Gears, scenario_of, spring_model
 from tests.support.states import sampled
@@ -217,7 +218,7 @@ def test_jacobian_is_that_of_the_right_hand_side(made, slip):
         np.zeros(layout.states), np.zeros((layout.states, layout.states)), np.zeros(layout.states)
     )
     scale = state_scales(model, y)
-    differentiate(place, y, f, scale, model, work, into)
+    interpreted(differentiate, rhs)(place, y, f, scale, model, work, into)
     reference = layout.half + layout.lag
     for j in range(layout.mechanical):
         if j == reference and not model.options.drive:

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from tests.support.coupled_trains import pushed_by_mesh, random_structure, reducer_in_space, with_couplings
+from tests.support.plain_kernels import interpreted
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.support.states import random_place, random_state, recorded
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import DRIVE_SPEED
+from tribodyn.dynamics.parameters import DRIVE_SPEED, with_shared_code
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
@@ -47,7 +48,7 @@ def test_every_compiler_makes_the_same_of_them(coupled_train, rng):
 
 
 def test_the_jacobian_is_that_of_the_right_hand_side(coupled_train, rng):
-    model, layout = coupled_train, coupled_train.layout
+    model, layout = with_shared_code(coupled_train), coupled_train.layout
     y, place = random_state(rng, model), random_place(rng, model.schedule)
     states, free = layout.states, [i for i in range(layout.mechanical) if i % layout.half != layout.lag]
     f, work = np.empty(states), work_array(model)
@@ -56,7 +57,7 @@ def test_the_jacobian_is_that_of_the_right_hand_side(coupled_train, rng):
     scale = np.full(states, 1e-5)
     scale[layout.half :] = 0.1
     end = float(model.schedule.end[place[1]])
-    differentiate(Place(place[0], 0.0, place[1], end), y, f, scale, model, work, into)
+    interpreted(differentiate, rhs)(Place(place[0], 0.0, place[1], end), y, f, scale, model, work, into)
     for j in free:
         by = 1e-4 * scale[j]
         ahead, behind = (rates(model, y + sign * by * np.eye(states)[j], place)[0] for sign in (1.0, -1.0))
