@@ -39,11 +39,12 @@ RECORD = "crc-23-47"
 #: Calls of which another page has an example that takes less, or a test beside them; by page. Run in soak.
 ALIKE = {
     "helical.md": ("td.gradient(",),
+    "identify.md": ("td.identify(",),
     "python.md": ("td.differentiable(",),
     "api.md": ("td.identify(", "td.gradient(", "td.differentiable("),
 }
 #: Pages whose commands take about ten seconds and more: `make test` reads their words only.
-LONG = {"load-contact.md", "map.md", "measured-flanks.md", "shafts.md", "trains.md"}
+LONG = {"fmu.md", "load-contact.md", "map.md", "measured-flanks.md", "shafts.md", "trains.md"}
 
 
 #: A run with the page's family; its limit, the involute; a path that ends before the teeth.
