@@ -209,8 +209,9 @@ def advised(summary: Mapping[str, Any]) -> Iterable[str]:
             return
     if values.get("contact_loss_fraction", 0.0) > APART:
         yield "To do: more load, more damping, tip relief or another speed keeps the teeth together."
-    elif values.get("dynamic_factor", 0.0) > RESONANT:
-        yield "To do: find the resonance with tribodyn sweep, and move speed or stiffness away from it."
+    elif (engaged := summary.get("engagement_remark")) or values.get("dynamic_factor", 0.0) > RESONANT:
+        resonance = "find the resonance with tribodyn sweep, and move speed or stiffness away from it."
+        yield f"To do: {engaged or resonance}"
     elif values.get("film_parameter_min", SMOOTH) < ROUGH:
         yield "To do: smoother flanks, thicker or cooler oil, or more speed raise the film."
 

@@ -1,4 +1,4 @@
-"""Whether a run has settled, told by its last cycles: of known decays, and against the steady motion."""
+"""Whether a run has settled, and what of its dynamic factor is engagement: against other runs."""
 
 import numpy as np
 import pytest
@@ -53,3 +53,24 @@ def test_a_run_that_says_so_is_far_from_the_steady_motion_and_one_that_does_not_
     assert short["transmission_error_peak_to_peak"] > 1.2 * swing
     assert not long.get("settling_remark")
     assert long["transmission_error_peak_to_peak"] == pytest.approx(swing, rel=5e-3)
+
+
+def test_far_below_all_resonances_a_dynamic_factor_is_the_engagement_of_the_energy_method():
+    """Teeth whose loaded corners touch before the path of contact begins have none at 60 rpm."""
+    energy, elements = (
+        td.run(
+            "spur-25-51",
+            {
+                "operating.pinion_speed": "60 rpm",
+                "friction.law": "none",
+                "mesh.compliance": compliance,
+                "solver.cycles": 8,
+            },
+            progress=False,
+        ).summary
+        for compliance in ("energy", "fem")
+    )
+    assert energy["dynamic_factor"] > 1.3
+    assert "K_v 1." in energy["engagement_remark"]
+    assert elements["dynamic_factor"] < 1.05
+    assert not elements.get("engagement_remark")

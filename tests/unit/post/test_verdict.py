@@ -86,6 +86,8 @@ def test_what_to_do_goes_by_what_is_worst():
     assert "apart for 20 % of the time" in next(iter(moved(apart)))
     loud = apart | {"contact_loss_fraction": 0.0}
     assert "resonance" in next(iter(advised(loud)))
+    engaged = loud | {"engagement_remark": 'mesh.compliance = "fem" tells.'}
+    assert 'fem" tells' in next(iter(advised(engaged)))
     rough = loud | {"dynamic_factor": 1.1}
     assert "smoother flanks" in next(iter(advised(rough)))
     assert "carry much of the load" in next(iter(pressed(rough)))

@@ -19,6 +19,7 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in, single_pair
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
+from tribodyn.post.verdict import RESONANT
 from tribodyn.train.layout import TrainLayout, work_of, works_of_meshes
 from tribodyn.train.structure import (
     DAMPING,
@@ -39,6 +40,8 @@ FEEDS = 0.01
 #: Share of its swing by which the transmission error of a settled motion may change from period to period,
 #: and over several of them where it repeats after these.
 SETTLED, REPEATED = 0.05, 0.005
+#: Dynamic factor that is too large far below all resonances; share of the lowest frequency that is far below.
+KNOCK, SLOW = 1.1, 0.1
 #: What that means, by `friction.sliding`.
 ABOUT_FEEDING = {
     "kinematic": 'which kinematic sliding makes of nothing: use friction.sliding = "dynamic"',
@@ -125,6 +128,28 @@ def on_settling(errors: Sequence[np.ndarray], period: int) -> str:
         "The motion has not settled: from one mesh cycle to the next the transmission error still changes "
         f"by {100.0 * worst:.2g} % of its swing. More solver.cycles let the start fade; tribodyn sweep seeks "
         "the steady motion."
+    )
+
+
+def on_engagement(compliance: str, factor: float, frequency: float, modes: np.ndarray) -> str:
+    """Say where a dynamic factor is, or may be, the engagement of pairs at the ends of the path of contact.
+
+    `frequency` of the fastest mesh and `modes`, the natural ones, Hz, 0 of rigid motions. Far below, teeth
+    bend as in slow rotation: with constant load and speed nothing but their engagement adds to the load.
+    """
+    elastic = modes[modes > 1e-3 * np.max(modes, initial=0.0)]
+    slow = frequency < SLOW * float(np.min(elastic, initial=np.inf))
+    if compliance != "energy" or not factor > (KNOCK if slow else RESONANT):
+        return ""
+    if slow:
+        return (
+            'mesh.compliance = "fem" lets pairs engage as gradually as teeth bend: this far below all '
+            f"natural frequencies K_v {factor:.2f} is the knock of pairs that engage at once, as the energy "
+            "method has it."
+        )
+    return (
+        'mesh.compliance = "fem" tells how much of K_v is the engagement by the energy method, harder than '
+        "that of bent teeth; tribodyn sweep finds resonances to move speed or stiffness away from."
     )
 
 

@@ -173,7 +173,8 @@ def verdict(record: Record) -> list[str]:
         sentences.append(f"Mesh {name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)
         if len(sentences) == of_any.LINES - 1:
             break
-    return [*sentences, *of_any.advised({**meshes[name], **of_any.numbers(summary)})]
+    whole = {"engagement_remark": summary.get("engagement_remark"), **of_any.numbers(summary)}
+    return [*sentences, *of_any.advised({**meshes[name], **whole})]
 
 
 def of_course(

@@ -15,7 +15,7 @@ from tribodyn.gears.case import STAGES
 from tribodyn.gears.check import oil_data
 from tribodyn.gears.motion.march import record_motion, run_until_warm
 from tribodyn.gears.motion.running import RunStatistics
-from tribodyn.gears.motion.steady import limits_in, on_settling, warning_of
+from tribodyn.gears.motion.steady import limits_in, on_engagement, on_settling, warning_of
 from tribodyn.gears.sensing.signal_quantities import signal_quantities
 from tribodyn.record.reader import MESHES
 from tribodyn.record.sensors import write_sensed
@@ -104,8 +104,19 @@ def _run(case: Gearbox, path: Path, force: bool, *, progress: Progress | None) -
             return RunResult(failed, "failed", motion.stopped, summary)
         sensed = listener.sensed()
         summary |= _concluded(prepared, statistics, each, samples) | signal_quantities(sensed)
+        summary["engagement_remark"] = _engaged(case, summary, each) or None
         done = record.finish(summary, beside=partial(write_sensed, sensed))
         return RunResult(done, "complete", "", summary)
+
+
+def _engaged(case: Gearbox, summary: Mapping[str, Any], each: Sequence[Mapping[str, Any]]) -> str:
+    """Say what the engagement of pairs has to do with the largest dynamic factor; "" where loads vary."""
+    if not settles(case) or any("course" in mesh for mesh in each):
+        return ""
+    mesh, worst = max(zip(case.meshes, each, strict=True), key=lambda of: float(of[1]["dynamic_factor"]))
+    fastest = max(float(one["mesh_frequency"]) for one in each)
+    compliance = mesh.pair.mesh.compliance
+    return on_engagement(compliance, worst["dynamic_factor"], fastest, summary["mode_frequencies"])
 
 
 def of_meshes(case: Gearbox, each: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
