@@ -19,7 +19,6 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in, single_pair
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
-from tribodyn.post.verdict import RESONANT
 from tribodyn.train.layout import TrainLayout, work_of, works_of_meshes
 from tribodyn.train.structure import (
     DAMPING,
@@ -40,8 +39,9 @@ FEEDS = 0.01
 #: Share of its swing by which the transmission error of a settled motion may change from period to period,
 #: and over several of them where it repeats after these.
 SETTLED, REPEATED = 0.05, 0.005
-#: Dynamic factor that is too large far below all resonances; share of the lowest frequency that is far below.
-KNOCK, SLOW = 1.1, 0.1
+#: Dynamic factors that are too large far below all resonances, and that engagement has a part in elsewhere;
+#: share of the lowest natural frequency that is far below it.
+KNOCK, HARD, SLOW = 1.1, 1.25, 0.1
 #: What that means, by `friction.sliding`.
 ABOUT_FEEDING = {
     "kinematic": 'which kinematic sliding makes of nothing: use friction.sliding = "dynamic"',
@@ -139,7 +139,7 @@ def on_engagement(compliance: str, factor: float, frequency: float, modes: np.nd
     """
     elastic = modes[modes > 1e-3 * np.max(modes, initial=0.0)]
     slow = frequency < SLOW * float(np.min(elastic, initial=np.inf))
-    if compliance != "energy" or not factor > (KNOCK if slow else RESONANT):
+    if compliance != "energy" or not factor > (KNOCK if slow else HARD):
         return ""
     if slow:
         return (

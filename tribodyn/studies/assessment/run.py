@@ -160,7 +160,7 @@ def assessed(
         **_losses(case, found.run, done),
         **bearing_part(case.shafts, case.oil),
         "not_judged": not_judged(case.limits, case.oil.fzg),
-        "in_doubt": numbered([*_in_doubt(found.run), *_too_short(found.meshes)]),
+        "in_doubt": numbered([*_in_doubt(found.run), *_engaged(found.run), *_too_short(found.meshes)]),
     }
     scattered = [mesh for mesh in meshes.values() if mesh.samples is not None]
     if scattered:
@@ -239,6 +239,11 @@ def _in_doubt(run: Mapping[str, Any]) -> list[str]:
             if "in doubt" in line:
                 meshes_by_line.setdefault(line, []).append(name)
     return [f"Mesh {', '.join(names)}: {line[0].lower()}{line[1:]}" for line, names in meshes_by_line.items()]
+
+
+def _engaged(run: Mapping[str, Any]) -> list[str]:
+    """That K_v is, or may be, how pairs engage by the energy method, as the run says."""
+    return [f"Simulated K_v and safeties: {run[name]}" for name in ("engagement_remark",) if run.get(name)]
 
 
 def _too_short(meshes: Mapping[str, MeshFindings]) -> list[str]:
