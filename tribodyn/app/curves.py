@@ -39,6 +39,8 @@ CHARTS = (
     ),
     Chart("harmonics-motion", "motion", "harmonics", "Orders of the error, in motion", bars=True),
 )
+#: Stages that have charts.
+CHARTED = tuple(dict.fromkeys(chart.stage for chart in CHARTS))
 #: Units of stages whose arrays stand beside their results.
 _UNITS = {"transmission_error": "µm", "stiffness": "N/µm", "load": "N", "harmonics": "µm"}
 

@@ -13,7 +13,7 @@ from tribodyn.app.core.form import FormField, HeldTables, form_of, written_as
 from tribodyn.app.core.live import STAGES
 from tribodyn.app.core.offers.tables import add_table, copy_table
 from tribodyn.app.core.worker import Worker
-from tribodyn.app.curves import charts_of
+from tribodyn.app.curves import CHARTED, charts_of
 from tribodyn.app.folder import WorkFolder
 from tribodyn.app.form_view import Sliders, groups_of, held_of, values_of
 from tribodyn.app.kept import KeptDocuments
@@ -134,14 +134,15 @@ class DesignPage:
             if {"geometry", "static"} & set(stages):
                 self._show_teeth()
             for stage in stages:
-                self._show_charts(stage)
+                if stage in CHARTED:
+                    self._show_charts(stage)
             if set(stages) - {"geometry"}:
                 self._show_numbers()
-            if "late" in parts:
+            if {"busy", "late"} & set(parts):
                 self.bar.busy(self.window.late)
                 self.charts.wait(self.window.late)
-                if self._show_messages():
-                    self._fill()
+            if "late" in parts and self._show_messages():
+                self._fill()
 
     def _show_form(self) -> None:
         groups = form_of(self.window.document)
@@ -190,7 +191,7 @@ class DesignPage:
         self.charts.take(stage, charts_of(stage, result), charts_of(stage, old))
 
     def _show_all_charts(self, _said: Mapping[str, Any]) -> None:
-        for stage in STAGES:
+        for stage in CHARTED:
             self._show_charts(stage)
 
     def _show_numbers(self) -> None:

@@ -36,7 +36,7 @@ def _with_gaps(array: np.ndarray) -> list[Any]:
 
 
 def _flat(points: Any, digits: int = _DIGITS) -> list[Any]:
-    """Coordinates one after the other, rounded; a null begins a new outline."""
+    """Coordinates one after the other, rounded; null where there are none."""
     return _with_gaps(np.round(np.asarray(points, dtype=float), digits).ravel())
 
 
@@ -51,7 +51,7 @@ def pair_picture(geometry: Result, static: Result | None = None) -> dict[str, An
         {
             "name": gear["name"],
             "role": "ring" if gear["internal"] else ("pinion", "gear")[number],
-            "outline": _flat(gear["outline"]),
+            **_toothed(gear),
             "outside": _RIM * gear["root_radius"] if gear["internal"] else 0.0,
             "bore": 0.0 if gear["internal"] else gear["bore_radius"],
             "centre": [round(float(one), _DIGITS) for one in gear["centre"]],
@@ -113,6 +113,15 @@ def _normal(x: float, y: float, geometry: Result) -> tuple[float, float]:
     return float(x) / length, float(y) / length
 
 
+def _toothed(gear: Result, digits: int = _DIGITS) -> dict[str, Any]:
+    """The outline of a gear's first tooth, and how often it is turned about the axis by how much."""
+    outline, teeth = np.asarray(gear["outline"], dtype=float), int(gear["teeth"])
+    count = (len(outline) - 1) // teeth
+    (x, y), (other_x, other_y) = outline[0], outline[count]
+    sense = 1.0 if x * other_y - y * other_x > 0.0 else -1.0
+    return {"tooth": _flat(outline[:count], digits), "teeth": teeth, "pitch": sense * 2.0 * np.pi / teeth}
+
+
 def gearbox_picture(train: Result) -> dict[str, Any]:
     """Gears with their teeth at their true places, mm; meshes where their gears meet."""
     gears = {gear["name"]: gear for gear in train["gears"]}
@@ -120,7 +129,7 @@ def gearbox_picture(train: Result) -> dict[str, Any]:
     bodies = [
         {
             "name": name,
-            "outline": _flat(gear["outline"], _COARSE),
+            **_toothed(gear, _COARSE),
             "angle": float(np.degrees(gear["angle"])),
             "x": float(gear["centre"][0]),
             "y": float(gear["centre"][1]),

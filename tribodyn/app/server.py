@@ -73,6 +73,7 @@ def serve(
         lifespan="on",
         timeout_graceful_shutdown=1,
         ws_max_size=8 * 2**20,
+        ws_per_message_deflate=False,  # to this machine it takes longer than it spares
     )
     announce(address, f"http://{HOST}:{number}/{invitation}")
     with listening:

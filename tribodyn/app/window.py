@@ -4,8 +4,7 @@ Windows share nothing but the folder: each has a worker process, a history and v
 """
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from typing import Any
 
 from tribodyn.app.core.document import Document
@@ -15,8 +14,10 @@ from tribodyn.app.folder import WorkFolder
 from tribodyn.app.picture import Result
 from tribodyn.errors import InputError
 
-#: A value that is dragged is computed at most this often, s: geometry follows within 100 ms.
-_BETWEEN = 0.04
+#: A newer value waits until the teeth of the one before it are shown, s more for its quasi-static error.
+_PATIENCE = 0.05
+#: What is not to keep teeth from the browser comes so much behind them; it waits for them at most so long, s.
+_SHORTLY, _LATEST = 0.005, 0.25
 #: Seconds after which it is said what is computed.
 _SOON = 2.0
 Results = dict[str, Result]
@@ -34,7 +35,8 @@ class DesignWindow:
     worker
         Computes for this window alone.
     show
-        Called with the names of what has changed: "form", "title", "pinned", "late", or stages.
+        Called with the names of what has changed: "form", "title", "pinned", stages, "busy" (`late`), or
+        "late" (that and what is wrong).
 
     Attributes
     ----------
@@ -60,7 +62,10 @@ class DesignWindow:
         self._task: asyncio.Task[None] | None = None
         self._others: asyncio.Task[None] | None = None
         self._stale = False
-        self.bug: BaseException | None = None
+        self._coming: tuple[str, ...] = ()
+        self._drawn_at = 0.0
+        self._behind: list[str] = []
+        self.bug: Exception | None = None
         self.closed = False
 
     def close(self) -> None:
@@ -81,7 +86,7 @@ class DesignWindow:
 
     def open(self, document: Document) -> None:
         """Work on another document."""
-        self.document, self.mesh, self.results = document, "", {}
+        self.document, self.mesh, self.results, self._coming = document, "", {}, ()
         self.pinned_name = document.variants[-1].name if document.variants else ""
         self.changed(["form", "pinned", "title", *STAGES])
         self.compare()
@@ -92,21 +97,34 @@ class DesignWindow:
             self.document.set(key, value, drag=drag)
         except InputError as error:
             return error
-        self.changed(["form", "title"])
+        if drag:  # teeth come before the form
+            self._behind = ["form", "title"]
+            self._begin()
+            self.show(["busy"])
+            asyncio.get_running_loop().call_later(_LATEST, self._show_behind)
+        else:
+            self.changed(["form", "title"])
         return None
 
     def changed(self, parts: Sequence[str]) -> None:
         """Show parts, and compute what follows from the document."""
-        self.late = STAGES
-        self._stale = True
+        self._begin()
         self.show([*parts, "late"])
-        if self._task is None or self._task.done():
-            self._task = asyncio.create_task(self._follow())
+
+    def _begin(self) -> None:
+        self.late, self._stale = STAGES, True
+        self._go_on()  # the worker computes while the page is brought in step
+
+    def _show_behind(self) -> None:
+        """Show what waits until teeth are drawn."""
+        if self._behind:
+            parts, self._behind = self._behind, []
+            self.show([*parts, "late"])
 
     def choose(self, mesh: str) -> None:
         """Show another mesh of a train."""
         if mesh != self.mesh:
-            self.mesh = mesh
+            self.mesh, self._coming = mesh, ()
             self.changed([])
             self.compare()
 
@@ -157,38 +175,54 @@ class DesignWindow:
     def _request(self, text: str, mesh: str) -> LiveRequest:
         return LiveRequest(text, str(self.document.path), mesh)
 
-    async def _follow(self) -> None:
-        """Compute the newest state; a newer one ends the computation of an older one."""
-        while self._stale and not self.closed:
-            self._stale, self.late = False, STAGES
-            request = self._request(self.document.text, self.mesh)
-            computing = asyncio.create_task(self._compute(request))
-            with suppress(asyncio.CancelledError):
-                while not computing.done():
-                    await asyncio.wait([computing], timeout=_BETWEEN)
-                    # the first picture of each value is seen, also while it is dragged
-                    if self._stale and ("geometry" not in self.late or computing.done()):
-                        computing.cancel()
-                        break
-            if computing.done() and not computing.cancelled():
-                self.bug = computing.exception()
-                if self.bug is not None:
-                    self.late = ()
-                    self.show(["late"])
+    def _go_on(self) -> None:
+        """Compute the newest state once the older one has had its share; a computation of that ends."""
+        if not self._stale or self.closed or "geometry" in self._coming:
+            return
+        if "static" in self._coming:
+            loop = asyncio.get_running_loop()
+            left = self._drawn_at + _PATIENCE - loop.time()
+            if left > 0.0:
+                loop.call_later(left, self._go_on)
+                return
+        self._stale, self._coming = False, STAGES
+        results = self._worker.results(self._request(self.document.text, self.mesh))
+        self._task = asyncio.create_task(self._take(results))
 
-    async def _compute(self, request: LiveRequest) -> None:
+    async def _take(self, results: AsyncIterator[Result]) -> None:
+        """Show the results of a state as they come, until they end or a newer state is computed."""
+        this = asyncio.current_task()
+        self.bug = None
         self.results.pop("", None)
-        async for result in self._worker.results(request):
-            stage = result["stage"]
-            self.late = tuple(one for one in self.late if one != stage)
-            if result.get("ok") or stage not in self.results:
-                self.results[stage] = result
-            else:  # the last picture stays, and what is wrong is said
-                self.results[stage] = {**self.results[stage], **_complaint(result)}
-            self.show([stage, "late"])
+        try:
+            async for result in results:
+                if self._task is this:
+                    self._take_one(result)
+        except Exception as error:
+            self.bug = error
+        if self._task is not this:
+            return
+        self._coming = ()
         if not self._stale:
             self.late = ()
             self.show(["late"])
+        self._go_on()
+
+    def _take_one(self, result: Result) -> None:
+        stage = result["stage"]
+        self._coming = tuple(one for one in self._coming if one != stage)
+        if stage == "geometry":
+            loop = asyncio.get_running_loop()
+            self._drawn_at = loop.time()
+            loop.call_later(_SHORTLY, self._show_behind)
+        self._go_on()
+        if not self._stale:
+            self.late = tuple(one for one in self.late if one != stage)
+        if result.get("ok") or stage not in self.results:
+            self.results[stage] = result
+        else:  # the last picture stays, and what is wrong is said
+            self.results[stage] = {**self.results[stage], **_complaint(result)}
+        self.show([stage, "busy" if self._behind else "late"])
 
     def columns(self) -> list[tuple[str, Results]]:
         """The present state and every variant with their results."""

@@ -110,6 +110,7 @@ def train_geometry(case: Gearbox) -> dict[str, Any]:
                 "name": gear.name,
                 "body": case.bodies[gear.body].name,
                 "outline": outlines[id(shape)],
+                "teeth": shape.teeth,
                 "centre": [part.centre[0] / MILLIMETRE, part.centre[1] / MILLIMETRE],
                 "angle": part.angle,
                 "turn": turning[gear.body],

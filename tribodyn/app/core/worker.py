@@ -78,10 +78,10 @@ class Worker:
         with self._lock:
             return AtWork(self._stage, monotonic() - self._since, self._share)
 
-    async def results(
+    def results(
         self, request: LiveRequest, stages: tuple[str, ...] = STAGES
     ) -> AsyncIterator[dict[str, Any]]:
-        """The results of `submit` one after the other; they end early where a newer request is made."""
+        """The results of `submit`, which is called at once; they end early where a newer request is made."""
         loop = asyncio.get_running_loop()
         queue: asyncio.Queue[dict[str, Any] | None] = asyncio.Queue()
 
@@ -90,8 +90,7 @@ class Worker:
                 loop.call_soon_threadsafe(queue.put_nowait, result)
 
         self.submit(request, put, stages, lambda: put(None))
-        while (result := await queue.get()) is not None:
-            yield result
+        return _until_none(queue)
 
     def close(self) -> None:
         """End the process."""
@@ -181,3 +180,8 @@ class Worker:
                     stuck = self._process
                     self._ready = False
                     child.end(stuck)  # who listens to it begins anew
+
+
+async def _until_none(queue: "asyncio.Queue[dict[str, Any] | None]") -> AsyncIterator[dict[str, Any]]:
+    while (result := await queue.get()) is not None:
+        yield result

@@ -16,8 +16,12 @@ export default {
   computed: {
     outlines() {
       return this.bodies.map((body) => {
+        const tooth = [...body.tooth], { teeth, pitch } = body; // plain numbers: Vue watches what is read of others
         let text = "";
-        for (let k = 0; k + 1 < body.outline.length; k += 2) text += (k ? "L" : "M") + body.outline[k] + " " + body.outline[k + 1];
+        for (let n = 0; n < teeth; n++) {
+          const c = Math.cos(n * pitch), s = Math.sin(n * pitch);
+          for (let k = 0; k < tooth.length; k += 2) text += (text ? "L" : "M") + (c * tooth[k] - s * tooth[k + 1]).toFixed(2) + " " + (s * tooth[k] + c * tooth[k + 1]).toFixed(2);
+        }
         const r = body.radius;
         return text + "Z" + (r > 0 ? "M" + r + " 0A" + r + " " + r + " 0 1 0 " + -r + " 0A" + r + " " + r + " 0 1 0 " + r + " 0Z" : "");
       });

@@ -8,6 +8,16 @@ const place = (points) => {
   }
   return text + "Z";
 };
+// the outline of a gear: its tooth, turned about the axis
+const toothed = (body) => {
+  const tooth = [...body.tooth], { teeth, pitch } = body; // plain numbers: Vue watches what is read of others
+  let text = "";
+  for (let n = 0; n < teeth; n++) {
+    const c = Math.cos(n * pitch), s = Math.sin(n * pitch);
+    for (let k = 0; k < tooth.length; k += 2) text += (text ? "L" : "M") + (c * tooth[k] - s * tooth[k + 1]).toFixed(3) + " " + (s * tooth[k] + c * tooth[k + 1]).toFixed(3);
+  }
+  return text + "Z";
+};
 const circle = (r) => "M" + r + " 0A" + r + " " + r + " 0 1 0 " + -r + " 0A" + r + " " + r + " 0 1 0 " + r + " 0Z";
 const open = (points) => place(points).slice(0, -1);
 const degrees = 180 / Math.PI;
@@ -38,8 +48,8 @@ export default {
   props: { picture: Object, pinned: Object, label: String, empty: String },
   data() { return { angle: 0, zoom: 1, shift: [0, 0], playing: false, held: null }; },
   computed: {
-    outlines() { return this.picture.bodies.map((body) => place(body.outline) + (body.outside || body.bore ? circle(body.outside || body.bore) : "")); },
-    pinnedOutlines() { return this.pinned.bodies.map((body) => place(body.outline)); },
+    outlines() { return this.picture.bodies.map((body) => toothed(body) + (body.outside || body.bore ? circle(body.outside || body.bore) : "")); },
+    pinnedOutlines() { return this.pinned.bodies.map(toothed); },
     path() { return open(this.picture.path); },
     pinnedPath() { return open(this.pinned.path); },
     // half the width that is seen, mm
