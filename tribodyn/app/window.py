@@ -15,7 +15,7 @@ from tribodyn.app.picture import Result
 from tribodyn.errors import InputError
 
 #: A newer value waits until the teeth of the one before it are shown, s more for its quasi-static error.
-_PATIENCE = 0.05
+_PATIENCE = 0.03
 #: What is not to keep teeth from the browser comes so much behind them; it waits for them at most so long, s.
 _SHORTLY, _LATEST = 0.005, 0.25
 #: Seconds after which it is said what is computed.
@@ -212,9 +212,7 @@ class DesignWindow:
         stage = result["stage"]
         self._coming = tuple(one for one in self._coming if one != stage)
         if stage == "geometry":
-            loop = asyncio.get_running_loop()
-            self._drawn_at = loop.time()
-            loop.call_later(_SHORTLY, self._show_behind)
+            self._drawn_at = asyncio.get_running_loop().time()
         self._go_on()
         if not self._stale:
             self.late = tuple(one for one in self.late if one != stage)
@@ -223,6 +221,9 @@ class DesignWindow:
         else:  # the last picture stays, and what is wrong is said
             self.results[stage] = {**self.results[stage], **_complaint(result)}
         self.show([stage, "busy" if self._behind else "late"])
+        if self._behind:
+            wait = _PATIENCE if stage == "geometry" else _SHORTLY
+            asyncio.get_running_loop().call_later(wait, self._show_behind)
 
     def columns(self) -> list[tuple[str, Results]]:
         """The present state and every variant with their results."""

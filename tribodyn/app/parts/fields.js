@@ -66,22 +66,26 @@ export default {
   emits: ["edit", "unset", "unit", "ready", "add", "copy", "remove"],
   mounted() { this.$emit("ready"); },
   data() {
-    return { values: {}, errors: {}, ranges: {}, absent: false, wanted: "", about: "", open: {}, all: {}, local: {}, adding: "", called: "", name: "tb" + ++forms };
+    return { values: {}, errors: {}, ranges: {}, written: "", absent: false, wanted: "", about: "", open: {}, all: {}, local: {}, adding: "", called: "", name: "tb" + ++forms };
   },
   computed: {
     chosen() { return this.held.find((one) => one.path === this.adding); },
     found() { return this.groups.reduce((sum, group) => sum + this.shown(group).length, 0); },
+    // the fields of every group that are shown, looked for once while a value is dragged
+    lists() { return new Map(this.groups.map((group) => [group.path, this.matching(group)])); },
+    given() { return new Set(this.written.split("\n")); },
   },
   methods: {
     id(field) { return this.name + "-" + field.path.replace(/[^A-Za-z0-9]/g, "-"); },
     described(field) { return this.errors[field.path] ? this.id(field) + "-error" : this.id(field) + "-about"; },
-    isSet(field) { return Boolean(this.values[field.path] && this.values[field.path][2]); },
+    isSet(field) { return this.given.has(field.path); },
     text(field) {
       if (field.path in this.local) return this.local[field.path];
       return this.values[field.path] ? this.values[field.path][0] : "";
     },
     unit(field) { return (this.values[field.path] && this.values[field.path][1]) || field.unit; },
-    shown(group) {
+    shown(group) { return this.lists.get(group.path) || []; },
+    matching(group) {
       const words = this.wanted.toLowerCase().split(/\s+/).filter(Boolean);
       return group.fields.filter((field) => {
         if (this.errors[field.path]) return true;
@@ -149,7 +153,9 @@ export default {
       this.$emit("edit", { path: field.path, text: text, dragging: false });
     },
     take(values, errors, ranges) {
-      this.values = values; this.errors = errors; this.ranges = ranges;
+      // Vue does not watch what is frozen, and draws what depends on these alone where one of them is another
+      for (const [name, now] of Object.entries({ values, errors, ranges })) if (JSON.stringify(this[name]) !== JSON.stringify(now)) this[name] = Object.freeze(now);
+      this.written = Object.keys(values).filter((path) => values[path][2]).join("\n");
       clearTimeout(this.waiting);
       this.waiting = null;
       this.next();
