@@ -18,32 +18,29 @@ Lumping: at the operating load the slices that touch are solved together. Each s
 compliance and the gap that give it the same load, and the same change of load while the gears turn.
 """
 
+import dataclasses
 from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.energy import LoadedTooth, loaded_tooth, tooth_compliance, under_uneven_load
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, MaterialData
-from tribodyn.geometry.helix import normal_module
+from tribodyn.geometry.drive import MaterialData
+from tribodyn.geometry.modification import UNMODIFIED
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import normal_arms
+from tribodyn.mesh.slices.held import ROWS, FrontSlots, kept_matrices, matrices
 from tribodyn.mesh.slices.helical import SliceLayout, tabulate_slices
 from tribodyn.mesh.table import MeshData
-from tribodyn.mesh.tabulate import RollCurve, body_coupling
-from tribodyn.numerics.elementary import absolute, cos, is_jax, maximum, namespace, sqrt, within
+from tribodyn.numerics.elementary import absolute, is_jax, maximum, namespace, within
 from tribodyn.numerics.iteration import by_rows, newton
 from tribodyn.numerics.processes.libraries import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float
 
-#: ℓ_t and ℓ_b over the normal module.
-TEETH_LENGTH, BODIES_LENGTH = 1.4, 3.0
 # Loads, over the mean, below which the contact is linearised there; and the least part of an approach that
 # a slice's own contact takes, and leaves.
 _SMALL, _LEAST = 0.05, 0.02
 _STEPS = 15
-_ROWS = 32  # nodes that are solved at a time
-_WAVES = 4  # waves of the face per slice
+_KEPT_SIZE = 4_000_000  # entries of matrices that are kept at most
 
 
 def tabulate_helical(
@@ -94,56 +91,34 @@ def couple_slices(
     Driving flanks at the torque. Back flanks keep the compliance of slices by themselves. Of a traced table
     `touching` is the greatest number of slots that touch at once, 0: all may.
     """
-    fronts, slices = cycle.front_slots, cycle.slices
+    fronts = cycle.front_slots
     front = np.s_[0, :, :fronts]
-    r = cycle.signed_distance[front]
-    loaded = [loaded_tooth(assembly, side, mesh.held) for side in SIDES]
-    teeth, even, even_between = _parts(assembly, materials, mesh, loaded, r, slices)
-    contact_compliance = cycle.compliance[front] - slices * (teeth + even)  # of the contact alone
-    uneven = loaded if mesh.held else [under_uneven_load(tooth) for tooth in loaded]
-    _, bodies, between = _parts(assembly, materials, mesh, uneven, r, slices)
-    arms = normal_arms(cycle)[front]
-    force = absolute(gear_torque / cycle.gear_pitch_radius)
-    share = cycle.share[front]
-    width = assembly.common_width / cos(assembly.drive.helix_angle)
-    wave = np.pi * np.arange(_WAVES * slices) / width * normal_module(assembly.drive)
-    falling = 1.0 / (1.0 + (TEETH_LENGTH * wave) ** 2), 1.0 / (1.0 + BODIES_LENGTH * wave)
-    xp = namespace(*cycle, force, wave)
-    # a slice touches with its early part while it enters, with its late part while it leaves
-    middle = (np.arange(share.shape[1]) % slices + 0.5 + xp.sign(r) * (1.0 - share) / 2.0) / slices
-
-    def at_nodes(rows: Any) -> list[Any]:
-        slot, between, even_between, compliance, gaps, *fields = rows
-        at = np.arange(len(slot))[:, None]
-        gap, line, body, whole, contact, arm, part, place = (field[at, slot] for field in (gaps, *fields))
-        along = spread(place, part, falling, slices)
-        matrix = slices * _matrix(line, body, between, along, slot)
-        if not mesh.held:  # what a load over the whole face does not meet
-            over_face, same = _by_slots(even_between - between, slot)
-            bodies_over_face = whole - body
-            matrix = matrix + (
-                over_face + same * (bodies_over_face[:, :, None] + bodies_over_face[:, None, :]) / 2.0
-            )
-        lumped = _lumped(matrix, contact, arm, gap, part, force, cycle.hertz_coefficient)
-        table = compliance, gaps
-        return [_put(xp, field, at, slot, value) for field, value in zip(table, lumped, strict=True)]
-
-    near, gap = _near_contact(share, touching), cycle.gap[front]
-    fields = (
-        near,
-        between,
-        even_between,
-        cycle.compliance[front],
-        gap,
-        teeth,
-        bodies,
-        even,
-        contact_compliance,
-        arms,
-        share,
-        middle,
+    near = _near_contact(cycle.share[front], touching)
+    seen = FrontSlots(
+        *(getattr(cycle, name)[front] for name in ("signed_distance", "compliance", "share")),
+        normal_arms(cycle)[front],
+        cycle.slices,
     )
-    parts = by_rows(at_nodes, fields, _ROWS)
+    force = absolute(gear_torque / cycle.gear_pitch_radius)
+    xp = namespace(*cycle, force)
+
+    def lumped(rows: Any) -> list[Any]:
+        slot, compliance, gaps, *held = rows
+        at = np.arange(len(slot))[:, None]
+        matrix, contact, arm, part = held
+        found = _lumped(matrix, contact, arm, gaps[at, slot], part, force, cycle.hertz_coefficient)
+        table = compliance, gaps
+        return [_put(xp, field, at, slot, value) for field, value in zip(table, found, strict=True)]
+
+    fields = near, seen.compliance, cycle.gap[front]
+    plain = dataclasses.replace(mesh, modifications=UNMODIFIED)
+    if xp is np and near.size * near.shape[1] <= _KEPT_SIZE:
+        parts = by_rows(lumped, (*fields, *kept_matrices(assembly, materials, plain, seen, near)), ROWS)
+    else:
+        makers, made_of = matrices(assembly, materials, plain, seen, near)
+        parts = by_rows(
+            lambda rows: lumped([*rows[:3], *makers([rows[0], *rows[3:]])]), (*fields, *made_of), ROWS
+        )
     whole = {
         name: xp.concatenate([part, getattr(cycle, name)[0, :, fronts:]], axis=1)[None]
         for name, part in zip(("compliance", "gap"), parts, strict=True)
@@ -176,90 +151,6 @@ def _put(xp: Any, whole: Any, at: Any, slot: Any, value: Any) -> Any:
     result = np.array(whole)
     result[at, slot] = value
     return result
-
-
-def spread(
-    middle: Float[Array, "*node slot"],
-    share: Float[Array, "*node slot"],
-    factors: tuple[Float[Array, " wave"], ...],
-    slices: int,
-) -> list[Float[Array, "*node slot slot"]]:
-    """Share of what a slice's load moves at another, of compliances that fall by factors with the wave.
-
-    The waves are the cosines of the face, from the even one on; middles of the parts that touch are over its
-    width. Of slices that touch over their whole width the shares of all loads sum up to 1.
-    """
-    xp, number = namespace(middle, share, *factors), np.arange(len(factors[0]))
-    if xp is np and middle.ndim > 1:  # slices that touch over their whole width are the same at all nodes
-        parts, place = np.unique(middle + 1j * share, return_inverse=True)
-        place = place.reshape(middle.shape)
-        at = place[..., :, None], place[..., None, :]
-        return [one[at] for one in spread(np.real(parts), np.imag(parts), factors, slices)]
-    basis = xp.cos(np.pi * number * middle[..., None]) * xp.sinc(number * share[..., None] / (2.0 * slices))
-    weight = np.where(number > 0, 2.0, 1.0) / slices
-    return [(basis * (weight * factor)) @ xp.swapaxes(basis, -1, -2) for factor in factors]
-
-
-def _parts(
-    assembly: Assembly,
-    materials: tuple[MaterialData, MaterialData],
-    mesh: MeshData,
-    tooth: list[LoadedTooth],
-    r: Float[Array, "node slot"],
-    slices: int,
-) -> tuple[Float[Array, "node slot"], Float[Array, "node slot"], Float[Array, "node slice pair pair"]]:
-    """Compliance of teeth and of bodies (N, Q) under a load over the whole face, and between pairs, m/N."""
-    curve = RollCurve(*assembly.roll_limits)
-    width = assembly.common_width
-    nodes = assembly.path.signed_distance(curve.nodes())
-    parts = [
-        tooth_compliance(t, m, width, nodes, mesh.foundation) for t, m in zip(tooth, materials, strict=True)
-    ]
-    bodies = parts[0].foundation + parts[1].foundation
-    teeth = parts[0].total + parts[1].total - bodies
-    loads = [part.root_load for part in parts]
-    together = namespace(teeth, bodies, *loads).concatenate(
-        [teeth[..., None], bodies[..., None], *loads], axis=-1
-    )
-    channels = curve.interpolate(together, assembly.path.rotation(r))
-    pairs = r.shape[1] // slices
-    between = np.zeros((r.shape[0], slices, pairs, pairs))
-    if mesh.foundation_coupling:
-        load = channels[..., 2:].reshape(r.shape[0], pairs, slices, 6).swapaxes(1, 2)
-        between = between + body_coupling(tooth, materials, load[..., :3], load[..., 3:], pairs)
-    return channels[..., 0], channels[..., 1], between
-
-
-def _matrix(
-    teeth: Float[Array, "node place"],
-    bodies: Float[Array, "node place"],
-    between: Float[Array, "node slice pair pair"],
-    along: list[Float[Array, "node place place"]],
-    slot: Any,
-) -> Float[Array, "node place place"]:
-    """Deflection of slots per load on slots over the number of slices, without the contact.
-
-    `slot` (node, place): the slots' numbers.
-    """
-    matrix, same = _by_slots(between, slot)
-    matrix = matrix * along[1]
-    for part, spreading in zip((teeth, bodies), along, strict=True):
-        root = sqrt(part)
-        matrix = matrix + same * root[:, :, None] * spreading * root[:, None, :]
-    return matrix
-
-
-def _by_slots(between: Float[Array, "node slice pair pair"], slot: Any) -> tuple[Any, Any]:
-    """What couples pairs in a slice as between slots, in the mean of both slices; and whether of one pair."""
-    _, slices, pairs, _ = between.shape
-    pair, part = slot // slices, slot % slices
-    # places in the array laid out flat: to take them is faster than by four indices
-    at = (np.arange(len(slot))[:, None] * slices + part) * pairs**2
-    one, other = pair[:, :, None], pair[:, None, :]
-    both = one * pairs + other
-    flat = between.reshape(-1)
-    matrix = flat[at[:, :, None] + both] + flat[at[:, None, :] + both]
-    return matrix / 2.0, one == other
 
 
 def _lumped(
@@ -322,7 +213,8 @@ def _solve(
     right: Float[Array, "node slot side"],
 ) -> Float[Array, "node slot side"]:
     """Loads under which the active slots, each with its contact, deflect so far; of the others 0."""
-    identity = np.eye(contact.shape[1])
-    left = active[:, :, None] * (weighed + identity * contact[:, :, None]) * active[:, None, :]
-    left = left + identity * (1.0 - active)[:, :, None]
+    xp = namespace(weighed, contact, active)
+    alone = xp.where(active > 0.0, xp.diagonal(weighed, axis1=-2, axis2=-1) + contact, 1.0)
+    among = weighed * (active[:, :, None] * active[:, None, :])
+    left = xp.where(np.eye(contact.shape[1], dtype=bool), alone[:, :, None], among)
     return namespace(left, right).linalg.solve(left, active[..., None] * right)

@@ -44,40 +44,58 @@ def slice_gap(
     return gap
 
 
+class SeenPart(NamedTuple):
+    """Where flanks of driving (`side` 1) or back pairs touch at one of the points of a mean along slices."""
+
+    side: int
+    slots: Any
+    weight: float
+    geometry: PairGeometry
+    place: Any  # z, m
+
+
+def seen_parts(
+    assembly: Assembly, extent: TouchingPart, distance: Callable[[Any], Any], slots: tuple[int, int]
+) -> list[SeenPart]:
+    """Where slices touch at all points of the mean along them; plain numbers only.
+
+    `distance` gives r (m) of roll angles; `slots`: how many are of driving flanks, and of a pair.
+    """
+    hand, (fronts, slices) = _hand(assembly), slots
+    width = float(assembly.common_width) / slices
+    seen = []
+    for side, part in ((1, np.s_[..., :fronts]), (-1, np.s_[..., fronts:])):
+        roll, place, share = (field[part] for field in extent)
+        for at, weight in zip(_AT, _WEIGHT, strict=True):
+            offset = at * share * width
+            r = distance(roll - side * hand * roll_shift(assembly, offset))
+            geometry = PairGeometry(kinematics(assembly.path, r), np.zeros_like(r), r, r, r, r)
+            seen.append(SeenPart(side, part, weight, geometry, place + offset))
+    return seen
+
+
 def modified_gap(
-    assembly: Assembly,
-    mesh: table.MeshData,
-    extent: TouchingPart,
-    distance: Callable[[Any], Any],
-    slope: Any,
-    slots: tuple[int, int],
+    assembly: Assembly, mesh: table.MeshData, seen: Callable[[], list[SeenPart]], slope: Any, shape: Any
 ) -> Any:
     """Mean along each slice of what is taken off the flanks, and of misalignment, m along the true normal.
 
-    `distance` gives r (m) of roll angles; `slots`: how many are of driving flanks, and of a pair. With the
-    mean over the part that touches, the loads of slices add up to what the line of contact carries, wherever
-    its ends and the kinks of reliefs are in a slice. Plain numbers only where there is something. Raises
-    InputError where teeth differ.
+    With the mean over the part that touches, the loads of slices add up to what the line of contact carries,
+    wherever its ends and the kinks of reliefs are in a slice. Plain numbers only where there is something.
+    Raises InputError where teeth differ.
     """
     if mesh.modifications == UNMODIFIED:
         return 0.0
     for broken in uneven_teeth(mesh.modifications):
         raise broken
     # the table is of a right-hand pinion: a left-hand one looked at from its other end face
-    hand = 1 if assembly.drive.helix_angle >= 0.0 else -1
-    front = mesh.modifications if hand > 0 else turned_round(mesh.modifications)
+    front = mesh.modifications if _hand(assembly) > 0 else turned_round(mesh.modifications)
     behind = back_flanks(front, float(assembly.path.pressure_angle(0.0)))
-    fronts, slices = slots
-    total = np.zeros(np.shape(extent.roll))
-    width = float(assembly.common_width) / slices
-    for side, part, flanks in (
-        (1, np.s_[..., :fronts], front),
-        (-1, np.s_[..., fronts:], behind),
-    ):
-        roll, place, share = (field[part] for field in extent)
-        for at, weight in zip(_AT, _WEIGHT, strict=True):
-            offset = at * share * width
-            r = distance(roll - side * hand * roll_shift(assembly, offset))
-            seen = PairGeometry(kinematics(assembly.path, r), np.zeros_like(r), r, r, r, r)
-            total[part] += weight * oblique_gap(assembly, flanks, seen, place + offset, slope, side)
+    total = np.zeros(shape)
+    for side, slots, weight, geometry, place in seen():
+        flanks = front if side > 0 else behind
+        total[slots] += weight * oblique_gap(assembly, flanks, geometry, place, slope, side)
     return total
+
+
+def _hand(assembly: Assembly) -> int:
+    return 1 if assembly.drive.helix_angle >= 0.0 else -1

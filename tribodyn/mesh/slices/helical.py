@@ -17,7 +17,8 @@ further on by as much: mirrored, the hand of the helix is the other one.
 
 import dataclasses
 import math
-from functools import lru_cache, partial
+from collections.abc import Callable
+from functools import cache, lru_cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -35,10 +36,11 @@ from tribodyn.geometry.helix import (
     pitch_slope,
     speed_share,
 )
+from tribodyn.geometry.modification import UNMODIFIED
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.slices.gaps import TouchingPart, modified_gap, slice_gap
+from tribodyn.mesh.slices.gaps import SeenPart, TouchingPart, modified_gap, seen_parts, slice_gap
 from tribodyn.mesh.tabulate import (
     RollCurve,
     check_options,
@@ -47,6 +49,7 @@ from tribodyn.mesh.tabulate import (
     tabulate,
 )
 from tribodyn.numerics.elementary import absolute, is_jax, maximum, minimum, namespace, within
+from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float
 
 #: Nodes over which a slice comes into contact; fewer where a table would grow beyond `MAXIMUM_NODES`.
@@ -55,6 +58,7 @@ MAXIMUM_NODES = 1025
 #: Minimum number of slices of a helical pair.
 MINIMUM_SLICES = 3
 _BESIDE = 1e-6  # pitches by which nodes for extremes stand off the kinks
+_KEPT = 6  # tables without modifications, whose gaps alone a relief changes
 _POINTS, _FEWEST = 300, 8  # nodes of a mean altogether, about, and between two kinks at least
 
 
@@ -115,6 +119,21 @@ def tabulate_slices(
     check_options(assembly, mesh, bool(layout.back))
     if not is_jax(assembly.drive.helix_angle) and assembly.drive.helix_angle == 0.0:
         return _spur_slices(assembly, materials, mesh, layout)
+    plain = dataclasses.replace(mesh, modifications=UNMODIFIED)
+    cycle, seen = _unmodified(assembly, materials, plain, layout, phase)
+    opened = modified_gap(assembly, mesh, seen, cycle.pitch_slope, cycle.compliance.shape)
+    return cycle._replace(gap=cycle.gap + opened)
+
+
+@remembered(_KEPT)
+def _unmodified(
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: table.MeshData,
+    layout: SliceLayout,
+    phase: Float[Array, " node"] | None,
+) -> tuple[MeshCycle, Callable[[], list[SeenPart]]]:
+    """The table of helical flanks without modifications, and what gives the places where these would be."""
     path = assembly.path
     at, share, place = _slots(assembly, layout, phase)
     slope = absolute(pitch_slope(assembly))
@@ -122,7 +141,6 @@ def tabulate_slices(
     r_nodes = path.signed_distance(curve.nodes())
     distance = partial(distance_at_roll, assembly, curve, r_nodes)
     r = distance(at.roll)
-    slots = layout.pairs * layout.slices, layout.slices
     motion = kinematics(path, r)
     faces = Faces(slope, normal_slope(slope, motion.pressure_angle), line_stretch(slope, path, r))
     speed = speed_share(slope, path, r)
@@ -133,20 +151,21 @@ def tabulate_slices(
         table.Elasticity(
             compliance_of_slices(assembly, materials, mesh, curve, r_nodes, at.roll, faces, layout),
             np.zeros((*at.phase.shape, 1, 1)),
-            slice_gap(assembly, mesh, at, motion, slope, layout.back)
-            + modified_gap(assembly, mesh, TouchingPart(at.roll, place, share), distance, slope, slots),
+            slice_gap(assembly, mesh, at, motion, slope, layout.back),
             _hertz_coefficient(assembly, materials, mesh, slope, layout.slices),
             line_load_friction=1.0 / faces.stretch,
             line_load_peak=1.0 / faces.stretch,
         ),
     )
-    return cycle._replace(
+    cycle = cycle._replace(
         equivalent_radius=cycle.equivalent_radius / curvature_share(slope, path, r),
         share=share,
         face_position=face_positions(assembly.common_width, layout.slices),
         face_place=place,
         pitch_slope=slope,
     )
+    slots, extent = (layout.pairs * layout.slices, layout.slices), TouchingPart(at.roll, place, share)
+    return cycle, cache(lambda: seen_parts(assembly, extent, distance, slots))
 
 
 def _spur_slices(
@@ -168,10 +187,9 @@ def _spur_slices(
     even = np.ones_like(cycle.compliance)
     place = np.tile(cycle.face_position, even.shape[-1] // count) * even
     rolls = assembly.path.rotation(cycle.signed_distance)
-    extent = TouchingPart(rolls, place, even)
-    gap = cycle.gap + modified_gap(
-        assembly, mesh, extent, assembly.path.signed_distance, 0.0, (layout.pairs * count, count)
-    )
+    extent, slots = TouchingPart(rolls, place, even), (layout.pairs * count, count)
+    seen = partial(seen_parts, assembly, extent, assembly.path.signed_distance, slots)
+    gap = cycle.gap + modified_gap(assembly, mesh, seen, 0.0, rolls.shape)
     return cycle._replace(
         compliance=cycle.compliance * count,
         hertz_coefficient=pair.hertz_coefficient * count**0.9,

@@ -22,7 +22,8 @@ from tribodyn.geometry.modification import (
 )
 from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
-from tribodyn.mesh.slices.coupled import BODIES_LENGTH, TEETH_LENGTH, couple_slices, spread
+from tribodyn.mesh.slices.coupled import couple_slices
+from tribodyn.mesh.slices.held import BODIES_LENGTH, TEETH_LENGTH, spread
 
 MATERIALS = (STEEL, STEEL)
 TORQUE = 300.0

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from tribodyn.compliance.energy import hertz_linear, tooth_compliance, under_uneven_load
-from tribodyn.mesh.slices.coupled import BODIES_LENGTH, TEETH_LENGTH, spread
+from tribodyn.mesh.slices.held import BODIES_LENGTH, TEETH_LENGTH, spread
 from tribodyn.mesh.teeth.damage.gear import CLEAR, DamagedGear, arc, strips
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields, height_share, sound
 from tribodyn.numerics.shapes import Array, Float
