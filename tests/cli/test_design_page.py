@@ -21,6 +21,7 @@ from tests.support.design_page import (
     served,
 )
 from tests.support.verbs import complaint, invoke
+from tribodyn.app.core.document import Document
 from tribodyn.record.reader import Record
 
 SWING = "transmission_error_peak_to_peak"
@@ -235,6 +236,32 @@ def status(host: str, path: str, headers: dict[str, str]) -> int:
     found = connection.getresponse().status
     connection.close()
     return found
+
+
+def test_a_run_of_minutes_leaves_undo_typing_and_scrolling_free(chromium, address, folder):
+    document = Document.open("spur-25-51")
+    document.set("solver.cycles", 40_000)
+    document.set("output.window", [0, 1])
+    page = opened(chromium, f"{address}?state={document.link()}", wait=False)
+    running = '.tb-busy.on[data-late^="motion"]'  # teeth and quasi-static error are there
+    page.wait_for_selector(running)
+    shift = "drive.pinion.profile_shift"
+    page.get_by_label("Find a field").fill("profile shift")
+    before, drawn = entry(page, shift).input_value(), page.locator(".tb-teeth path.tb-body").first
+    outline = drawn.get_attribute("d")
+    entry(page, shift).fill("0.31")
+    eventually(page, lambda: drawn.get_attribute("d") != outline)
+    page.wait_for_selector(running)
+    page.get_by_role("button", name="Undo").click()
+    eventually(page, lambda: entry(page, shift).input_value() == before)
+    eventually(page, lambda: drawn.get_attribute("d") == outline)
+    page.wait_for_selector(running)
+    page.mouse.move(640, 600)
+    page.mouse.wheel(0, 500)
+    eventually(page, lambda: page.evaluate("window.scrollY") > 0)
+    assert page.locator(running).count() == 1
+    assert page.faults == []
+    page.close()
 
 
 def test_a_killed_server_leaves_what_was_saved_and_no_process(chromium, tmp_path):

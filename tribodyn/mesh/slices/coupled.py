@@ -93,12 +93,9 @@ def couple_slices(
     """
     fronts = cycle.front_slots
     front = np.s_[0, :, :fronts]
-    near = _near_contact(cycle.share[front], touching)
-    seen = FrontSlots(
-        *(getattr(cycle, name)[front] for name in ("signed_distance", "compliance", "share")),
-        normal_arms(cycle)[front],
-        cycle.slices,
-    )
+    along, compliance, share = cycle.signed_distance[front], cycle.compliance[front], cycle.share[front]
+    near = _near_contact(share, touching)
+    seen = FrontSlots(along, compliance, share, normal_arms(cycle)[front], cycle.slices)
     force = absolute(gear_torque / cycle.gear_pitch_radius)
     xp = namespace(*cycle, force)
 
