@@ -23,6 +23,9 @@ class MaterialData:
     contact_stress_limit: float | None = None
     bending_stress_limit: float | None = None
     yield_strength: float | None = None  # of the root, Pa; None: estimated from the hardness
+    #: depth of 550 HV, m, and hardness of the core, Pa, of a case-hardened gear; None: no flank fracture
+    case_depth: float | None = None
+    core_hardness: float | None = None
 
 
 @dataclass(frozen=True)

@@ -42,6 +42,11 @@ _PARTS = {
     "bending": _Formulas("ISO 6336-3:2006 and :2019, method B", "RootSection BendingGear"),
     "contact_path": _Formulas("ISO/TR 15144-1:2014, clauses 8 to 11", "ContactPath"),
     "fatigue": _Formulas("ISO 6336-6:2019", "StressCurve Bin"),
+    "flank_fracture": _Formulas(
+        "ISO/TS 6336-4:2019, constants by printed exposures",
+        "HardenedCase",
+        module="case_hardening.flank_fracture",
+    ),
     "flank_tolerances": _Formulas("ISO 1328-1:2013 and :1995"),
     "fzg": _Formulas("ISO 14635-1, ISO/TR 15144-1:2014 annex A, ISO/TS 6336-20 and -21:2017"),
     "load_factors": _Formulas("ISO 6336-1:2019", "FlankRunIn DynamicMesh"),
@@ -63,8 +68,9 @@ _PARTS = {
 #: Kind of quantity -> the arguments that are of it; all others are plain numbers.
 _ARGUMENTS = {
     units.LENGTH: (
-        "arm ball_diameter before base_diameter base_radii base_radius centre_distance contact_length "
-        "deviation diameter distance face_width half_width mean_diameter mean_roughness middle_diameter "
+        "arm ball_diameter before base_diameter base_radii base_radius case_depth centre_distance "
+        "contact_length depth depths deviation diameter distance face_width half_width mean_diameter "
+        "mean_roughness middle_diameter "
         "misalignment missing_relief module most normal_module notch_radius pinion_diameter pitch_deviation "
         "pitch_diameter pitch_radius profile_deviation radius reference_diameter reduced_radius "
         "reference_radius roller_diameter roughness thickness tip_radius tip_radii tip_relief tolerance "
@@ -75,9 +81,9 @@ _ARGUMENTS = {
         "roll working working_angle load_factors.shared_load.limits"
     ),
     units.PRESSURE: (
-        "allowable allowable_stress bending_limit contact_limit course effective_modulus hardness high "
-        "load_intensity low mesh_stiffness pressure reduced_modulus single_stiffness stiffness stress "
-        "yield_strength youngs_modulus"
+        "allowable allowable_stress bending_limit contact_limit core_hardness course effective_modulus "
+        "hardness high load_intensity low mesh_stiffness pressure reduced_modulus residual single_stiffness "
+        "stiffness stress surface_hardness yield_strength youngs_modulus"
     ),
     units.FORCE: (
         "accurate_load axial base_force dynamic_rating loads normal_force radial static_rating "

@@ -77,7 +77,8 @@ PAPERS = {
         "as the report does: load factors from its tolerances, roots with tips in the middle of theirs, "
         "C_ZL = σ_Hlim/4375 + 0.6357 at 1200 N/mm2 too, 0.3333 for 1/3 in Rz10, X_J 1; readings that give "
         "its numbers: F_t/cos β in μ_mC, F_t cos β_b in the mean friction, j_n = j_t cos α_n cos β, "
-        "stiffness at the input of c_γβ times d/d_w",
+        "stiffness at the input of c_γβ times d/d_w; flank fracture at the printed depth, by constants that "
+        "were found from its exposures too",
         source=Listing(
             "KISSsoft, release 03/2017 A",
             "ISO 6336:2006, ISO/TR 15144-1:2014, ISO/TR 13989:2000, ISO/DTR 19042-1 (2016), DIN 3960:1987, "
@@ -94,7 +95,8 @@ PAPERS = {
         "FZG gears of type C in the listing of STplus 11.1F: geometry, ISO 6336 of 2019, scuffing",
         "as the listing does: K_v K_Hbeta by its pressures, endurance, flanks that are not run in; readings "
         "that give its numbers: density falls by 0.65 kg/(m3 K), the integral temperature with the working "
-        "circle's speed and the printed viscosity, flash temperatures without K_v",
+        "circle's speed and the printed viscosity, flash temperatures without K_v; flank fracture in depths "
+        "of b_H/11, by constants that were found from its exposures",
         source=Listing(
             "FVA STplus 11.1F (2025-12-01)",
             "ISO 6336-1, -2, -3:2019, ISO/TS 6336-4:2019, ISO/TS 6336-20 and -21:2017, DIN 3960:1987",

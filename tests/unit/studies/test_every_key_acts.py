@@ -42,7 +42,8 @@ LOADS = {
     r"\.(mass|inertia|rim_thickness|web_thickness)$": "nothing is accelerated",
     r"relief_(length|shape)$|lead_unmodified$": "of a relief that the scenario has not",
     r"both_flanks$": "back flanks do not touch",
-    r"\.(treatment|grade|contact_stress_limit|bending_stress_limit|yield_strength)$": "of safeties",
+    r"\.(treatment|grade|(contact|bending)_stress_limit|yield_strength)$": "of safeties",
+    r"\.(case_depth|core_hardness)$": "of the safety against flank fracture",
     r"\.(fzg_\w+)$": "of safeties against scuffing and micropitting",
 }
 #: Of spur teeth that roll through one mesh cycle, on shafts that `opened` draws or on a diagonal matrix.

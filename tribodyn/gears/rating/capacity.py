@@ -228,12 +228,14 @@ def life_bins(
 
 
 def safeties(capacity: Capacity | None) -> dict[str, Any]:
-    """The smaller S_H and S_F of both gears, and the shorter life, s; ``life_unlimited``: a lower bound."""
+    """The smaller S_H, S_F, S_FF of both gears, the shorter life, s; ``life_unlimited``: a lower bound."""
     if capacity is None:
         return {}
+    fracture = [gear.factors["S_FF"] for gear in capacity.gears if "S_FF" in gear.factors]
     return {
         "S_H": min(gear.pitting.safety for gear in capacity.gears),
         "S_F": min(gear.bending.safety for gear in capacity.gears),
+        **({"S_FF": min(fracture)} if fracture else {}),
     } | as_life(capacity.life, capacity.shortest.unlimited)
 
 

@@ -20,6 +20,7 @@ class OilLimits(Table):
     scuffing_flash: Positive | None = 1.5
     scuffing_integral: Positive | None = 1.5
     micropitting: Positive | None = 1.0
+    flank_fracture: Positive | None = None
     dynamic_factor: Positive | None = None
     hertz_pressure: Pressure | None = None
 
@@ -39,6 +40,7 @@ LIMITS: dict[str, StandardLimit] = {
     "micropitting": StandardLimit("Micropitting S_λ", QUANTITIES["S_lambda"], least=True),
     "pitting": StandardLimit("Pitting S_H", QUANTITIES["S_H"], least=True),
     "bending": StandardLimit("Tooth bending S_F", QUANTITIES["S_F"], least=True),
+    "flank_fracture": StandardLimit("Tooth flank fracture S_FF", QUANTITIES["S_FF"], least=True),
     "life": StandardLimit("Life", QUANTITIES["life"], least=True),
     "dynamic_factor": StandardLimit("Dynamic factor K_v", QUANTITIES["dynamic_factor"]),
     "mesh_load_factor": StandardLimit("Mesh load factor K_γ", QUANTITIES["mesh_load_factor"]),
@@ -54,6 +56,7 @@ LIMITS: dict[str, StandardLimit] = {
 SAFETIES = {
     **{"pitting": "S_H", "bending": "S_F"},
     **{"scuffing_flash": "S_B", "scuffing_integral": "S_intS", "micropitting": "S_lambda"},
+    "flank_fracture": "S_FF",
 }
 
 

@@ -1,11 +1,17 @@
-"""What an assessment says in words: sentences that its record keeps, units as they are written."""
+"""What a rating says: sentences that a record keeps, units as they are written, a table of its factors."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from tribodyn.gears.rating.settings import RatingTable
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities.load import CAPACITY
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
+
+COLUMNS = ("", "pinion", "gear", "")
+#: Load factors before what they enter.
+_FACTORS = ("K_A", "K_gamma", "K_v", "K_Hbeta", "K_Halpha", "C_R")
 
 
 def numbered(sentences: Sequence[str]) -> dict[str, str]:
@@ -70,3 +76,23 @@ def ring_said(iso: Mapping[str, Any]) -> list[str]:
                 f"{text_of_way}; {1e3 * against:.2f} mm, {less:.1f} N/mm² {ways[other]} (key ring_root)."
             )
     return remarks
+
+
+def rating_rows(iso: Mapping[str, Any]) -> list[tuple[str, str, str, str]]:
+    """Title, value of the pinion and of the gear, unit; what both have in common stands in the first column.
+
+    A life without damage has no end: its number is a lower bound.
+    """
+    rows = []
+    for name in (*_FACTORS, *(quantity.name for quantity in CAPACITY)):
+        value, quantity = iso.get(name), QUANTITIES[name]
+        if value is None:
+            continue
+        both = value if isinstance(value, Mapping) else {"pinion": value}
+        endless = iso.get(name.replace("life", "damage"), {}) if name.startswith("life_") else {}
+        written = [
+            "≥ " * (endless.get(side) == 0.0) + quantity.written(float(both[side])) if side in both else ""
+            for side in ("pinion", "gear")
+        ]
+        rows.append((quantity.title, *written, unit_of(quantity)))
+    return rows

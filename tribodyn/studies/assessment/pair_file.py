@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 from tribodyn.errors import InputError
 from tribodyn.gears.rating.american import broken_agma
 from tribodyn.gears.rating.capacity import required
+from tribodyn.gears.rating.fracture import broken_fracture
 from tribodyn.gears.rating.limits import OilLimits, Pressure
 from tribodyn.gears.rating.settings import broken_strength_rules
 from tribodyn.gears.scenario import (
@@ -110,6 +111,8 @@ def broken_pair_rules(scenario: AssessmentScenario) -> Iterator[InputError]:
         ", or call the driving gear the pinion",
     )
     yield from broken_strength_rules("assessment", scenario.assessment, materials_of(drive))
+    least = scenario.limits.flank_fracture
+    yield from broken_fracture(least, materials_of(drive), ring=drive.gear.internal)
     if scenario.assessment.standard == "agma":
         width = min(drive.pinion.face_width, drive.gear.face_width)
         helix = abs(drive.helix_angle or 0.0), drive.module, width

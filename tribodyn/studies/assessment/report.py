@@ -70,7 +70,7 @@ OF_A_MESH: dict[str, tuple[Quantity, ...]] = {
     ),
     "iso": quantities(
         *("K_v", "K_Halpha", "K_gamma", "sigma_H", "S_H", "sigma_F", "S_F", "life"),
-        *("H_v", "lambda_GF", "theta_B", "S_B", "S_intS", "S_lambda"),
+        *("H_v", "lambda_GF", "theta_B", "S_B", "S_intS", "S_lambda", "S_FF"),
     ),
 }
 

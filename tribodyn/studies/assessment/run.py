@@ -15,8 +15,7 @@ from tribodyn.gears.plausibility import checks_gears
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.bearings import bearing_part
 from tribodyn.gears.rating.limits import judged, not_judged
-from tribodyn.gears.rating.rating_text import numbered
-from tribodyn.gears.rating.sheet import COLUMNS, rating_rows
+from tribodyn.gears.rating.rating_text import COLUMNS, numbered, rating_rows
 from tribodyn.gears.rating.spectrum import spectrum_tables
 from tribodyn.gears.rating.strength import metal_remarks
 from tribodyn.geometry.body import geometry_arrays

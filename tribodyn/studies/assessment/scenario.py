@@ -11,6 +11,7 @@ from tribodyn.cases.assessment_part import MeshAtDuty
 from tribodyn.errors import InputError, quoted
 from tribodyn.gears.rating.american import not_by_agma
 from tribodyn.gears.rating.capacity import required
+from tribodyn.gears.rating.fracture import broken_fracture
 from tribodyn.input.fields import ScenarioHead, head_of
 from tribodyn.input.quantity import Positive, Table, scenario_file, written
 from tribodyn.studies import study_of
@@ -95,6 +96,13 @@ def case_of(scenario: Any, toml: str, sha256: str) -> AssessmentCase:
                 "is no mesh, and no mesh's name begins with it",
             )
             raise InputError(key, factor, rule, f"the meshes: {', '.join(names)}")
+    if scenario.limits.flank_fracture is not None:
+        least, rated = limits["flank_fracture"], [mesh.rated for mesh in case.meshes.values()]
+        lacking = [
+            list(broken_fracture(least, pair.materials, ring=pair.drive.gear.teeth < 0.0)) for pair in rated
+        ]
+        if lacking and all(lacking):
+            raise lacking[0][0]
     if settings.standard == "agma":
         refused = [not_by_agma(mesh.rated) for mesh in case.meshes.values()]
         if refused and all(refused):

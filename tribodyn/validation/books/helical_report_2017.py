@@ -79,6 +79,7 @@ def _values() -> dict[str, Any]:
     pitch_radius = float(contact_path.equivalent_radius(path, contact_path.point_distances(path)[3]))
     relieved = _rated(overrides | {"assessment.tip_relief": "1 mm"})[1]
     values |= _root(roots.by_name(), factors) | _flank(named, pitch_radius) | oil.films(case, standard)
+    values |= oil.fracture(assemblies[""], standard)
     return values | oil.scuffed(case, standard, relieved) | _masses() | _losses(standard)
 
 

@@ -1,11 +1,19 @@
-"""Sections 4b and 5 of the design report of 2017: micropitting and scuffing."""
+"""Sections 4b, 4d and 5 of the design report of 2017: micropitting, tooth flank fracture and scuffing."""
 
 import math
 from typing import Any
 
+import numpy as np
+
+from tribodyn.gears.rating.fracture import middle_thickness
 from tribodyn.gears.rating.margins import flanks_of, strength_of
 from tribodyn.gears.rating.standard import Standard
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES
 from tribodyn.standards import contact_path, fzg, micropitting, scuffing
+from tribodyn.standards.case_hardening import flank_fracture
+from tribodyn.standards.case_hardening.flank_fracture import HardenedCase
+from tribodyn.standards.metals import VICKERS
 from tribodyn.validation.books import helical_report_geometry as shape
 from tribodyn.validation.books.scuffing import raised, scuffing_numbers
 
@@ -45,6 +53,27 @@ def films(case: Any, standard: Standard) -> dict[str, Any]:
         "WW": 1.0,
         "lamGFP": strength.specific_film,
         "Slam": float(films.specific_film[0]) / strength.specific_film,
+    }
+
+
+def fracture(assembly: Assembly, standard: Standard) -> dict[str, Any]:
+    """Section 4d, of the contact at A: at the printed depth of 1.1 mm, with depths in steps of 0.1 mm."""
+    pressure = float(standard.films.pressure[0])
+    width = 4.0 * float(contact_path.equivalent_radius(standard.path, 0.0)) * pressure / 226374e6
+    hard = HardenedCase(720.0 * VICKERS, 342.0 * VICKERS, 0.5e-3)
+    depths, depth = np.arange(1, 60) * 1e-4, np.array([1.1e-3])
+    factors = [flank_fracture.material_factor(middle_thickness(assembly, standard, side)) for side in SIDES]
+    there, worst = (
+        [flank_fracture.greatest_exposure(hard, pressure, width, factor, each) for factor in factors]
+        for each in (depth, depths)
+    )
+    return {
+        "AFFmax": [each.exposure for each in there],
+        "y_max": [-1e3 * each.depth for each in worst],
+        "Kmaterial": factors,
+        "tauper": [1e-6 * each.strength for each in there],
+        "taueff": [1e-6 * each.stress for each in there],
+        "SFF": [flank_fracture.fracture_safety(hard, pressure, width, factor, depths) for factor in factors],
     }
 
 

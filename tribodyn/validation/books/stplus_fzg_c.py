@@ -27,6 +27,7 @@ from tribodyn.tribology.oil import kinematic_viscosity
 from tribodyn.validation.books import rows_of, sides
 from tribodyn.validation.books import stplus_geometry as shape
 from tribodyn.validation.books.scuffing import raised, scuffing_numbers
+from tribodyn.validation.books.stplus_fracture import fracture
 
 BOOK = "stplus-fzg-c"
 _M, _ALPHA, _WIDTH, _TEETH, _SHIFTS = shape.MODULE, shape.ALPHA, shape.WIDTH, shape.TEETH, shape.SHIFTS
@@ -97,7 +98,7 @@ def _values() -> dict[str, Any]:
     assert capacity is not None, "the material has a heat treatment"
     sheet, named = geometry_sheet(assembly), capacity.by_name()
     values = shape.geometry(sheet) | shape.measures() | _loads(standard) | _roots(assembly) | dynamic
-    return values | _strength(named, standard) | _scuffed(case, standard, stiffness, factor)
+    return values | _strength(named, standard, assembly) | _scuffed(case, standard, stiffness, factor)
 
 
 def _loads(standard: Any) -> dict[str, Any]:
@@ -218,8 +219,8 @@ def _dynamic(stiffness: iso6336.ReferenceStiffness) -> dict[str, Any]:
     }
 
 
-def _strength(named: dict[str, Any], standard: Any) -> dict[str, Any]:
-    """ISO 6336-2 and -3 for endurance, and the path of ISO/TS 6336-4."""
+def _strength(named: dict[str, Any], standard: Any, assembly: Assembly) -> dict[str, Any]:
+    """ISO 6336-2 and -3 for endurance, and ISO/TS 6336-4."""
     contact, root = sides(named, "sigma_H", 1e6), sides(named, "sigma_F", 1e6)
     influence = {name: sides(named, name)[0] for name in ("Z_L", "Z_v", "Z_R")}
     product = math.prod(influence.values())
@@ -258,19 +259,8 @@ def _strength(named: dict[str, Any], standard: Any) -> dict[str, Any]:
         "S_F": root_permitted / root,
         "rho_slip": (0.003, 0.003),
     }
-    path = standard.path
-    places = contact_path.point_distances(path)
-    radii = contact_path.equivalent_radius(path, places)
-    load = _K * _TORQUE / path.base_radius[0] / (_WIDTH * 1e-3) * contact_path.load_share(path, places, 5.0)
-    modulus = 210e9 / (1.0 - 0.09)
-    pressure = micropitting.hertz_pressure(load, radii, modulus)
-    for number, (p, rho) in enumerate(zip(pressure, radii, strict=True), 1):
-        values |= {
-            f"p_H_{number}": 1e-6 * float(p),
-            f"rho_{number}": 1e3 * float(rho),
-            f"b_H_{number}": 1e3 * 4.0 * float(rho * p) / modulus,
-        }
-    return values
+    load = _K * _TORQUE / standard.path.base_radius[0] / (_WIDTH * 1e-3)
+    return values | fracture(assembly, standard, load)
 
 
 def _scuffed(

@@ -17,7 +17,14 @@ from tribodyn.geometry.modification import (
     vary_along_lead,
 )
 from tribodyn.input.messages import outside
-from tribodyn.input.tables.gears.model_files import DriveTable, Gear, Hand, MisalignmentTable, flank_of
+from tribodyn.input.tables.gears.model_files import (
+    DriveTable,
+    Gear,
+    Hand,
+    Material,
+    MisalignmentTable,
+    flank_of,
+)
 from tribodyn.input.tables.gears.quality import broken_quality_rules, helix_allowance
 from tribodyn.input.tables.gears.tooth_data import (
     broken_tooth_rules,
@@ -25,6 +32,7 @@ from tribodyn.input.tables.gears.tooth_data import (
     modules_of,
     shape_errors,
 )
+from tribodyn.standards.metals import VICKERS
 
 #: Slices along the face where nothing is said and anything varies along it.
 SLICES = 21
@@ -203,6 +211,10 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
             remedy = "give the name of a file in models/materials here, or drive.material for both gears"
             yield InputError(f"drive.{name}.material", rule="missing", remedy=remedy)
         yield from _broken_blank(f"drive.{name}", gear)
+        if gear.material is not None:
+            yield from _broken_case(drive, gear.material, f"drive.{name}.material")
+    if drive.material is not None:
+        yield from _broken_case(drive, drive.material, "drive.material")
     yield from broken_helix_rules(drive)
     yield from broken_tooth_rules(drive)
     yield from broken_modification_rules(drive)
@@ -212,6 +224,23 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
     else:
         unknown = unknown_name(FAMILIES.key, drive.family, FAMILIES, FAMILIES.what)
         yield outside(unknown, drive.family, remedy=unknown.remedy) or unknown
+
+
+def _broken_case(drive: DriveTable, material: Material, key: str) -> Iterator[InputError]:
+    """Refuse a hardened case that a gear cannot have."""
+    for each in ("case_depth", "core_hardness"):
+        if getattr(material, each) is not None and material.treatment != "case-hardened":
+            rule = "is of case-hardened teeth"
+            remedy = 'write treatment = "case-hardened", or leave it out'
+            yield InputError(f"{key}.{each}", rule=rule, remedy=remedy)
+    if material.core_hardness is not None and material.core_hardness >= material.hardness:
+        core, surface = (f"{one / VICKERS:.0f} HV" for one in (material.core_hardness, material.hardness))
+        rule = f"is not below the surface's hardness, {surface}"
+        yield InputError(f"{key}.core_hardness", core, rule, "usual are 320 to 400 HV")
+    if material.case_depth is not None and material.case_depth >= (half := pi * drive.module / 4.0):
+        rule = f"is deeper than half of a tooth, about {1e3 * half:.3g} mm"
+        remedy = f"usual is 0.15 times the module, {150.0 * drive.module:.3g} mm"
+        yield InputError(f"{key}.case_depth", shown_length(material.case_depth), rule, remedy)
 
 
 def broken_part_rules(hertz: str, foundation: str, compliance: str) -> Iterator[InputError]:

@@ -15,6 +15,8 @@ from tribodyn.tribology.contact import FinishName
 
 Pressure = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE))]
 Strength = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "1500 MPa")]
+CaseDepth = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "0.7 mm")]
+CoreHardness = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "350 HV")]
 
 #: Title of a model that a scenario writes out.
 OWN_VALUES = "own values"
@@ -42,6 +44,8 @@ class Material(Described):
     contact_stress_limit: Strength | None = None
     bending_stress_limit: Strength | None = None
     yield_strength: Strength | None = None
+    case_depth: CaseDepth | None = None
+    core_hardness: CoreHardness | None = None
 
 
 MaterialReference = Annotated[Material, quantity.model_file("materials")]

@@ -3,8 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from tribodyn.gears.rating.rating_text import unit_of
-from tribodyn.gears.rating.sheet import COLUMNS, rating_rows
+from tribodyn.gears.rating.rating_text import COLUMNS, rating_rows, unit_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
@@ -88,10 +87,10 @@ def _shown(value: Any, quantity: Quantity) -> str:
 
 
 def points(summary: Mapping[str, Any]) -> str:
-    """Film and contact temperature at the points of the path of contact."""
+    """Film, contact temperature and exposure of the material at the points of the path of contact."""
     names = (*POINTS, "worst")
     rows = []
-    for quantity in quantities("lambda_GF", "h_Y", "theta_B"):
+    for quantity in quantities("lambda_GF", "h_Y", "theta_B", "A_FF"):
         for by, part in (("ISO", "iso"), ("simulated", "simulated")):
             if values := summary.get(part, {}).get(quantity.name):
                 label = f"{quantity._replace(unit=unit_of(quantity)).titled}, {by}"

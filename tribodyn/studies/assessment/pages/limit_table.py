@@ -12,7 +12,10 @@ from tribodyn.studies.assessment.report import groups_of, meshes_of
 
 HEADING = "Does it hold, and how long?"
 #: Limit -> its quantity of either gear, where it has one.
-_OF_GEARS = {"pitting": "S_H", "bending": "S_F", "life": ("life_pitting", "life_bending")}
+_OF_GEARS = {
+    **{"pitting": "S_H", "bending": "S_F", "flank_fracture": "S_FF"},
+    "life": ("life_pitting", "life_bending"),
+}
 #: Limit -> its quantity of the mesh.
 _OF_MESH = {"scuffing_flash": "S_B", "scuffing_integral": "S_intS", "micropitting": "S_lambda"}
 

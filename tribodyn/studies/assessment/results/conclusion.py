@@ -9,6 +9,7 @@ from tribodyn.cases.assessment_part import Meshing
 from tribodyn.gears.prepare import assembled
 from tribodyn.gears.rating.american import agma_part, not_by_agma
 from tribodyn.gears.rating.capacity import Capacity, capacity_of, life_bins, required
+from tribodyn.gears.rating.fracture import fracture_of, with_fracture
 from tribodyn.gears.rating.spectrum import spectrum_part
 from tribodyn.gears.rating.standard import Standard, iso_part, rated_duty, standard_of
 from tribodyn.geometry.assembly import Assembly
@@ -55,7 +56,10 @@ def by_standard(
     own = () if case.settings.face_load_factor else faces
     bins = life_bins(case, assembly, standard.factors, case.spectrum, own)
     capacity = capacity_of(case, assembly, standard.factors, bins, case.settings, meshing)
-    iso = iso_part(case, standard) | (capacity.by_name() if capacity else {})
+    iso = iso_part(case, standard)
+    if capacity is not None and (fracture := fracture_of(case, assembly, standard)) is not None:
+        capacity, iso["A_FF"] = with_fracture(capacity, fracture), fracture.by_point
+    iso |= capacity.by_name() if capacity else {}
     return ByStandard(iso, standard, capacity)
 
 

@@ -200,6 +200,7 @@ def margins_and_limits(
         "micropitting": worst(by_standard.get("S_lambda"), simulated.get("S_lambda")),
         "pitting": worst(rated.get("S_H"), simulated.get("S_H")),
         "bending": worst(rated.get("S_F"), simulated.get("S_F")),
+        "flank_fracture": rated.get("S_FF", math.nan),
         "life": worst(rated.get("life"), simulated.get("life")),
         "dynamic_factor": quantities["dynamic_factor"],
         "hertz_pressure": float(np.nanmax(local.films.pressure)),

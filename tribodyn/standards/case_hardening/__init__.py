@@ -1,0 +1,1 @@
+"""What case-hardened teeth stand below their surface."""
