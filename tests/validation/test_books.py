@@ -51,7 +51,7 @@ def test_rows_agree_or_have_their_reason(book: str, validated):
 def test_there_are_enough_rows_and_few_of_them_differ(validated):
     rows = [row for book in BOOKS for row in validated(book).values()]
     assert len(rows) >= 1000
-    assert sum(row.verdict == "pass" for row in rows) >= 0.9 * len(rows)
+    assert sum(row.verdict == "pass" for row in rows) >= 0.93 * len(rows)
 
 
 def test_a_book_says_where_it_is_from():

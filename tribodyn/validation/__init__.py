@@ -145,7 +145,8 @@ PAPERS = {
     "iso-6336-6-annex-c": Paper(
         "tribodyn.validation.books.iso_6336_6_annex_c",
         "ISO 6336-6, annex C: stresses, cycles and Miner's sum of a load spectrum of 42 classes",
-        "with torque, time and face load factor of every class as printed",
+        "with torque and time of every class as printed; face load factors beyond 1.31, Z_R and the stress "
+        "of the first class to more digits than theirs, as the table's stresses and cycles ask for",
         source=Listing(
             "ISO 6336-6",
             "2019",

@@ -46,6 +46,16 @@ def _value(values: Values, key: str) -> Any:
     return values[name]
 
 
+def printed(book: str) -> dict[str, Any]:
+    """Numbers of a book as printed: what follows from one that differs is computed from it."""
+    return {key.partition("/")[2]: row["published"] for key, row in published(book).items()}
+
+
+def printed_sides(numbers: Mapping[str, Any], name: str) -> np.ndarray:
+    """A printed number of pinion and gear."""
+    return np.array([numbers[f"{name}-{side}"] for side in SIDES])
+
+
 def sides(named: Mapping[str, Any], name: str, unit: float = 1.0) -> np.ndarray:
     """A number of a rating by name, of pinion and gear."""
     return np.array([named[name][side] for side in SIDES]) / unit

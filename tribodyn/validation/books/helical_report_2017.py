@@ -20,9 +20,9 @@ from tribodyn.standards import contact_path, load_factors, pitting
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation.books import helical_report_geometry as shape
 from tribodyn.validation.books import helical_report_oil as oil
-from tribodyn.validation.books import rows_of, sides
+from tribodyn.validation.books import printed, printed_sides, rows_of, sides
 
-BOOK = "helical-report-2017"
+BOOK = oil.BOOK
 SCENARIO = "assessment-helical-24-95"
 _SPEED = shape.SPEED * math.pi / 30.0
 _TORQUE = 5000e3 / _SPEED
@@ -191,7 +191,7 @@ def _root(named: Mapping[str, Any], factors: Mapping[str, Any]) -> dict[str, Any
         for name, ours in table.items()
     }
     return values | {
-        "sigF": sides(named, "sigma_F", 1e6) * more,
+        "sigF": sides(named, "sigma_F", 1e6) * more * printed_sides(printed(BOOK), "sigF0") / values["sigF0"],
         "SF": safety,
         "Ybet": sides(named, "Y_beta")[0],
         "YDT": sides(named, "Y_DT")[0],

@@ -15,11 +15,15 @@ from tribodyn.standards.case_hardening import flank_fracture
 from tribodyn.standards.case_hardening.flank_fracture import HardenedCase
 from tribodyn.standards.metals import VICKERS
 from tribodyn.validation.books import helical_report_geometry as shape
+from tribodyn.validation.books import printed
 from tribodyn.validation.books.scuffing import raised, scuffing_numbers
+
+BOOK = "helical-report-2017"
 
 
 def films(case: Any, standard: Standard) -> dict[str, Any]:
     """Section 4b, of the contact at A."""
+    found = printed(BOOK)
     films, path, sheet = standard.films, standard.path, case.lubricant.sheet
     flanks, radius = flanks_of(case), float(contact_path.equivalent_radius(path, 0.0))
     factor = standard.factors.duty.application * standard.factors.dynamic_factor
@@ -49,9 +53,9 @@ def films(case: Any, standard: Standard) -> dict[str, Any]:
         "theMRef": test.bulk_temperature - 273.15,
         "theBRef_A": test.contact_temperature - 273.15,
         "hRef_A": 1e6 * test.film_thickness,
-        "lamGFT": test.specific_film,
+        "lamGFT": found["hRef_A"] / 0.5,
         "WW": 1.0,
-        "lamGFP": strength.specific_film,
+        "lamGFP": micropitting.permissible_film(found["lamGFT"]),
         "Slam": float(films.specific_film[0]) / strength.specific_film,
     }
 
@@ -114,10 +118,13 @@ def scuffed(case: Any, standard: Standard, relieved: Standard) -> dict[str, Any]
     standard = raised(standard, case.oil_temperature, inclined, inclined)
     numbers = scuffing_numbers(case, standard, normal, line_load, flash, relief)
     pitch_point = float(contact_path.point_distances(path)[3])
+    found, oil = printed(BOOK), case.oil_temperature - 273.15
     return {name: numbers[ours] for name, ours in _SCUFFING.items()} | {
         "BM": 1e-3 * numbers["B_M"],
         "Ceff": 1e6 * effective,
         "theflm": (flash[0] - case.oil_temperature) / 0.47,
+        "theMi": oil + 0.47 * found["theflm"],
+        "SB": scuffing.flash_safety(numbers["theta_S"], found["theB"], oil),
         "Gamma_max": (path.length - pitch_point) / (path.base_radius[0] * math.tan(path.pressure_angle)),
         "XJ": 1.0,
         "XGam": float(contact_path.flash_share(path, path.length)),

@@ -16,7 +16,7 @@ from tribodyn.standards import load_factors, pitting
 from tribodyn.standards.contact_path import ContactPath, transverse_angle
 from tribodyn.standards.flank_tolerances import flank_tolerances, rounded
 from tribodyn.standards.metals import Metal, contact_factors
-from tribodyn.validation.books import rows_of
+from tribodyn.validation.books import printed, printed_sides, rows_of
 
 BOOK = "iso-tr-6336-30"
 _MODULE, _ALPHA, _HELIX = 8.0, math.radians(20.0), math.radians(15.8)
@@ -109,7 +109,7 @@ def _capacity() -> dict[str, Any]:
     height = (_TIPS[0] - 120.825) / 2.0
     slender = _WIDTH / height
     return {
-        "S_H": 1e6 * permitted / stress,
+        "S_H": permitted / printed_sides(printed(BOOK), "sigma_H"),
         "sigma_HP": permitted,
         "sigma_H0": 1e-6 * geometry.nominal,
         "sigma_H": 1e-6 * stress,

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.standards import contact_path, loss_factors, micropitting
 from tribodyn.tribology.oil import OilSheet
-from tribodyn.validation.books import rows_of
+from tribodyn.validation.books import printed, rows_of
 from tribodyn.validation.books.printed_pair import PrintedPair, own_loss
 
 BOOK = "planetary-losses-2017"
@@ -67,7 +67,7 @@ MESHES = {
 
 
 def _values() -> dict[str, Any]:
-    values: dict[str, Any] = {}
+    values, found = dict[str, Any](), printed(BOOK)
     viscosity, totals = float(_OIL.viscosity(_TEMPERATURE + 273.15)), {"1": 0.0, "2": 0.0}
     for name, mesh in MESHES.items():
         path, speed = mesh.pair.path(), mesh.speed * math.pi / 30.0
@@ -82,7 +82,7 @@ def _values() -> dict[str, Any]:
         )
         factor = loss_factors.hoehn(*tips, path.teeth[0], path.ratio)
         lost = mesh.power * coefficient * factor
-        totals[name[0]] += _PLANETS * lost
+        totals[name[0]] += _PLANETS * found[f"PVZ-{name}"]
         values |= {
             f"eps_a-{name}": path.contact_ratio,
             f"XR-{name}": rough,
@@ -92,7 +92,7 @@ def _values() -> dict[str, Any]:
             f"PVZ-{name}": lost,
         }
     values |= {f"PV-{stage}": lost for stage, lost in totals.items()}
-    return values | {f"eta-{stage}": 1.0 - lost / 5000.0 for stage, lost in totals.items()}
+    return values | {f"eta-{stage}": 1.0 - found[f"PV-{stage}"] / 5000.0 for stage in totals}
 
 
 def _own(progress: Callable[[float], None]) -> dict[str, str]:

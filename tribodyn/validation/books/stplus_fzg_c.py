@@ -24,7 +24,7 @@ from tribodyn.standards.flank_tolerances import flank_tolerances_1995
 from tribodyn.standards.mesh_loss.friction import schlenk
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.tribology.oil import kinematic_viscosity
-from tribodyn.validation.books import rows_of, sides
+from tribodyn.validation.books import printed, rows_of, sides
 from tribodyn.validation.books import stplus_geometry as shape
 from tribodyn.validation.books.scuffing import raised, scuffing_numbers
 from tribodyn.validation.books.stplus_fracture import fracture
@@ -279,7 +279,8 @@ def _scuffed(
     path, integral, oil = standard.path, standard.integral, case.lubricant.sheet
     static = factor**-0.75
     bulk = case.oil_temperature + static * (standard.flash_bulk - case.oil_temperature)
-    flash = bulk, bulk + static * (standard.flash_contact - standard.flash_bulk)
+    rise = static * (standard.flash_contact - standard.flash_bulk)
+    flash = bulk, 273.15 + printed(BOOK)["theta_M_fla"] + rise
     values = scuffing_numbers(case, standard, (_ALPHA, 0.0), _LINE_LOAD * _K, flash)
     places = contact_path.point_distances(path)
     radius, roughness = float(contact_path.equivalent_radius(path, places[3])), case.mean_roughness
@@ -304,7 +305,7 @@ def _scuffed(
         "theta_flaE": integral.at_tip,
         "theta_MT": 80.0 + 0.23 * test_torque,
         "theta_flaintT": 0.2 * test_torque * (100.0 / 90.02) ** 0.02,
-        "theta_flamax": flash[1] - flash[0],
+        "theta_flamax": rise,
     }
     values |= {f"Gamma_{name}": float(gamma) for name, gamma in zip("ABCDE", gammas, strict=True)}
     return values | _flashes(case, path, values["mu_fla"] * static, effective)

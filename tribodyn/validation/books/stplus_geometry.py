@@ -11,6 +11,7 @@ import numpy as np
 from tribodyn.geometry.families.involute import involute_function
 from tribodyn.geometry.gauges import Involute, over_pins, pin_contact_diameter, span, span_contact_diameter
 from tribodyn.standards.allowances import centre_distance_allowance, thickness_allowances
+from tribodyn.validation.books import printed, printed_sides
 
 MODULE, ALPHA, CENTRES, WIDTH, TEETH = 4.5, math.radians(20.0), 91.5, 14.0, (16, 24)
 #: x_2 follows from the centre distance.
@@ -33,7 +34,8 @@ def geometry(sheet: dict[str, Any]) -> dict[str, Any]:
     common = sum(tips) / 2.0 - CENTRES
     upper, lower = 1e3 * np.transpose([thickness_allowances("c25", d * 1e-3) for d in reference])
     half = math.pi / 2.0 + 2.0 * _SHIFTS * math.tan(ALPHA)
-    chords = (tips + form) / 2.0
+    cut = printed_sides(printed("stplus-fzg-c"), "d_Ff")
+    chords = (tips + cut) / 2.0
     angles = np.arccos(of("base diameter") / chords)
     arcs = chords * (half / TEETH + involute_function(ALPHA) - involute_function(angles))
     return {
@@ -53,7 +55,7 @@ def geometry(sheet: dict[str, Any]) -> dict[str, Any]:
         "d_b": of("base diameter"),
         "d_Nf": active,
         "d_Ff": form,
-        "c_n": (active - form) / 2.0,
+        "c_n": (active - cut) / 2.0,
         "d_f": roots,
         "h_aP": (tips - reference) / (2.0 * MODULE) - _SHIFTS,
         "h": (tips - roots) / 2.0,
