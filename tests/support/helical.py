@@ -9,6 +9,9 @@ from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.helix import from_written
 
+#: A pair whose finite elements several tests share, of module 3 mm; its overlap ratio is 1 at 20°.
+PAIR, WIDTH = (18, 36), float(np.pi * 3e-3 / np.sin(np.radians(20.0)))
+
 
 def assembly(teeth, helix, width, module=3e-3, shift=(0.0, 0.0), dedendum=1.25, bore=0.3):
     """A pair of helix angle `helix` (degrees), and bores of that share of the reference diameter."""

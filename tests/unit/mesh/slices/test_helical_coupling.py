@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.support.helical import PAIR, WIDTH, assembly
 from tests.support.helical_pairs import ENERGY, STEEL, helical_pair, sliced
 from tribodyn.compliance.energy import loaded_tooth, tooth_compliance, under_uneven_load
 from tribodyn.compliance.sharing.load_sharing import flexibility
@@ -35,7 +36,15 @@ def coarse_pair():
     return assemble(involute.FAMILY, Drive(0.005, np.radians(20.0), *bodies, helix_angle=0.2))
 
 
-@pytest.mark.parametrize("pair", [helical_pair(2.0), coarse_pair()], ids=["23/47", "19/60"])
+@pytest.mark.parametrize(
+    "pair",
+    [
+        assembly(PAIR, 0.0, WIDTH),
+        pytest.param(helical_pair(2.0), marks=pytest.mark.soak),
+        pytest.param(coarse_pair(), marks=pytest.mark.soak),
+    ],
+    ids=["18/36", "23/47", "19/60"],
+)
 def test_harmonics_are_those_of_finite_elements(pair):
     """Of spur teeth, for wave lengths from the face's down to one and a half modules."""
     spur = assemble(pair.family, pair.drive._replace(helix_angle=0.0))

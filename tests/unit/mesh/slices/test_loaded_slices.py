@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from tests.support.faces_in_slices import STEEL
-from tests.support.helical import assembly
+from tests.support.helical import PAIR, assembly
+from tests.support.helical import WIDTH as FACE
 from tribodyn.geometry.modification import (
     FlankModification,
     LeadRelief,
@@ -28,7 +29,7 @@ MODIFIED = Modifications(
 
 
 def tabulated(helix, modifications, backlash=None):
-    pair = assembly((18, 36), helix, 26e-3)
+    pair = assembly(PAIR, helix, FACE)
     mesh = MeshData("fem", 0.05, modifications=modifications, slices=SLICES, backlash=backlash)
     return pair, mesh, tabulate_loaded(pair, (STEEL, STEEL), mesh, TORQUE, backlash is not None)
 
