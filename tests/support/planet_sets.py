@@ -18,6 +18,10 @@ kind = "train-assessment"
 [scenario]
 like = "planetary-24-84"
 quality = 6
+[scenario.friction]
+law = "coulomb"
+coefficient = 0.05
+sliding = "kinematic"
 [scenario.solver]
 cycles = 8
 [scenario.output]
