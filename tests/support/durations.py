@@ -9,18 +9,16 @@ import json
 import os
 import time
 from collections import Counter
-from collections.abc import Generator, Iterable, Mapping
+from collections.abc import Generator, Mapping
 from pathlib import Path
 
 import pytest
 
 TESTS = Path(__file__).parents[1]
 MEASURED = TESTS / "durations.json"
-#: The quick tests are the shortest, together this share of the time of all: with the start of the processes
-#: and of the compilers under a minute.
-QUICK_SHARE = 0.09
-#: Tests below this are not listed, s: it keeps the list short and its changes few.
-LISTED = 0.05
+#: Tests below this are quick and not listed, s: together less than a tenth of the time of all; with the start
+#: of the processes and of the compilers under a minute.
+LISTED = 0.2
 
 
 def add_options(parser: pytest.Parser) -> None:
@@ -38,7 +36,6 @@ class Durations:
         self.seconds: Counter[str] = Counter()
         self.before = 0.0
         known = json.loads(MEASURED.read_text(encoding="utf-8")) if MEASURED.is_file() else {}
-        self.limit: float = known.get("quick limit", float("inf"))
         self.files: dict[str, float] = known.get("files", {})
         self.tests: dict[str, float] = known.get("tests", {})
 
@@ -46,7 +43,7 @@ class Durations:
         """Put the longest files first, the order within a file stays; leave out what is not quick."""
         items.sort(key=lambda item: -self.files.get(_name(item.nodeid).partition("::")[0], float("inf")))
         if self.config.getoption("--quick"):
-            quick = [self.tests.get(_name(item.nodeid), 0.0) <= self.limit for item in items]
+            quick = [_name(item.nodeid) not in self.tests for item in items]
             left_out = [item for item, stays in zip(items, quick, strict=True) if not stays]
             self.config.hook.pytest_deselected(items=left_out)
             items[:] = [item for item, stays in zip(items, quick, strict=True) if stays]
@@ -87,8 +84,7 @@ class Durations:
         kept = {name: value for name, value in known.items() if name.partition("::")[0] in files}
         kept = {name: value for name, value in kept.items() if quick or name.partition("::")[0] not in ran}
         tests = kept | {name: value for name, value in measured.items() if round(value, 2) >= LISTED}
-        limit = self.limit if quick else _quick_limit(tests.values(), sum(files.values()))
-        written = {"quick limit": limit, "files": _longest_first(files), "tests": _longest_first(tests)}
+        written = {"files": _longest_first(files), "tests": _longest_first(tests)}
         MEASURED.write_text(json.dumps(written, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
@@ -131,18 +127,6 @@ def _by_file(tests: Mapping[str, float]) -> dict[str, float]:
     for name, seconds in tests.items():
         files[name.partition("::")[0]] += seconds
     return files
-
-
-def _quick_limit(listed: Iterable[float], whole: float) -> float:
-    """Return the duration up to which a test is quick, rounded as in the list; `whole`: of all tests, s."""
-    ordered = sorted(listed)
-    limit, total = LISTED, max(0.0, whole - sum(ordered))  # those not listed are quick
-    for duration in ordered:
-        total += duration
-        if total > QUICK_SHARE * whole:
-            break
-        limit = max(limit, round(duration, 2))
-    return limit
 
 
 def _longest_first(seconds: Mapping[str, float]) -> dict[str, float]:
