@@ -162,17 +162,23 @@ def default_of(field: FieldInfo) -> str:
     return "–" if default is None else f"`{_toml(default)}`"
 
 
-def example_of(name: str, key: str, field: FieldInfo, examples: dict[str, Any]) -> str:
+def listed(known: Mapping[str, Any], table: type[Table], key: str) -> Any:
+    """What is listed of a key of a table, or of a table from which it is made; None: nothing."""
+    names = (f"{each.__name__}.{key}" for each in table.__mro__)
+    return next((known[name] for name in names if name in known), None)
+
+
+def example_of(table: type[Table], key: str, field: FieldInfo, examples: dict[str, Any]) -> str:
     """An example as a cell: as it is listed, or of the unit, or the first of the values; else the default."""
-    if f"{name}.{key}" in examples:
-        return f"`{_toml(examples[f'{name}.{key}'])}`"
+    if (example := listed(examples, table, key)) is not None:
+        return f"`{_toml(example)}`"
     annotation = _without_none(field.annotation)
     if get_origin(annotation) is Literal:
         return f"`{_toml(get_args(annotation)[-1])}`"
     if annotation is bool:
         return f"`{_toml(not field.get_default())}`"
     if not (units := inside(field, InUnit)) or get_origin(annotation) in (tuple, dict):
-        raise SystemExit(f"{name}.{key} needs an example in scenario_page.toml")
+        raise SystemExit(f"{table.__name__}.{key} needs an example in scenario_page.toml")
     return f"`{_toml(units[0].kind.example)}`"
 
 
@@ -201,10 +207,9 @@ def meaning_of(
 ) -> str:
     """A key's meaning as a cell: with links, and the section of a table that stands elsewhere."""
     text = (meaning(table, key) or field.description or "").replace("|", "\\|")
-    name = f"{table.__name__}.{key}"
-    for phrase, address in known.links.get(name, {}).items():
+    for phrase, address in (listed(known.links, table, key) or {}).items():
         text = text.replace(phrase, f"[{phrase}]({address})", 1)
-    if link := known.see.get(name):
+    if link := listed(known.see, table, key):
         text += f" ({link})"
     here = sections.get(table.__name__)
     places = {sections[each.__name__] for each in tables_in(field.annotation) if each.__name__ in sections}
@@ -223,7 +228,7 @@ def rows_of(name: str, every: Mapping[str, type[Table]], sections: dict[str, Sec
             meaning_of(schema, field.alias or key, field, sections, known),
             value_of(field).replace("|", "\\|"),
             default_of(field).replace("|", "\\|"),
-            example_of(name, field.alias or key, field, known.examples).replace("|", "\\|"),
+            example_of(schema, field.alias or key, field, known.examples).replace("|", "\\|"),
         )
         for key, field in own_keys(schema, every).items()
     ]

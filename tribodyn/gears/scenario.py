@@ -16,7 +16,7 @@ from tribodyn.gears.rating.requested_losses import drawn_of_pair, requested_loss
 from tribodyn.gears.supports import displaced, has_supports, supports_of
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.fields import Slices, head_of
-from tribodyn.input.quantity import Switch, defaults_written_out, model_file
+from tribodyn.input.quantity import Switch, Table, defaults_written_out, model_file, written
 from tribodyn.input.tables.bearings import Bearings, broken_bearing_rules
 from tribodyn.input.tables.duty import SpectrumScenario, duty_of, unnamed_duty
 from tribodyn.input.tables.gears.drive_data import masses_of, teeth_of
@@ -63,13 +63,24 @@ ShaftKeys = Shafts | None
 MatrixKeys = Annotated[Bearings | None, model_file("bearings")]
 FilmKeys = FilmTable | None
 FaceSlices = Annotated[Slices | None, BeforeValidator(lambda value: None if value == "auto" else value)]
-SliceCoupling = Switch
-FoundationCoupling = Switch
-GearBodySupport = Support
-SampleNumber = DeviationSample | None
 
 #: Where a table [mesh] has no keys of misalignment, and neither does the drive's quality add any.
 _ALIGNED = MisalignmentTable(from_quality=0.0)
+
+
+class FaceTable(Table):
+    """How the axes stand, and in how many slices the face is taken."""
+
+    misalignment: MisalignmentTable = written({})
+    slices: FaceSlices = None
+
+
+class MeshTable(FaceTable):
+    """How slices and gear bodies deflect, and which deviations the flanks have."""
+
+    slice_coupling: Switch = True
+    body: Support = "free"
+    deviation_sample: DeviationSample | None = None
 
 
 class GearScenario(SpectrumScenario):

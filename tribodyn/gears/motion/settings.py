@@ -6,15 +6,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from tribodyn.compliance.foundation import Foundation
+from tribodyn.compliance.foundation import Foundation, Support
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.gears.case import OutputData
 from tribodyn.gears.scenario import (
     FaceSlices,
-    FoundationCoupling,
-    GearBodySupport,
-    SampleNumber,
-    SliceCoupling,
     broken_stiffness_rules,
     mesh_data,
 )
@@ -25,6 +21,7 @@ from tribodyn.input.quantity import (
     Names,
     NotNegative,
     Positive,
+    Switch,
     Table,
     Text,
     csv_file,
@@ -34,6 +31,7 @@ from tribodyn.input.tables.bearings import Stiffness
 from tribodyn.input.tables.duty import DutyTable, OiledOperatingTable
 from tribodyn.input.tables.gears.drive_data import backlash_of
 from tribodyn.input.tables.gears.model_files import MisalignmentTable
+from tribodyn.input.tables.gears.quality import DeviationSample
 from tribodyn.input.tables.gears.single_teeth import ToothSampleNumber
 from tribodyn.input.tables.laws import FrictionTable
 from tribodyn.mesh.table import MeshData
@@ -107,8 +105,8 @@ class Mesh(Table):
     compliance: Literal["energy", "fem", "constant", "table"] = "energy"
     hertz: Literal["linear", "load-dependent"] = "linear"
     foundation: Foundation = "sainsot-velex"
-    foundation_coupling: FoundationCoupling = True
-    body: GearBodySupport = "free"
+    foundation_coupling: Switch = True
+    body: Support = "free"
     stiffness: Stiffness | None = None
     table: Annotated[fields.StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = None
     formulation: Literal["classical", "energy-consistent"] = "classical"
@@ -116,11 +114,11 @@ class Mesh(Table):
     backlash: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.1 mm")] | None = None
     points: Annotated[int, Field(strict=True, ge=5)] = 65
     transmission_error: TransmissionError = written({})
-    deviation_sample: SampleNumber = None
+    deviation_sample: DeviationSample | None = None
     tooth_sample: ToothSampleNumber = None
     misalignment: MisalignmentTable = written({})
     slices: FaceSlices = None
-    slice_coupling: SliceCoupling = True
+    slice_coupling: Switch = True
 
 
 class Friction(FrictionTable):

@@ -10,7 +10,7 @@ from tribodyn.gears.rating.fracture import broken_fracture
 from tribodyn.gears.rating.limits import OilLimits, Pressure
 from tribodyn.gears.rating.settings import broken_strength_rules
 from tribodyn.gears.scenario import (
-    FaceSlices,
+    FaceTable,
     GearScenario,
     Oil,
     ShaftKeys,
@@ -20,11 +20,10 @@ from tribodyn.gears.scenario import (
 from tribodyn.geometry.families import family
 from tribodyn.input import units
 from tribodyn.input.fields import Temperature
-from tribodyn.input.quantity import InUnit, Table, model_file, written
+from tribodyn.input.quantity import InUnit, model_file, written
 from tribodyn.input.tables.bearings import Bearings
 from tribodyn.input.tables.duty import OperatingTable, broken_driving_rules, duty_of, spectrum_of
 from tribodyn.input.tables.gears.drive_data import materials_of
-from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.quality import tolerances_of
 from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.input.tables.losses import LossesTable
@@ -45,11 +44,8 @@ class AssessmentOperating(OperatingTable):
     oil_temperature: Temperature
 
 
-class AssessmentMesh(Table):
+class AssessmentMesh(FaceTable):
     """How the axes stand, and in how many slices the face is taken."""
-
-    misalignment: MisalignmentTable = written({})
-    slices: FaceSlices = None
 
 
 class AssessmentLimits(OilLimits):

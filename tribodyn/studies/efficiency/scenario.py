@@ -13,17 +13,13 @@ from tribodyn.gears.case import LubricatedCase, with_chosen
 from tribodyn.gears.motion.recorded import LAYOUT
 from tribodyn.gears.prepare import with_chosen_laws
 from tribodyn.gears.scenario import (
-    FaceSlices,
     FilmKeys,
-    FoundationCoupling,
-    GearBodySupport,
     GearScenario,
     LossKeys,
     MatrixKeys,
+    MeshTable,
     Oil,
-    SampleNumber,
     ShaftKeys,
-    SliceCoupling,
     TemperatureKeys,
     broken_gear_rules,
     broken_stiffness_rules,
@@ -31,10 +27,9 @@ from tribodyn.gears.scenario import (
     gear_fields,
     oil_fields,
 )
-from tribodyn.input.quantity import Table, written
+from tribodyn.input.quantity import Switch, Table, written
 from tribodyn.input.tables.bearings import Stiffness
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
-from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.input.tables.laws import FrictionTable
 
@@ -68,7 +63,7 @@ def estimate(case: EfficiencyCase) -> cost.Estimate:
     return cost.total(drivers, *parts)
 
 
-class EfficiencyMesh(Table):
+class EfficiencyMesh(MeshTable):
     """How the pairs in contact share the load, and the compliance they share it by."""
 
     compliance: Literal["energy", "fem", "constant"] = "energy"
@@ -76,12 +71,7 @@ class EfficiencyMesh(Table):
     load_sharing: Literal["elastic", "uniform", "single-pair"] = "elastic"
     hertz: Literal["linear", "load-dependent"] = "linear"
     foundation: Foundation = "sainsot-velex"
-    foundation_coupling: FoundationCoupling = True
-    body: GearBodySupport = "free"
-    deviation_sample: SampleNumber = None
-    misalignment: MisalignmentTable = written({})
-    slices: FaceSlices = None
-    slice_coupling: SliceCoupling = True
+    foundation_coupling: Switch = True
 
 
 class EfficiencyFriction(FrictionTable):

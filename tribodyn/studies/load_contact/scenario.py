@@ -22,15 +22,12 @@ from tribodyn.errors import InputError
 from tribodyn.gears.case import GearCase, LubricatedCase
 from tribodyn.gears.prepare import with_chosen_laws
 from tribodyn.gears.scenario import (
-    FaceSlices,
     FilmKeys,
-    GearBodySupport,
     GearScenario,
     MatrixKeys,
+    MeshTable,
     Oil,
-    SampleNumber,
     ShaftKeys,
-    SliceCoupling,
     broken_film_keys,
     broken_gear_rules,
     broken_support_keys,
@@ -42,7 +39,6 @@ from tribodyn.geometry.body import GEOMETRY
 from tribodyn.input import units
 from tribodyn.input.quantity import Count, InUnit, NotNegative, Table, written
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
-from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.mesh.record_arrays import MESH_CYCLE
 from tribodyn.numerics.parameter import Variable
@@ -162,15 +158,10 @@ class LoadContactOperating(OiledOperatingTable):
     gear_torques: tuple[Load, ...] = Field((), max_length=1000)
 
 
-class LoadContactMesh(Table):
+class LoadContactMesh(MeshTable):
     """Slices of the face, friction, and how the axes stand."""
 
-    slices: FaceSlices = None
-    slice_coupling: SliceCoupling = True
-    body: GearBodySupport = "free"
     friction_coefficient: NotNegative = 0.0
-    deviation_sample: SampleNumber = None
-    misalignment: MisalignmentTable = written({})
 
 
 class LoadContactOutput(Table):

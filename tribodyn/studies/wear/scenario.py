@@ -10,15 +10,12 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.gears.prepare import with_chosen_laws
 from tribodyn.gears.scenario import (
-    FaceSlices,
     FilmKeys,
-    GearBodySupport,
     GearScenario,
     MatrixKeys,
+    MeshTable,
     Oil,
-    SampleNumber,
     ShaftKeys,
-    SliceCoupling,
     broken_film_keys,
     broken_gear_rules,
     broken_support_keys,
@@ -30,7 +27,6 @@ from tribodyn.geometry.modification import uneven_teeth
 from tribodyn.input.quantity import Positive, Table, Text, written
 from tribodyn.input.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.input.tables.gears.drive_rules import modifications_of
-from tribodyn.input.tables.gears.model_files import MisalignmentTable
 from tribodyn.input.tables.gears.single_teeth import ToothSampleNumber, own_teeth_of
 from tribodyn.input.tables.gears.tooth_data import driving_internal
 from tribodyn.input.tables.laws import FrictionTable, LawTable, law_values
@@ -74,15 +70,10 @@ class RunningInTable(Table):
     revolutions: Positive
 
 
-class WearMesh(Table):
+class WearMesh(MeshTable):
     """Slices of the face, and how the axes stand."""
 
-    slices: FaceSlices = None
-    slice_coupling: SliceCoupling = True
-    body: GearBodySupport = "free"
-    deviation_sample: SampleNumber = None
     tooth_sample: ToothSampleNumber = None
-    misalignment: MisalignmentTable = written({})
 
 
 class WearOutput(Table):
