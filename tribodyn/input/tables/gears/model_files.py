@@ -203,36 +203,29 @@ class Gear(quantity.Table):
     wobble_angle: Annotated[float, quantity.InUnit(units.ANGLE_KIND)] = quantity.written("0 deg")
 
 
-#: Keys of a pair of gears, in a drive file and in a stage of a train.
-PressureAngle = Angle | None
-CentreDistance = Annotated[quantity.Printed, quantity.PrintedQuantity(units.positive(units.LENGTH))] | None
-HelixAngle = Annotated[float, quantity.InUnit(units.ANGLE_KIND)] | None
-Rack = Annotated[quantity.Text, quantity.Names(PROFILES)] | None
-FamilyKeys = Annotated[dict[str, Any] | None, quantity.FamilyShape()]
-CompositeRoughness = Roughness | None
-
-
-Finish = FinishName | None
-AsperityDensity = quantity.Positive | None
-AsperitySlope = quantity.Positive | None
-
-
-class DriveTable(Described):
-    """A gear pair (`models/drives/`)."""
+class TeethTable(quantity.Table):
+    """What both gears of a mesh have in common."""
 
     family: Annotated[quantity.Text, quantity.Names(FAMILIES)]
     module: Length
-    pressure_angle: PressureAngle = None
-    helix_angle: HelixAngle = None
+    pressure_angle: Angle | None = None
+    helix_angle: Annotated[float, quantity.InUnit(units.ANGLE_KIND)] | None = None
+    centre_distance: (
+        Annotated[quantity.Printed, quantity.PrintedQuantity(units.positive(units.LENGTH))] | None
+    ) = None
+    rack: Annotated[quantity.Text, quantity.Names(PROFILES)] | None = None
+    shape: Annotated[dict[str, Any] | None, quantity.FamilyShape()] = None
+    roughness: Roughness | None = None
+    finish: FinishName | None = None
+    asperity_density: quantity.Positive | None = None
+    asperity_slope: quantity.Positive | None = None
+
+
+class DriveTable(TeethTable, Described):
+    """A gear pair (`models/drives/`)."""
+
     hand: Hand | None = None
-    centre_distance: CentreDistance = None
-    rack: Rack = None
-    shape: FamilyKeys = None
-    roughness: CompositeRoughness = None
     mean_roughness: Roughness | None = None
-    finish: Finish = None
-    asperity_density: AsperityDensity = None
-    asperity_slope: AsperitySlope = None
     material: MaterialReference | None = None
     quality: QualityGrade | None = None
     quality_edition: QualityEdition = 2013

@@ -21,23 +21,7 @@ from tribodyn.input.quantity import (
     written,
 )
 from tribodyn.input.tables.bearings import Stiffness
-from tribodyn.input.tables.gears.model_files import (
-    Angle,
-    AsperityDensity,
-    AsperitySlope,
-    CentreDistance,
-    CompositeRoughness,
-    FaceWidth,
-    FamilyKeys,
-    Finish,
-    Gear,
-    HelixAngle,
-    Inertia,
-    Length,
-    Mass,
-    PressureAngle,
-    Rack,
-)
+from tribodyn.input.tables.gears.model_files import Angle, FaceWidth, Gear, Inertia, Length, Mass, TeethTable
 from tribodyn.input.tables.housing_matrices import Matrices, SeatNames, SeatPlaces, Units
 from tribodyn.input.tables.laws import LinkTable
 from tribodyn.train.elastic.pin import Pin, pin_stiffness
@@ -72,21 +56,11 @@ class TrainGear(Gear):
     axial_position: Annotated[float, InUnit(units.LENGTH, "30 mm")] = written("0 mm")
 
 
-class StageTeeth(Table):
+class StageTeeth(TeethTable):
     """What a drive file says of both gears of a mesh."""
 
     family: Annotated[Text, quantity.Names(FAMILIES)] = "involute"
-    module: Length
-    pressure_angle: PressureAngle = None
-    helix_angle: HelixAngle = None
-    centre_distance: CentreDistance = None
     backlash: Backlash | None = None
-    rack: Rack = None
-    shape: FamilyKeys = None
-    roughness: CompositeRoughness = None
-    finish: Finish = None
-    asperity_density: AsperityDensity = None
-    asperity_slope: AsperitySlope = None
     damping_ratio: NotNegative | None = None
 
 
