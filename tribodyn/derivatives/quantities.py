@@ -30,7 +30,7 @@ from tribodyn.mesh.slices.fine import tabulate_fine
 from tribodyn.mesh.slices.helical import SliceLayout, between_nodes, mean_nodes
 from tribodyn.mesh.tabulate import tabulate
 from tribodyn.numerics.elementary import absolute, cos, namespace, smallest, sqrt
-from tribodyn.quantities.motion import LIMITS
+from tribodyn.quantities.catalogue import GROUPS
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.tribology.surface_state import SurfaceState
@@ -251,7 +251,7 @@ QUANTITIES: dict[str, Differentiated] = {
     limit.name: Differentiated(
         limit.definition.rstrip("."), limit.si, lambda at, name=limit.name: at.limits[name], limit=True
     )
-    for limit in LIMITS
+    for limit in GROUPS["limits"]
 }
 
 

@@ -1,25 +1,41 @@
-"""All reported quantities by name, and their scatter over samples."""
+"""All reported quantities, as `quantities.csv` lists them, and their scatter over samples."""
 
+import csv
+import io
 import warnings
 from collections.abc import Mapping
+from importlib import resources
 from typing import Any
 
 import numpy as np
 
-from tribodyn.quantities import drive_cycle, load, loss_map, losses, motion, single_studies
 from tribodyn.quantities.quantity import Quantity
 
-EVERY = (
-    *(*motion.QUANTITIES, *losses.QUANTITIES, *load.QUANTITIES, *single_studies.QUANTITIES),
-    *(*load.OF_SHAFTS, *motion.SIGNALS, *single_studies.WEAR, *loss_map.QUANTITIES),
-    *drive_cycle.QUANTITIES,
-)
+
+def _listed() -> dict[str, tuple[Quantity, ...]]:
+    """Quantities by group, both in the order of the file; cells that are empty are left to the defaults."""
+    text = resources.files(__package__ or "").joinpath("quantities.csv").read_text(encoding="utf-8")
+    groups: dict[str, tuple[Quantity, ...]] = {}
+    for row in csv.DictReader(io.StringIO(text)):
+        group = row.pop("group")
+        cells: Any = {name: True if name == "listed" else cell for name, cell in row.items() if cell}
+        groups[group] = (*groups.get(group, ()), Quantity(**cells))
+    return groups
+
+
+#: Group, such as those of one study or of one standard -> its quantities.
+GROUPS: Mapping[str, tuple[Quantity, ...]] = _listed()
+EVERY = tuple(quantity for group in GROUPS.values() for quantity in group)
 QUANTITIES: Mapping[str, Quantity] = {quantity.name: quantity for quantity in EVERY}
 
 
 def quantities(*names: str) -> tuple[Quantity, ...]:
     """Quantities of the catalogue by name."""
     return tuple(QUANTITIES[name] for name in names)
+
+
+#: What tables say of a mesh whose shafts tilt, and of the modification that is proposed for it.
+OF_FACE = (*quantities("deflected_misalignment", "face_load_factor", "load_centre"), *GROUPS["proposed"])
 
 
 def scatter_of(name: str) -> Quantity:

@@ -69,10 +69,6 @@ class Quantity(NamedTuple):
     below: str = ""
     listed: bool = False  # whether an array is a list to be shown in its order; else its entries are of pairs
 
-    def defined_as(self, definition: str) -> "Quantity":
-        """The same with a definition, which a table of quantities has in a line of its own."""
-        return self._replace(definition=definition)
-
     @property
     def si(self) -> str:
         """SI unit in which it is kept, "1" of plain numbers."""

@@ -8,7 +8,7 @@ from tribodyn.gears.case import GearCase
 from tribodyn.gears.supports import BearingUnderLoad, GearSupport
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.tables.drawn_bearings import BearingOfShaft, friction_data, held_by, sized
-from tribodyn.quantities.load import BEARINGS
+from tribodyn.quantities.catalogue import GROUPS
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards.rolling_bearings import (
     BALLS,
@@ -165,7 +165,7 @@ def bearing_part(shafts: Sequence[TurningShaft], oil: LubricantData | None = Non
 
 
 def bearing_rows(
-    rated: Mapping[str, Mapping[str, Any]], quantities: Sequence[Quantity] = BEARINGS
+    rated: Mapping[str, Mapping[str, Any]], quantities: Sequence[Quantity] = GROUPS["bearings"]
 ) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Heading and rows of a table of bearings, as `bearing_part` has them, or others; "–": not determined."""
     shown = [one for one in quantities if any(one.name in numbers for numbers in rated.values())]

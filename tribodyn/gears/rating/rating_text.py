@@ -4,8 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from tribodyn.gears.rating.settings import RatingTable
-from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.quantities.load import CAPACITY
+from tribodyn.quantities.catalogue import GROUPS, QUANTITIES
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 
@@ -84,7 +83,7 @@ def rating_rows(iso: Mapping[str, Any]) -> list[tuple[str, str, str, str]]:
     A life without damage has no end: its number is a lower bound.
     """
     rows = []
-    for name in (*_FACTORS, *(quantity.name for quantity in CAPACITY)):
+    for name in (*_FACTORS, *(quantity.name for quantity in GROUPS["capacity"])):
         value, quantity = iso.get(name), QUANTITIES[name]
         if value is None:
             continue

@@ -5,7 +5,7 @@ from math import isfinite
 from typing import Any
 
 from tribodyn.cases.results import TextTable
-from tribodyn.quantities.motion import OF_SHAFT, OF_SIGNAL, OF_SOUND
+from tribodyn.quantities.catalogue import GROUPS
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import Sensed, SensorSignal
 from tribodyn.sensing.sound import level_of, power_of
@@ -76,26 +76,26 @@ def sensor_tables(record: Record) -> list[TextTable]:
     kinds = {str(table.get("name")): str(table.get("kind")) for table in record.scenario.get(SENSOR, ())}
     ordered = [name for name in kinds if name in signals] or list(signals)
     rows = [
-        [name, kinds.get(name, ""), *(_written(signals[name], quantity) for quantity in OF_SIGNAL)]
+        [name, kinds.get(name, ""), *(_written(signals[name], quantity) for quantity in GROUPS["of_signal"])]
         for name in ordered
     ]
-    head = ("sensor", "kind", *(quantity.label for quantity in OF_SIGNAL))
+    head = ("sensor", "kind", *(quantity.label for quantity in GROUPS["of_signal"]))
     tables = [TextTable("Sensors, in SI units", head, rows)]
     loud = [
-        [name, *(_written(signals[name], quantity) for quantity in OF_SOUND)]
+        [name, *(_written(signals[name], quantity) for quantity in GROUPS["of_sound"])]
         for name in ordered
-        if OF_SOUND[0].name in signals[name]
+        if GROUPS["of_sound"][0].name in signals[name]
     ]
     if loud:
-        head = ("sensor", *(f"{quantity.label}, {quantity.unit}" for quantity in OF_SOUND))
+        head = ("sensor", *(f"{quantity.label}, {quantity.unit}" for quantity in GROUPS["of_sound"]))
         tables.append(TextTable("Sound that the housing radiates", head, loud))
     shafts = [
-        [name, shaft, *(_written(numbers, quantity) for quantity in OF_SHAFT)]
+        [name, shaft, *(_written(numbers, quantity) for quantity in GROUPS["of_shaft"])]
         for name in ordered
         for shaft, numbers in _shafts(signals[name])
     ]
     if shafts:
-        head = ("sensor", "shaft", *(quantity.label for quantity in OF_SHAFT))
+        head = ("sensor", "shaft", *(quantity.label for quantity in GROUPS["of_shaft"]))
         tables.append(TextTable("Averages over the turns of the shafts", head, shafts))
     return tables
 

@@ -12,8 +12,7 @@ from tribodyn.gears.rating.rating_text import sentences as sentences
 from tribodyn.gears.rating.rating_text import unit_of
 from tribodyn.gears.rating.spectrum import spectrum_tables
 from tribodyn.post.verdict import numbers, outside, with_unit
-from tribodyn.quantities.catalogue import QUANTITIES, quantities, scatter_of
-from tribodyn.quantities.load import OF_FACE
+from tribodyn.quantities.catalogue import OF_FACE, QUANTITIES, quantities, scatter_of
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.assessment.findings import IN_EQUILIBRIUM
@@ -156,7 +155,7 @@ def face_table(summary: Mapping[str, Any]) -> TextTable:
             ([mesh.get(face.name) for mesh in of] for of in groups.values()),
         )
     ]
-    for quantity in quantities(*OF_FACE):
+    for quantity in OF_FACE:
         of_quantity = ([mesh[IN_EQUILIBRIUM].get(quantity.name) for mesh in of] for of in groups.values())
         rows.append(row(quantity.title, quantity, of_quantity))
     heading = "Loads along the faces, in static equilibrium of the gearbox"

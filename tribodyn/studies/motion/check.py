@@ -17,6 +17,7 @@ from tribodyn.gears.rating.bearings import (
     bearing_remarks,
     bearing_rows,
 )
+from tribodyn.quantities.catalogue import OF_FACE
 from tribodyn.studies.motion.assembly import PreparedGearbox
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.mesh_groups import together
@@ -35,7 +36,7 @@ from tribodyn.studies.motion.planetary.powers import LOCKS, flow_of, power_data,
 from tribodyn.studies.motion.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.motion.sensors import listener_of
 from tribodyn.studies.motion.train.assessable import shafts as shafts_of
-from tribodyn.studies.motion.train.face_loads import FACE, along_face, of_deflected, proposals
+from tribodyn.studies.motion.train.face_loads import along_face, of_deflected, proposals
 from tribodyn.train.flow import flow
 
 #: Share of a mode's energy below which a body is left out of a table.
@@ -78,10 +79,10 @@ def check(case: Gearbox) -> CheckResult:
         tables.insert(0, loss_table(losses[LOSSES]))
         held |= listed(losses)
     names = [mesh.name for mesh in case.meshes]
-    faces = {name: of.data for name, of in zip(names, of_meshes, strict=True) if FACE[0].name in of.data}
+    faces = {name: of.data for name, of in zip(names, of_meshes, strict=True) if OF_FACE[0].name in of.data}
     if faces:
         title = "Loads along the faces, in static equilibrium"
-        tables.insert(0, TextTable(title, *bearing_rows(faces, FACE)))
+        tables.insert(0, TextTable(title, *bearing_rows(faces, OF_FACE)))
     if not case.named:
         (pair,) = of_meshes
         remarks = (*pair.remarks, *bearing_remarks(shafts, oil), *said)

@@ -15,8 +15,7 @@ import numpy as np
 
 from tribodyn.cases.cost import Estimate, variable_bytes
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.quantities.motion import LIMITS
+from tribodyn.quantities.catalogue import GROUPS, QUANTITIES
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, number
@@ -70,7 +69,7 @@ def evaluated_quantities(study: Study) -> dict[str, Quantity]:
         return quantities
     if study.has_gears:
         quantities.setdefault(CONTACT_RATIO, QUANTITIES[CONTACT_RATIO])
-        quantities |= {limit.name: limit for limit in LIMITS}
+        quantities |= {limit.name: limit for limit in GROUPS["limits"]}
     if not study.batch():
         for heading, some in study.reported().items():
             for quantity in some if heading != "Solver" else ():

@@ -12,11 +12,12 @@ from tribodyn.gears.rating.bearings import TurningShaft
 from tribodyn.geometry.drive import SIDES, Side
 from tribodyn.input.names import under_one_name
 from tribodyn.input.tables.gears.model_files import DriveTable, Gear
+from tribodyn.quantities.catalogue import OF_FACE
 from tribodyn.record.reader import Record
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.drivetrain.mesh_groups import alike_of
 from tribodyn.studies.motion.heat.settled import in_balance, prepare_settled
-from tribodyn.studies.motion.train.face_loads import FACE, along_face, of_deflected, proposals
+from tribodyn.studies.motion.train.face_loads import along_face, of_deflected, proposals
 from tribodyn.studies.motion.train.pair_view import stiffness_key
 from tribodyn.studies.protocol.load import load_data
 from tribodyn.train.planetary import CARRIER
@@ -206,7 +207,7 @@ def faces(case: Gearbox) -> dict[str, dict[str, float]]:
     for m, mesh in enumerate(case.meshes):
         of_mesh = along_face(spread, m) | proposed[m]
         if of_mesh:
-            found[mesh.name] = {one.name: of_mesh[one.name] for one in FACE if one.name in of_mesh}
+            found[mesh.name] = {one.name: of_mesh[one.name] for one in OF_FACE if one.name in of_mesh}
     return found
 
 

@@ -17,8 +17,6 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.gears.case import LubricatedCase
 from tribodyn.geometry.modification import FlankModification, Misalignment
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.quantities.catalogue import quantities
-from tribodyn.quantities.load import OF_FACE
 from tribodyn.studies.motion.assembly import PreparedGearbox, table_numbers
 from tribodyn.studies.motion.case import Gearbox, TrainMesh
 from tribodyn.studies.motion.prepare import assemble
@@ -33,7 +31,6 @@ from tribodyn.studies.motion.train.operating_point import (
 from tribodyn.tribology.contact import hertz_pressure
 
 #: Quantities of a mesh's loads along its face.
-FACE = quantities(*OF_FACE)
 #: Width of a spur mesh's slices, modules, where none are given: K_Hβ is that of load contact in finer ones.
 SLICE_WIDTH = 0.9
 #: Numbers of them.
