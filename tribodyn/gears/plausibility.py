@@ -14,11 +14,12 @@ from tribodyn.cases.results import CaseHead, CheckResult, TextTable
 from tribodyn.dynamics.data import BearingData
 from tribodyn.gears.case import GearCase
 from tribodyn.gears.check import with_rounding
-from tribodyn.gears.duty import HERTZ, duty_lines, nominal_duty
+from tribodyn.gears.duty import duty_lines, nominal_duty
 from tribodyn.gears.rating.bearings import bearing_part, bearing_rows, shafts_of_pair
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import SIDES, Side, body_of
 from tribodyn.geometry.families import family
+from tribodyn.numerics.files.rows import rows_of
 from tribodyn.tribology.oil import T_40, T_100, ZERO_CELSIUS, LubricantData
 
 AnyCase = TypeVar("AnyCase", bound=CaseHead)
@@ -48,145 +49,10 @@ class UsualRange(NamedTuple):
         return f"{self.what}: {with_unit}; usual is {self.ends} ({self.source}). {self.beyond}"
 
 
-_SHEETS = "data sheets of gear oils"
 #: By the names of `_numbers`, in whose units the ends are.
 USUAL = {
-    "module": UsualRange("Module", 0.5, 70.0, "mm", "ISO 1328-1", "No tolerances are standardised beyond."),
-    "face_width": UsualRange(
-        "Face width over the pinion's pitch diameter",
-        0.0,
-        2.0,
-        "",
-        "AGMA 2001-D04",
-        "A wider pinion bends and twists, for which only a misalignment stands here.",
-    ),
-    "rim": UsualRange(
-        "Rim between bore and root over the tooth's height",
-        0.5,
-        math.inf,
-        "",
-        "ISO 6336-3",
-        "A thinner rim bends and breaks; the models take a body that holds its teeth.",
-    ),
-    "gear_ratio": UsualRange("Gear ratio", 0.1, 10.0, "", "practice of single stages", "Check the teeth."),
-    "contact_ratio": UsualRange(
-        "Contact ratio", 1.1, 2.5, "", "practice of spur gears", "Check tip diameters and centre distance."
-    ),
-    "pitch_line_speed": UsualRange(
-        "Pitch-line speed",
-        0.01,
-        60.0,
-        "m/s",
-        "practice of spur gears",
-        "Faster gears are helical; slower ones run without a film. Check the speed and its unit.",
-    ),
-    "specific_load": UsualRange(
-        "Tangential load of a pair over face width and module, F_t/(b m)",
-        0.0,
-        150.0,
-        "N/mm²",
-        "ISO 6336-3 and -5: about 4 times that at the root, case-hardened steel endures some 900 N/mm²",
-        "The teeth would break. Check torque or power.",
-    ),
-    "hertz_pressure": UsualRange(
-        HERTZ,
-        0.0,
-        2000.0,
-        "MPa",
-        "ISO 14635-1: 1841 MPa in FZG load stage 12",
-        "The flanks would yield or pit. Check torque or power.",
-    ),
-    "roughness": UsualRange(
-        "Mean roughness Ra of the flanks",
-        0.03,
-        6.3,
-        "um",
-        "superfinished to hobbed flanks",
-        "Film and asperity contact have no meaning there. Check the unit.",
-    ),
-    "roughness_over_module": UsualRange(
-        "Composite roughness over the module",
-        0.0,
-        0.01,
-        "",
-        "superfinished to hobbed flanks",
-        "Such flanks are not those of the tooth's shape.",
-    ),
-    "mesh_damping": UsualRange(
-        "Damping ratio of the mesh",
-        0.01,
-        0.2,
-        "",
-        "0.03 to 0.17 measured: Kasuba & Evans 1981",
-        "With more the gears hardly vibrate, with less resonances are sharper than any that were measured.",
-    ),
-    "bearing_damping": UsualRange(
-        "Damping ratio of a bearing",
-        0.001,
-        0.3,
-        "",
-        "lightly damped structures",
-        "With more the shafts hardly vibrate.",
-    ),
-    "bearing_stiffness": UsualRange(
-        "Stiffness of a bearing", 1.0, 1e4, "N/um", "rolling bearings on their shafts", "Check the unit."
-    ),
-    "viscosity_40": UsualRange(
-        "Kinematic viscosity at 40 °C", 5.0, 1650.0, "mm²/s", "ISO 3448, VG 5 to 1500", "Check the unit."
-    ),
-    "viscosity_slope": UsualRange(
-        "Slope of the viscosity over temperature (ASTM D341) from 40 to 100 °C",
-        1.8,
-        4.5,
-        "",
-        f"{_SHEETS}: 2 of polyglycols to 3.8 of mineral oils",
-        "A smaller slope means that the oil hardly thins. Check both viscosities.",
-    ),
-    "inlet_viscosity": UsualRange(
-        "Dynamic viscosity at the inlet",
-        1.0,
-        3000.0,
-        "mPa s",
-        f"{_SHEETS}, −10 to 130 °C",
-        "Check the unit and the oil's temperature.",
-    ),
-    "pressure_viscosity": UsualRange(
-        "Pressure-viscosity coefficient",
-        5.0,
-        45.0,
-        "1/GPa",
-        "Jones et al. 1975: esters to traction fluids",
-        "Check the unit.",
-    ),
-    "oil_density": UsualRange("Density of the oil", 750.0, 1250.0, "kg/m³", _SHEETS, "Check the unit."),
-    "oil_temperature": UsualRange(
-        "Oil temperature", -30.0, 130.0, "°C", _SHEETS, "Oils age fast above, and do not flow below."
-    ),
-    "youngs_modulus": UsualRange(
-        "Young's modulus", 60.0, 250.0, "GPa", "bronze to steel", "The models are those of metal gears."
-    ),
-    "material_density": UsualRange(
-        "Density of a gear's material", 2500.0, 9000.0, "kg/m³", "aluminium to bronze", "Check the unit."
-    ),
-    "friction_coefficient": UsualRange(
-        "Friction coefficient",
-        0.005,
-        0.2,
-        "",
-        "full film to boundary lubrication",
-        "Dry steel has 0.3 and more.",
-    ),
-    "relief": UsualRange(
-        "Relief or crowning over the module",
-        0.0,
-        0.04,
-        "",
-        "practice: 10 to 20 um per mm of module at most",
-        "More removes the contact where it acts. Check the unit.",
-    ),
-    "backlash": UsualRange(
-        "Backlash over the module", 0.0, 0.3, "", "DIN 3967: below 0.2 modules", "Check the unit."
-    ),
+    name: UsualRange(what, float(low), float(high), *words)
+    for name, what, low, high, *words in (row.values() for row in rows_of(__package__, "usual_ranges.csv"))
 }
 
 

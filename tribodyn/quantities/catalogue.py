@@ -1,24 +1,21 @@
 """All reported quantities, as `quantities.csv` lists them, and their scatter over samples."""
 
-import csv
-import io
 import warnings
 from collections.abc import Mapping
-from importlib import resources
 from typing import Any
 
 import numpy as np
 
+from tribodyn.numerics.files.rows import rows_of
 from tribodyn.quantities.quantity import Quantity
 
 
 def _listed() -> dict[str, tuple[Quantity, ...]]:
     """Quantities by group, both in the order of the file; cells that are empty are left to the defaults."""
-    text = resources.files(__package__ or "").joinpath("quantities.csv").read_text(encoding="utf-8")
     groups: dict[str, tuple[Quantity, ...]] = {}
-    for row in csv.DictReader(io.StringIO(text)):
+    for row in rows_of(__package__, "quantities.csv"):
         group = row.pop("group")
-        cells: Any = {name: True if name == "listed" else cell for name, cell in row.items() if cell}
+        cells: dict[str, Any] = {name: name == "listed" or cell for name, cell in row.items() if cell}
         groups[group] = (*groups.get(group, ()), Quantity(**cells))
     return groups
 
