@@ -26,10 +26,10 @@ from tribodyn.standards.contact_path import (
 )
 from tribodyn.standards.load_factors import DynamicFactor, transverse_factor_b
 from tribodyn.standards.micropitting import Films, Flanks, Load, Oil
+from tribodyn.tribology.oil import ZERO_CELSIUS
 
 #: Places along the path over which the flash temperature is looked at.
 _PLACES = 201
-ZERO_CELSIUS = 273.15
 
 
 class RatedDuty(NamedTuple):

@@ -11,8 +11,7 @@ from tribodyn.post.figures.drawing import Drawing, drawing, finished, six_panels
 from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, new_figure
 from tribodyn.record.reader import Record
-
-_ZERO = 273.15
+from tribodyn.tribology.oil import ZERO_CELSIUS
 
 
 def _time(axes: Axes, record: Record) -> tuple[np.ndarray, str]:
@@ -52,7 +51,7 @@ def _losses(axes: Axes, record: Record) -> None:
 
 def _temperatures(axes: Axes, record: Record) -> None:
     time, _ = _time(axes, record)
-    warm = np.asarray(record["node_temperature"]) - _ZERO
+    warm = np.asarray(record["node_temperature"]) - ZERO_CELSIUS
     names = [str(name) for name in record["node"]]
     ends = np.argsort(-warm.max(axis=0))
     for rank, column in enumerate(ends):

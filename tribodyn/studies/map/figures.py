@@ -16,8 +16,9 @@ from tribodyn.post.figures.panel import View
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.record.loss_map import GridValues, efficiency_of
 from tribodyn.record.reader import Record
+from tribodyn.tribology.oil import ZERO_CELSIUS
 
-RPM, KELVIN = 30.0 / np.pi, 273.15
+RPM = 30.0 / np.pi
 TORQUE_LABEL, SPEED_LABEL = "Torque at the output (N m)", "Speed of the input (rpm)"
 #: A speed axis without 0 that spans more than this is drawn in logarithms.
 _DECADES = 30.0
@@ -55,7 +56,7 @@ class Slice(NamedTuple):
     @property
     def temperature(self) -> str:
         """As a title says it."""
-        return f"oil at {self.record['oil_temperature'][self.place] - KELVIN:.4g} °C"
+        return f"oil at {self.record['oil_temperature'][self.place] - ZERO_CELSIUS:.4g} °C"
 
     def own(self, axis: str) -> int:
         """Place on an axis nearest the gearbox's own point."""
@@ -196,7 +197,7 @@ def _film(records: Sequence[Record], _view: View) -> Figure:
     left, right = figure.subplots(1, 2)
     film = _worst(at.record["film_parameter_min"][:, at.place], np.fmin)
     iso_lines(left, at, at.plane(film), _log_levels(film), "Film over roughness", "%g")
-    bulk = _worst(at.record["bulk_temperature"][:, at.place], np.fmax) - KELVIN
+    bulk = _worst(at.record["bulk_temperature"][:, at.place], np.fmax) - ZERO_CELSIUS
     levels = list(MaxNLocator(_MOST_LINES).tick_values(np.nanmin(bulk), np.nanmax(bulk)))
     iso_lines(right, at, at.plane(bulk), levels, "Bulk temperature (°C)", "%g °C")
     titles = "Minimum film over roughness, all meshes", f"Highest bulk temperature, {at.temperature}"
@@ -221,7 +222,7 @@ def _temperatures(records: Sequence[Record], _view: View) -> Figure:
     axes, oil, i = figure.subplots(), at.record["oil_temperature"], at.own("torque")
     shown = np.unique(np.linspace(0, len(oil) - 1, min(len(oil), len(PALETTE))).astype(int))
     for colour, place in zip(PALETTE, shown, strict=False):
-        name = f"{oil[place] - KELVIN:.4g} °C"
+        name = f"{oil[place] - ZERO_CELSIUS:.4g} °C"
         axes.plot(at.speed, at.record["power_loss"][place, i], color=colour, label=name)
     axes.set(xlabel=SPEED_LABEL, ylabel="Power lost (W)")
     axes.legend(title="oil", title_fontsize=7.5)

@@ -26,6 +26,7 @@ from tribodyn.studies.map.evaluation import KnownPoints, PointStore, discard, ev
 from tribodyn.studies.map.refinement import RefinedGrid, nodes_of, refined
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
 from tribodyn.studies.protocol.tasks import folder_of
+from tribodyn.tribology.oil import ZERO_CELSIUS
 
 #: Points at which `check` measures how long one takes, beside the first.
 TRIED = 24
@@ -258,7 +259,9 @@ def check(case: MapCase) -> CheckResult:
 
 def _ends(name: str, axis: Float[Array, " node"]) -> str:
     """First and last value of an axis in the units in which it is shown."""
-    shown = {"torque": ("N m", 1.0, 0.0), "speed": ("rpm", 30.0 / np.pi, 0.0)}.get(name, ("°C", 1.0, -273.15))
+    shown = {"torque": ("N m", 1.0, 0.0), "speed": ("rpm", 30.0 / np.pi, 0.0)}.get(
+        name, ("°C", 1.0, -ZERO_CELSIUS)
+    )
     unit, factor, offset = shown
     first, last = (factor * (float(end) + offset) for end in (axis[0], axis[-1]))
     return f"{first:.5g} … {last:.5g} {unit}" if len(axis) > 1 else f"{first:.5g} {unit}"

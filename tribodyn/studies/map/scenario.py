@@ -18,6 +18,7 @@ from tribodyn.studies import study_of
 from tribodyn.studies.map.case import BACK, BOTH, FORWARD, NAMES, MapCase
 from tribodyn.studies.protocol.load import broken_rules as rules_broken_by
 from tribodyn.studies.protocol.load import load_data, schema_inside
+from tribodyn.tribology.oil import ZERO_CELSIUS
 
 KIND = "map"
 #: Values of one axis.
@@ -181,7 +182,7 @@ def _temperatures(inner: Any, temperatures: tuple[float, ...] | None) -> Iterato
     if temperatures is None:
         return
     for number, temperature in enumerate(temperatures):
-        key, value = f"map.oil_temperature.{number}", f"{temperature - 273.15:.6g} degC"
+        key, value = f"map.oil_temperature.{number}", f"{temperature - ZERO_CELSIUS:.6g} degC"
         if known:
             for error in broken_lubricant_rules(inner.lubricant, temperature):
                 if error.key == "operating.oil_temperature":

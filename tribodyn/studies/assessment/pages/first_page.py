@@ -19,7 +19,7 @@ from tribodyn.quantities.catalogue import scatter
 from tribodyn.record.reader import Record
 from tribodyn.studies.pages import drawable, figure, overview
 from tribodyn.studies.protocol.study import Study
-from tribodyn.tribology.oil import LubricantData
+from tribodyn.tribology.oil import ZERO_CELSIUS, LubricantData
 
 #: The figure of a run that stands beside its overview where it is to be had.
 _SHAFTS = "shafts"
@@ -89,7 +89,7 @@ def asked(rows: Mapping[str, str]) -> str:
 
 def oil_line(lubricant: LubricantData, temperature: float, lubrication: str) -> str:
     """An oil and how it gets to the mesh, at a temperature in K."""
-    sheet, duty = lubricant.sheet, f"at {temperature - 273.15:.4g} °C, {lubrication}"
+    sheet, duty = lubricant.sheet, f"at {temperature - ZERO_CELSIUS:.4g} °C, {lubrication}"
     if sheet is None:
         return duty
     return f"{sheet.type}, {sheet.viscosity_40 * 1e6:.4g}/{sheet.viscosity_100 * 1e6:.4g} mm²/s, {duty}"
