@@ -7,66 +7,11 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.numerics.parameter import Variable
+from tribodyn.numerics.parameter import Variable, datasets_of
 
 _PAIR = ("phase", "pair")
 #: Fields of a `MeshCycle` as a record has them: dimensions, unit, meaning; (phase,) is (S, N) in the table.
-MESH_CYCLE: dict[str, Variable] = {
-    "boundary": Variable(
-        ("boundary",), "1", "phases, in mesh cycles, at which the set of contacting pairs changes"
-    ),
-    "phase": Variable(
-        ("phase",),
-        "1",
-        "phase of the mesh in mesh cycles; boundaries of segments stand twice, before and after",
-    ),
-    "side": Variable(("pair",), "1", "+1 driving flanks, -1 back flanks"),
-    "in_contact": Variable(
-        _PAIR,
-        "1",
-        "1 where the pair is on the theoretical path of contact; elsewhere its values mean nothing",
-    ),
-    "pressure_angle": Variable(_PAIR, "rad", "angle of the common normal to the pitch tangent"),
-    "signed_distance": Variable(_PAIR, "m", "distance from pitch point to contact, negative in approach"),
-    "equivalent_radius": Variable(
-        _PAIR, "m", "one over the sum of the flanks' curvatures, at the very point of contact"
-    ),
-    "pinion_speed": Variable(
-        _PAIR, "m/rad", "speed of the contact along the pinion's flank per pinion speed"
-    ),
-    "gear_speed": Variable(_PAIR, "m/rad", "speed of the contact along the gear's flank per pinion speed"),
-    "compliance": Variable(_PAIR, "m/N", "deflection of one pair along its normal per normal load"),
-    "gap": Variable(_PAIR, "m", "static transmission error; for back flanks the backlash along the normal"),
-    "line_load_friction": Variable(
-        _PAIR, "1", "line load at which friction acts as on the uneven face, over the mean"
-    ),
-    "line_load_peak": Variable(_PAIR, "1", "maximum line load along the face over the mean, K_Hbeta"),
-    "share": Variable(_PAIR, "1", "part of the slot's width that is on the path of contact"),
-    "face_position": Variable(("slice",), "m", "middles of slices, from the middle of the face"),
-    "face_place": Variable(_PAIR, "m", "where the slot's load acts along the face, from its middle"),
-    "coupling": Variable(
-        ("phase", "pair", "other_pair"),
-        "m/N",
-        "deflection of a pair per load on the other pair, through the gear bodies",
-    ),
-    **{
-        name: Variable((), unit, name.replace("_", " "))
-        for name, unit in {
-            "hertz_coefficient": "m/N^0.9",
-            "pinion_pitch_radius": "m",
-            "gear_pitch_radius": "m",
-            "pinion_teeth": "1",
-            "face_width": "m",
-            "contact_ratio": "1",
-            "pitch_point_phase": "1",
-            "roll_start": "rad",
-            "roll_end": "rad",
-            "pitch_point_length": "m",
-            "pitch_point_rate": "1/rad",
-            "pitch_slope": "1",
-        }.items()
-    },
-}
+MESH_CYCLE = datasets_of(__package__)["mesh_cycle"]
 
 
 def untabulated(assembly: Assembly, face_width: float) -> dict[str, float]:

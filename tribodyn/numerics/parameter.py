@@ -3,6 +3,8 @@
 import math
 from typing import NamedTuple
 
+from tribodyn.numerics.files.rows import rows_of
+
 
 class Parameter(NamedTuple):
     """A number, or a table of points, that one tooth family or law has and others have not.
@@ -53,3 +55,13 @@ class Variable(NamedTuple):
 def flag(dims: tuple[str, ...], long_name: str, meanings: str, first: int = -1) -> Variable:
     """A dataset of whole numbers from `first` on that stand for words; `first` where nothing was written."""
     return Variable(dims, "1", long_name, "i1", first, meanings)
+
+
+def datasets_of(package: str | None) -> dict[str, dict[str, Variable]]:
+    """Datasets by group and name, as ``datasets.csv`` beside the modules of a package lists them."""
+    groups: dict[str, dict[str, Variable]] = {}
+    for row in rows_of(package, "datasets.csv"):
+        dims, meaning, flags = tuple(row["dims"].split()), row["meaning"], row["flags"]
+        made = flag(dims, meaning, flags) if flags else Variable(dims, row["units"], meaning)
+        groups.setdefault(row["group"], {})[row["name"]] = made
+    return groups

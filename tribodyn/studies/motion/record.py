@@ -18,7 +18,7 @@ from tribodyn.gears.motion.running import MeshOfRun, mesh_pairs
 from tribodyn.geometry.body import GEOMETRY, geometry_arrays
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.record_arrays import as_arrays, described
-from tribodyn.numerics.parameter import Variable
+from tribodyn.numerics.parameter import Variable, datasets_of
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.motion.assembly import PreparedGearbox
@@ -28,7 +28,6 @@ from tribodyn.studies.motion.planetary.rims import waves_of
 from tribodyn.studies.motion.prepare import geometry_of
 
 _TIME, _BODY, _MESH, _PAIRS = ("time",), ("time", "body"), ("time", "mesh"), ("time", "mesh", "pair")
-_CLUTCH = ("time", "clutch")
 #: What a record of a pair says in terms of pinion and gear.
 _MEANINGS = {
     "friction_force": "sliding friction on the driver's flank along the tangent, positive in recess",
@@ -50,114 +49,41 @@ def _of_train(name: str, variable: Variable) -> Variable:
     return variable._replace(dims=dims, long_name=_MEANINGS.get(name, variable.long_name))
 
 
+_DATASETS = datasets_of(__package__)
 #: What a run records over time. Rotations of a body are positive in its own nominal sense.
 SAMPLES: dict[str, Variable] = {
-    "reference_angle": Variable(_TIME, "rad", "rotation of the body that drives the first mesh"),
-    "mesh_phase": Variable(
-        _MESH,
-        "1",
-        "cycles of each mesh since it began one; a cycle begins as a pair enters",
-    ),
-    "angle": Variable(_BODY, "rad", "rotation of each body, in its own nominal sense"),
-    "speed": Variable(_BODY, "rad/s", "speed of rotation of each body, in its own nominal sense"),
-    "x": Variable(_BODY, "m", "displacement of each body in x of the train; NaN of those that only turn"),
-    "y": Variable(_BODY, "m", "displacement of each body in y of the train; NaN of those that only turn"),
-    "x_rate": Variable(_BODY, "m/s", "velocity of each body in x of the train"),
-    "y_rate": Variable(_BODY, "m/s", "velocity of each body in y of the train"),
+    **_DATASETS["bodies"],
     **{
         name: _of_train(name, variable)
         for name, variable in OF_A_PAIR.items()
         if "dof" not in variable.dims and name != "pinion_angle"
     },
-    "signed_distance": Variable(
-        _PAIRS, "m", "distance from the pitch point to the pair's contact, negative in approach"
-    ),
-    "driver_torque": Variable(_MESH, "N*m", "torque of the mesh on its driver, against its motion"),
-    "driven_torque": Variable(_MESH, "N*m", "torque of the mesh on its driven body, with its motion"),
-    "mesh_power_friction": Variable(_MESH, "W", "power lost to sliding friction in each mesh"),
+    **_DATASETS["meshes"],
 }
-SCALES = {
-    "mesh": Variable(("mesh",), "1", "mesh of the train; driver and driven, as power flows from the input"),
-    "body": Variable(("body",), "1", "body of the train"),
-    "gear": Variable(("gear",), "1", "gear of the train"),
-    "pair": PAIR._replace(long_name=f"{PAIR.long_name}; NaN where a mesh has none of this number"),
-}
+#: Axes of trains, and those of what some of them have: bearings, clutches, slices.
+_AXES = _DATASETS["scales"]
+SCALES = {name: _AXES[name] for name in ("mesh", "body", "gear")}
+SCALES["pair"] = PAIR._replace(long_name=f"{PAIR.long_name}; NaN where a mesh has none of this number")
 #: Where its bodies, gears and meshes stand. Numbers of bodies and gears count from 0 along their axes.
-TRAIN_GEOMETRY: dict[str, Variable] = {
-    "centre": Variable(("body", "axis"), "m", "axis of each body in x, y of the train, without load"),
-    "sense": Variable(("body",), "1", "nominal sense of rotation, 1 counter-clockwise seen from +z, -1 not"),
-    "carrier": Variable(
-        ("body",),
-        "1",
-        "number of the carrier of the planetary set that each body is of; -1: none",
-    ),
-    "carried": Variable(
-        ("body",),
-        "1",
-        "rotation of the frame of x and y of each body about its carrier's axis, counter-clockwise, over "
-        "reference_angle: nominal",
-    ),
-    "gear_body": Variable(("gear",), "1", "number of the body that each gear belongs to"),
-    "plane": Variable(("gear",), "1", "number of the axial plane that each gear is in"),
-    "tooth_direction": Variable(
-        ("gear",), "rad", "direction of the axis of a tooth where its body's angle is 0, from x"
-    ),
-    "driver_gear": Variable(("mesh",), "1", "number of the gear that drives in each mesh"),
-    "driven_gear": Variable(("mesh",), "1", "number of the gear that is driven in each mesh"),
-    "phase": Variable(
-        ("mesh",), "1", "cycles of each mesh where all angles are 0, without load; of the first mesh 0"
-    ),
-    "azimuth": Variable(("mesh",), "rad", "direction from the driver's axis to the driven one's, from x"),
-}
+TRAIN_GEOMETRY = _DATASETS["geometry"]
 #: And of a train with helical teeth.
-IN_SPACE: dict[str, Variable] = {
-    "z": Variable(_BODY, "m", "displacement of each body along its axis; NaN of those that do not move so"),
-    "tilt_x": Variable(_BODY, "rad", "tilt of each body about x of the train"),
-    "tilt_y": Variable(_BODY, "rad", "tilt of each body about y of the train"),
-    "z_rate": Variable(_BODY, "m/s", "velocity of each body along its axis"),
-    "axial_force": Variable(_MESH, "N", "force of each mesh on its driver along z"),
-}
+IN_SPACE = _DATASETS["in_space"]
 #: And where rims of rings bend.
-RIM: dict[str, Variable] = {
-    "rim_along": Variable(
-        _MESH, "m", "bending of the ring's rim at each mesh along the pitch tangent, as the driver's motion"
-    ),
-    "rim_across": Variable(_MESH, "m", "likewise across, from the driver's axis to the driven one's"),
-    "rim_wave": Variable(("time", "wave"), "m", "amplitudes of the waves of every rim, of its outside"),
-}
+RIM = _DATASETS["rim"]
 #: In the group "geometry" then; at θ of the carrier's frame the outside of a rim moves outwards by the sum of
 #: a cos nθ + a' sin nθ, and along the circle, counter-clockwise, by that of b sin nθ − b' cos nθ.
-RIM_GEOMETRY: dict[str, Variable] = {
-    "wave_ring": Variable(("wave",), "1", "number of the body whose rim each amplitude is of"),
-    "wave_order": Variable(("wave",), "1", "order n of each amplitude; those of one are a, b, a', b'"),
-    "wave_pins": Variable(("wave",), "1", "number of the pins that hold its rim; 0: none"),
-}
+RIM_GEOMETRY = _DATASETS["rim_geometry"]
 #: And of meshes in slices.
-LINE_LOAD: dict[str, Variable] = {
-    "line_load": OF_SLICES["line_load"]._replace(dims=(*_PAIRS, "slice")),
-}
-SLICE = {
-    "slice": Variable(("slice",), "1", "slice of the face, from its -z end on; NaN beyond those of a mesh")
-}
+LINE_LOAD = {"line_load": OF_SLICES["line_load"]._replace(dims=(*_PAIRS, "slice"))}
+SLICE = {"slice": _AXES["slice"]}
 #: And of one whose bodies bearings hold.
-BEARINGS: dict[str, Variable] = {
-    "bearing_force_x": Variable(("time", "bearing"), "N", "force of each body on its bearing or pin in x"),
-    "bearing_force_y": Variable(("time", "bearing"), "N", "force of each body on its bearing or pin in y"),
-}
+BEARINGS = _DATASETS["bearings"]
 #: Where forces of bearings are evaluated in time.
-CAGES = {
-    "power_cages": Variable(("time",), "W", "power with which cages carry loaded rolling elements on"),
-}
-_BEARING = {"bearing": Variable(("bearing",), "1", "bearing or pin, by the body that it holds")}
+CAGES = _DATASETS["cages"]
+_BEARING = {"bearing": _AXES["bearing"]}
 #: And of one with clutches or brakes.
-CLUTCHES: dict[str, Variable] = {
-    "clutch_slip": Variable(_CLUTCH, "rad/s", "speed of each clutch's first body over its second one's"),
-    "clutch_torque": Variable(_CLUTCH, "N*m", "torque of each clutch on its first body, against its slip"),
-    "clutch_capacity": Variable(_CLUTCH, "N*m", "torque that each clutch transmits while it slips"),
-    "clutch_power": Variable(_CLUTCH, "W", "power that slip turns into heat in each clutch"),
-    "clutch_work": Variable(_CLUTCH, "J", "work that slip turned into heat in each clutch since the start"),
-}
-_CLUTCH_AXIS = {"clutch": Variable(("clutch",), "1", "clutch or brake of the train")}
+CLUTCHES = _DATASETS["clutches"]
+_CLUTCH_AXIS = {"clutch": _AXES["clutch"]}
 #: Of a pair besides what `gears_layout` has.
 OF_A_GEAR = {
     name: SAMPLES[name]._replace(dims=tuple(dim for dim in SAMPLES[name].dims if dim != "mesh"))
