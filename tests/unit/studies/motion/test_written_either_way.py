@@ -62,43 +62,21 @@ IN_A_LIST = DRAWN | {
         {"name": "two", "gears": ["gear"], "drawn": BETWEEN},
     ]
 }
+FORMULAS = {"churning": "iso-14179-1", "windage": "anderson-loewenthal", "bearings": "palmgren"}
 #: What the pair says, and what the train says in its place.
 FEATURES: dict[str, tuple[dict[str, Any], ...]] = {
     "plain": ({}, {}),
     "matrices": ({"bearings": {"pinion": ON_MATRIX, "gear": SPRINGS}},) * 2,
     "bearings of all": ({"bearings": {"default": SPRINGS}},) * 2,
     "slices": ({"drive": "helical-23-47", "mesh": SLICES},) * 2,
-    "drawn shafts": (
-        BY_GEAR,
-        DRAWN
-        | {
-            "shaft": [
-                {"name": "one", "gears": ["pinion"], "drawn": OVERHUNG},
-                {"name": "two", "gears": ["gear"], "drawn": BETWEEN},
-            ]
-        },
-    ),
+    "drawn shafts": (BY_GEAR, IN_A_LIST),
     "drawn shafts in a list": (IN_A_LIST,) * 2,
     "drawn shafts by gear": (BY_GEAR,) * 2,
     "losses": (
+        {"losses": FORMULAS | {"gear_immersion": "20 mm", "pinion_bearings": DRAG, "gear_bearings": DRAG}},
         {
-            "losses": {
-                "churning": "iso-14179-1",
-                "windage": "anderson-loewenthal",
-                "bearings": "palmgren",
-                "gear_immersion": "20 mm",
-                "pinion_bearings": DRAG,
-                "gear_bearings": DRAG,
-            }
-        },
-        {
-            "losses": {
-                "churning": "iso-14179-1",
-                "windage": "anderson-loewenthal",
-                "bearings": "palmgren",
-                "immersion": {"gear": "20 mm"},
-                "shaft_bearings": {"pinion": DRAG, "gear": DRAG},
-            }
+            "losses": FORMULAS
+            | {"immersion": {"gear": "20 mm"}, "shaft_bearings": {"pinion": DRAG, "gear": DRAG}}
         },
     ),
     "load spectrum": (
@@ -109,10 +87,7 @@ FEATURES: dict[str, tuple[dict[str, Any], ...]] = {
     "damage": ({"damage": [{"gear": "gear", "tooth": 3, "kind": "spall", **SPALL}]},) * 2,
     "tooth by tooth": ({"drive": {"pinion": {**PINION, "eccentricity": "15 um"}}},) * 2,
     "temperature": ({"temperature": {"model": "network", **NETWORK}},) * 2,
-    "tolerance class": (
-        {"drive": {**{"family": "involute"}, "quality": 6}},
-        {"drive": {**{"family": "involute"}, "quality": 6}},
-    ),
+    "tolerance class": ({"drive": {"quality": 6}},) * 2,
 }
 
 
@@ -229,11 +204,7 @@ def on_springs(shaft: dict[str, Any]) -> dict[str, Any]:
     return shaft | {"bearing": [springs | {"position": each["position"]} for each in shaft["bearing"]]}
 
 
-STAGE = {
-    "module": "3 mm",
-    "pressure_angle": "20 deg",
-    "helix_angle": "15 deg",
-}
+STAGE = {"module": "3 mm", "pressure_angle": "20 deg", "helix_angle": "15 deg"}
 
 
 @pytest.mark.parametrize("azimuth", ["90 deg", "0 deg", "-140 deg"])
@@ -321,10 +292,9 @@ def test_a_law_from_python_takes_the_place_of_a_trains(tmp_path: Path):
 def everything(gearbox: str) -> dict[str, Any]:
     """Tables of what a run has at once: losses, a load spectrum, sensors, a bulk temperature."""
     body, gear, _, load = PLACES[gearbox]
-    formulas = {"churning": "iso-14179-1", "windage": "anderson-loewenthal", "bearings": "palmgren"}
     losses = {
-        "pair": formulas | {"gear_immersion": "20 mm", "gear_bearings": DRAG},
-        "reducer": formulas | {"immersion": {gear: "20 mm"}, "shaft_bearings": {body: DRAG}},
+        "pair": FORMULAS | {"gear_immersion": "20 mm", "gear_bearings": DRAG},
+        "reducer": FORMULAS | {"immersion": {gear: "20 mm"}, "shaft_bearings": {body: DRAG}},
         # gears of a planetary stage churn by no formula that is known
         "planetary": {"bearings": "palmgren", "shaft_bearings": {body: DRAG}},
     }
