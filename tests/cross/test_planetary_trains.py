@@ -7,7 +7,7 @@ import pytest
 
 from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case, tangent_loads
 from tests.support.planetary_phases import mesh_phases
-from tests.support.single_set import torques
+from tests.support.single_set import excited, torques
 from tests.support.train_scenarios import case_of_table
 from tribodyn.dynamics.modes import modes
 from tribodyn.errors import InputError
@@ -23,7 +23,6 @@ from tribodyn.studies.motion.run import run
 from tribodyn.train.planetary import (
     MEMBERS,
     SetTeeth,
-    excited,
 )
 from tribodyn.train.structure import shift_of, turn_of
 

@@ -48,3 +48,15 @@ def torques(
     relative = {SUN: float(factors[SUN]), RING: factors[RING] * share}
     relative[CARRIER] = -relative[SUN] - relative[RING]
     return {member: torque * relative[member] / relative[driving] for member in MEMBERS}
+
+
+def excited(teeth: SetTeeth, planets: int, harmonic: int) -> tuple[str, ...]:
+    """Kinds of modes that a harmonic of the mesh excites in a set of equally spaced planets.
+
+    By k = h z_s mod N (Kahraman 1994; Parker 2000): the forces of the planets on a central member add up to a
+    torque where k = 0, to a force where k = 1 or N − 1, and otherwise cancel.
+    """
+    k = harmonic * teeth.sun % planets
+    if k == 0:
+        return ("rotational",)
+    return ("translational",) if k in (1, planets - 1) else ("planet",)

@@ -100,16 +100,6 @@ def has_supports(scenario: Any) -> bool:
     return bool(drawn) or any(_with_matrix(bearings, side) for side in SIDES)
 
 
-def bearings_of(scenario: Any) -> tuple[BearingData, BearingData]:
-    """Stiffness and damping of what holds both gears of a scenario that breaks no rule."""
-    held = supports_of(scenario)
-    pinion, gear = (
-        bearing_of(scenario.bearings.of(side)) if support is None else support.data
-        for side, support in zip(SIDES, held[:2], strict=True)
-    )
-    return pinion, gear
-
-
 def mean_loads(assembly: Assembly, gear_torque: float) -> tuple[Five, Five]:
     """Load of the mesh on pinion and gear: forces along x, y, z and moments about x and y of their centres.
 

@@ -101,15 +101,3 @@ def nearest_teeth(teeth: SetTeeth, angles: Sequence[float], most: int = 12) -> l
         if fitting := [(sun, ring) for sun, ring in tried if sun > 0 > ring and fits(sun, ring)]:
             return fitting
     return []
-
-
-def excited(teeth: SetTeeth, planets: int, harmonic: int) -> tuple[str, ...]:
-    """Kinds of modes that a harmonic of the mesh excites in a set of equally spaced planets.
-
-    By k = h z_s mod N (Kahraman 1994; Parker 2000): the forces of the planets on a central member add up to a
-    torque where k = 0, to a force where k = 1 or N − 1, and otherwise cancel.
-    """
-    k = harmonic * teeth.sun % planets
-    if k == 0:
-        return ("rotational",)
-    return ("translational",) if k in (1, planets - 1) else ("planet",)

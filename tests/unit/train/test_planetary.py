@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.support.planetary_phases import mesh_phases
-from tests.support.single_set import mesh_frequency, speeds, torques, willis
+from tests.support.single_set import excited, mesh_frequency, speeds, torques, willis
 from tribodyn.errors import InputError
 from tribodyn.train.phases import Engagement, ToothedShaft, nominal_phases
 from tribodyn.train.planetary import (
@@ -17,7 +17,6 @@ from tribodyn.train.planetary import (
     SUN,
     SetTeeth,
     check_assembly,
-    excited,
     nearest_teeth,
 )
 

@@ -13,7 +13,6 @@ from tribodyn.exchange.rexs.writing.teeth import said
 _CATALOGUE, _CONCEPT = "rolling_bearing_with_catalog_geometry", "concept_bearing"
 #: Axial force of the first row, and of the second, that a pair takes: X holds outwards, O inwards.
 _PAIRS = {"X": ("negative", "positive"), "O": ("positive", "negative")}
-_ONE_WAY = "angular-contact-ball", "tapered-roller"
 _NO_WAY = "cylindrical-roller", "needle-roller"
 #: Metal of a shaft of which the scenario says none.
 _METAL = {"youngs_modulus": "206 GPa", "poisson_ratio": 0.3, "density": "7850 kg/m**3"}
