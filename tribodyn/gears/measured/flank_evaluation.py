@@ -73,13 +73,8 @@ def trace_deviations(
 
 def pitch_deviations(index: Float[Array, " tooth"]) -> tuple[float, float]:
     """f_p, the largest single pitch deviation with its sign, and F_p, the range of the index, m."""
-    single = single_pitches(index)
+    single = index - np.roll(index, 1)
     return float(single[np.argmax(np.abs(single))]), float(np.ptp(index))
-
-
-def single_pitches(index: Float[Array, " tooth"]) -> Float[Array, " tooth"]:
-    """Single pitch deviations f_pi, from each tooth's predecessor to it, of index deviations round a gear."""
-    return index - np.roll(index, 1)
 
 
 def eccentricity_of(radial: Float[Array, " gap"]) -> tuple[float, float]:

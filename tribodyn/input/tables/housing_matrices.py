@@ -39,12 +39,7 @@ class MatrixTable(Table):
     radiation_frequency: tuple[Number, ...] = ()
 
 
-def matrix_file() -> Reference:
-    """A field that may name a file of matrices."""
-    return Reference(f"file of matrices ({', '.join(READERS)})", reader=read_matrices)
-
-
-Matrices = Annotated[MatrixTable, matrix_file()]
+Matrices = Annotated[MatrixTable, Reference(f"file of matrices ({', '.join(READERS)})", reader=read_matrices)]
 Units = Annotated[Text, Field(examples=["mm, t, s"])]
 SeatNames = Annotated[tuple[PartName, ...], Field(max_length=100)]
 SeatPlaces = dict[PartName, tuple[Length, Length, Length]]

@@ -52,7 +52,7 @@ def stress_figure(records: Sequence[Record]) -> Figure:
     panels = figure.subplots(len(rows), 2, squeeze=False)
     scale = scale_of([field for *_, field in rows])
     for number, ((section, flank), (record, side, field)) in enumerate(zip(panels, rows, strict=True)):
-        part = heaviest(field)
+        part = int(np.argmax(np.max(field.von_mises[0, field.profile], axis=0)))
         draw_section(section, field, part, scale)
         draw_flank(flank, field, scale)
         at = MM * float(field.slice_position[part])
@@ -80,11 +80,6 @@ def scale_of(fields: Sequence[ToothField]) -> Normalize:
 def add_bar(figure: Figure, scale: Normalize, panels: Sequence[Axes]) -> None:
     """Add the bar of a scale."""
     figure.colorbar(ScalarMappable(scale, COLOURS), ax=list(panels), label=LABEL, shrink=0.8, extend="max")
-
-
-def heaviest(field: ToothField) -> int:
-    """Slice with the highest stress on the profile."""
-    return int(np.argmax(np.max(field.von_mises[0, field.profile], axis=0)))
 
 
 def draw_section(axes: Axes, field: ToothField, part: int, scale: Normalize) -> None:
