@@ -22,7 +22,7 @@ pytestmark = pytest.mark.bench
 
 @pytest.fixture(scope="module")
 def figures(tmp_path_factory):
-    times = least(tmp_path_factory.mktemp("runs"), 5)
+    times = least(tmp_path_factory.mktemp("runs"), 3)
     return {
         **{name: time for name, (time, _) in times.items()},
         **{f"{name} by the clock": time for name, (_, time) in times.items()},
