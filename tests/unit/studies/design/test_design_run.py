@@ -153,7 +153,7 @@ def test_constraints_that_cannot_be_kept_are_named(tmp_path: Path):
 
 def test_a_start_that_cannot_be_made_is_said_and_left(tmp_path: Path):
     interfering = {"drive.pinion.profile_shift": -0.9}
-    found = search(tmp_path / "a.h5", overrides=interfering)
+    found = search(tmp_path / "a.h5", overrides=interfering, evaluations=4)
     assert found.status == "complete"
     assert found.objective_start is None
     assert "fillet" in found.summary["start_message"]
