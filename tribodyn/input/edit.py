@@ -71,7 +71,8 @@ def with_values(text: str, values: Mapping[Key, Any], models: Models) -> str:
 def put(document: MutableMapping[str, Any], key: Key, value: Any, models: Models) -> None:
     """Put a value in; tables on the way are made, models on the way become tables that are like them.
 
-    Raises InputError where the key leads to no table.
+    The document may be plain data: tomlkit takes minutes for many numbers. Raises InputError where the key
+    leads to no table.
     """
     place: Any = document
     for depth, part in enumerate(key[:-1], start=1):
@@ -82,8 +83,7 @@ def put(document: MutableMapping[str, Any], key: Key, value: Any, models: Models
             if inner is not None:
                 models.require_model(key[:depth], str(inner))
             begun = models.begun(key[:depth])
-            inline = isinstance(place, InlineTable)
-            inner = tomlkit.inline_table() if inline else tomlkit.table()
+            inner = _empty_table(place)
             inner.update(begun)
             _replace(place, str(part), inner)
             inner = place[part]
@@ -98,6 +98,13 @@ def put(document: MutableMapping[str, Any], key: Key, value: Any, models: Models
             raise _no_table(key, len(key), value, place)
     except (TOMLKitError, ValueError, TypeError):
         raise InputError(".".join(map(str, key)), None, "no value that TOML has", "write another") from None
+
+
+def _empty_table(place: Any) -> MutableMapping[str, Any]:
+    """A table as the one that it is to stand in: plain data stay plain."""
+    if type(place) is dict:
+        return {}
+    return tomlkit.inline_table() if isinstance(place, InlineTable) else tomlkit.table()
 
 
 def _inside(place: Any, part: str | int) -> Any:

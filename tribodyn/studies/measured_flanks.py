@@ -1,8 +1,8 @@
 """Measured gears into a scenario, and the gears of a scenario as they would be measured."""
 
 import math
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from copy import deepcopy
 from functools import reduce
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,7 +13,7 @@ from tribodyn.gears.measured.evaluated import Evaluation, evaluation_of
 from tribodyn.gears.measured.from_scenario import measured_of
 from tribodyn.gears.measured.mounted_gear import END, START, MountedGear
 from tribodyn.gears.measured.to_scenario import FlankKeys, ToothErrors, keys_of
-from tribodyn.input.edit import Models, with_values
+from tribodyn.input.edit import Models, put, with_values
 from tribodyn.input.messages import Key
 from tribodyn.input.quantity import defaults_written_out
 from tribodyn.input.sources import MOST_TOML, find_scenario, read_text, read_toml
@@ -140,7 +140,10 @@ def import_measured(
     data, text = read_toml(source), read_text(source, MOST_TOML)
     models = Models(defaults_written_out(data, table_of(data)), table_of(data), source)
     try:
-        load_data(tomllib.loads(with_values(text, inline, models)), str(target.with_suffix("")))
+        tried = deepcopy(data)  # many numbers take tomlkit minutes
+        for key, meaning in inline.items():
+            put(tried, key, meaning, models)
+        load_data(tried, str(target.with_suffix("")))
     except InputError as error:  # the scenario by itself was right
         raise error.moved(lambda _: file) from None
     for path in (target, *tables):
