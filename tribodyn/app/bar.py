@@ -9,13 +9,13 @@ from nicegui import ui
 
 from tribodyn.app.core.document import Document
 from tribodyn.app.examples import EXAMPLES
+from tribodyn.app.folder import measured_endings, scenario_endings
 from tribodyn.app.job_view import JobsDialog
-from tribodyn.app.kept import KeptDocuments
-from tribodyn.app.parts import BarPart, TourPart
+from tribodyn.app.kept import KeptWork
+from tribodyn.app.parts import BarPart, BringPart, TourPart
 from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError, OutputError, quoted
 from tribodyn.input.sources import SCENARIOS, is_file, names, shipped
-from tribodyn.studies import handed_over
 
 #: Characters of a state that the address of the page holds, of an address that a server takes, and of a word
 #: of a command (of Linux, 128 KiB).
@@ -43,7 +43,7 @@ class Bar:
         self,
         window: DesignWindow,
         address: str,
-        kept: KeptDocuments,
+        kept: KeptWork,
         *,
         few: bool,
         go: Callable[[str], Any],
@@ -56,7 +56,7 @@ class Bar:
         self.part = BarPart()
         self.part.give(few=few)
         self.part.tell(act=self._act)
-        self.jobs = None if few else JobsDialog(window, address, self.say)
+        self.jobs = None if few else JobsDialog(window, address, kept, self.say)
 
     def show(self) -> None:
         """Show the name, and what can be done."""
@@ -200,7 +200,7 @@ class Bar:
 
     def _open(self) -> None:
         folder = self.window.folder
-        foreign = [ending for each in handed_over.readers().values() for ending in each.endings]
+        endings = scenario_endings()
         with ui.dialog(value=True).props('aria-label="Open"') as dialog, ui.card().classes("tb-dialog"):
             ui.label("Open").classes("tb-title").props("role=heading aria-level=2")
             wrong = ui.label().classes("tb-error").props("role=alert")
@@ -225,7 +225,7 @@ class Bar:
                     button = ui.button(one.task, color=None).props("no-caps outline")
                     button.on_click(partial(open_named, one.task, one.scenario, one.field, one.hint))
                     ui.label(one.hint)
-            files = folder.listed([".toml", *foreign])
+            files = folder.listed(endings)
             ui.label("Files of this folder").classes("tb-title").props("role=heading aria-level=3")
             if not files:
                 ui.label("There are none yet.")
@@ -233,7 +233,23 @@ class Bar:
                 for name in files:
                     with ui.element("li"):
                         button = ui.button(name, color=None).props("no-caps flat dense")
-                        button.on_click(partial(open_named, name, folder.file(name, [".toml", *foreign])))
+                        button.on_click(partial(open_named, name, folder.file(name, endings)))
+
+            def brought(name: str) -> None:
+                if name.lower().endswith(tuple(endings)):
+                    open_named(name, folder.file(name, endings))
+                    return
+                dialog.close()
+                self.say(f"{name} lies in the folder now. Run … › Measured gear puts a gear into a scenario.")
+
+            def refused(text: str) -> None:
+                wrong.text = text
+
+            bring = BringPart(self.address, [*endings, *measured_endings()])
+            bring.tell(
+                brought=lambda said: brought(str(said["text"])),
+                refused=lambda said: refused(str(said["text"])),
+            )
             ui.label("All shipped scenarios").classes("tb-title").props("role=heading aria-level=3")
             choice = ui.select(names(shipped(SCENARIOS)), label="Shipped scenario", with_input=True).classes(
                 "tb-wide-input"

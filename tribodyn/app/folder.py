@@ -6,6 +6,8 @@ from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.numerics.files.output_files import write_output
+from tribodyn.studies.handed_over import readers
 
 #: Files that are listed, and folders below the one given in which they are looked for.
 MOST_FILES, DEEPEST = 400, 2
@@ -13,7 +15,19 @@ MOST_FILES, DEEPEST = 400, 2
 _PORTABLE = re.compile(
     r"(?!(con|prn|aux|nul|com\d|lpt\d)\.)[^-.\s<>:\"|?*][^<>:\"|?*\x00-\x1f]{0,199}(?<![. ])\.\w+", re.I
 )
+#: Bytes of a file that is brought in from the browser.
+MOST_BYTES = 16 * 2**20
 REMEDY = "name a file of the folder that the page was started in, or start it with --folder"
+
+
+def scenario_endings() -> list[str]:
+    """Endings of files that are opened as scenarios, those of other programs too."""
+    return [".toml", *(ending for each in readers().values() for ending in each.endings if each.read)]
+
+
+def measured_endings() -> list[str]:
+    """Endings of files of which a measured gear may be put into a scenario."""
+    return [ending for each in readers().values() for ending in each.endings if each.measure]
 
 
 class WorkFolder:
@@ -64,6 +78,17 @@ class WorkFolder:
         if not path.parent.is_dir():
             raise InputError("file", quoted(name), "its folder is not there", "choose one that is there")
         return path
+
+    def bring(self, name: str, content: bytes) -> Path:
+        """Write a file that comes from the browser, never over another one; return its path."""
+        if len(content) > MOST_BYTES:
+            rule = f"has more than {MOST_BYTES // 2**20} MiB"
+            raise InputError("file", quoted(name), rule, "copy it into the folder")
+        ending = self.file(name, [*scenario_endings(), *measured_endings()]).suffix
+        path = self.new_file(name, ending.lower())
+        if path.exists() or path.is_symlink():
+            raise InputError("file", quoted(name), "is there already", "rename the file, and bring it again")
+        return write_output(path, content)
 
     def holds(self, path: Path) -> bool:
         """Whether a file lies in the folder, links followed."""

@@ -5,9 +5,12 @@ from typing import Any
 
 from nicegui import ui
 
+from tribodyn.app.core.document import Document
 from tribodyn.app.core.form import form_of
+from tribodyn.app.folder import measured_endings
+from tribodyn.app.kept import KeptWork
 from tribodyn.app.parts import JobsPart
-from tribodyn.app.tasks import TASKS, TaskRun, tasks_of
+from tribodyn.app.tasks import TASKS, TaskRun, refusals_of
 from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError, OutputError
 
@@ -22,30 +25,34 @@ _PAGES = (".html", ".png", ".svg")
 class JobsDialog:
     """Starts work in the folder, shows how far it is, ends it, links to its reports."""
 
-    def __init__(self, window: DesignWindow, address: str, say: Callable[[str], Any]) -> None:
-        self.window, self.address, self.say = window, address, say
-        self.jobs: list[TaskRun] = []
+    def __init__(self, window: DesignWindow, address: str, kept: KeptWork, say: Callable[[str], Any]) -> None:
+        self.window, self.address, self.kept, self.say = window, address, kept, say
         self.inputs: dict[str, ui.input] = {}
         with ui.dialog().props('aria-label="Run"') as self.dialog, ui.card().classes("tb-dialog"):
             ui.label("Run").classes("tb-title").props("role=heading aria-level=2")
             ui.label("It reads the saved file, runs beside this page and writes into its folder.")
             self.choice = ui.select(list(TASKS), value="Run", label="What").classes("tb-wide-input")
             self.choice.on_value_change(lambda _: self._ask())
+            self.others = ui.label().classes("tb-quiet")
             self.asked = ui.column().classes("tb-wide-input")
             self.wrong = ui.label().classes("tb-error").props("role=alert")
             with ui.element("p").classes("tb-choice"):
                 ui.button("Start", color=None, on_click=self._start).props("no-caps unelevated")
                 ui.button("Close", color=None, on_click=self.dialog.close).props("no-caps flat")
             self.part = JobsPart()
-            self.part.tell(cancel=self._cancel)
-        self.timer = ui.timer(_EACH, self._show, active=False)
+            self.part.tell(cancel=self._cancel, open=self._open)
+        self.timer = ui.timer(_EACH, self._show)
 
     def open(self) -> None:
         """Show the dialog, with what suits this kind of study."""
-        suitable = tasks_of(self.window.document.kind)
+        refusals = refusals_of(self.window.document.kind)
+        suitable = [name for name, reason in refusals.items() if not reason]
         chosen = self.choice.value if self.choice.value in suitable else suitable[0]
         self.choice.set_options(suitable, value=chosen)
+        others = [f"{name}: {reason}." for name, reason in refusals.items() if reason]
+        self.others.text = " ".join(["Not here:", *others]) if others else ""
         self._ask()
+        self.timer.activate()
         self.dialog.open()
 
     def _ask(self) -> None:
@@ -56,8 +63,10 @@ class JobsDialog:
                 key: ui.input(
                     label.rstrip("?"),
                     placeholder=example,
-                    autocomplete=self._numbers() if key == "key" else None,
-                ).classes("tb-wide-input")
+                    autocomplete=_KNOWN[key](self) if key in _KNOWN else None,
+                )
+                .props("stack-label")
+                .classes("tb-wide-input")
                 for key, (label, example) in TASKS[self.choice.value or "Run"].asks.items()
             }
 
@@ -65,6 +74,15 @@ class JobsDialog:
         """Keys of the scenario's numbers."""
         fields = [field for group in form_of(self.window.document) for field in group.fields]
         return [field.path for field in fields if field.kind in _NUMBERS]
+
+    def _measured(self) -> list[str]:
+        """Files of the folder that may hold a measured gear."""
+        return self.window.folder.listed(measured_endings())
+
+    def _gears(self) -> list[str]:
+        """Names of the gears."""
+        gears = self.window.document.value("gear")
+        return list(gears) if isinstance(gears, Mapping) else ["pinion", "gear"]
 
     def _start(self) -> None:
         document, folder = self.window.document, self.window.folder
@@ -76,9 +94,13 @@ class JobsDialog:
                 self.window.show(["title", "form"])
             task = TASKS[self.choice.value]
             given = {key: str(entry.value or "") for key, entry in self.inputs.items()}
+            if given.get("file"):
+                given["file"] = folder.named(folder.file(given["file"], measured_endings()))
+            if given.get("name"):
+                given["name"] = folder.named(folder.new_file(given["name"], ".toml"))
             steps = task.steps(folder.named(document.path), given)
             title = f"{self.choice.value} of {document.path.stem}"
-            self.jobs.insert(0, TaskRun(title, steps, folder.root))
+            self.kept.begin(TaskRun(title, steps, folder.root))
         except (InputError, OutputError, OSError) as error:
             self.wrong.text = str(error)
             return
@@ -87,22 +109,31 @@ class JobsDialog:
         self._show()
 
     def _cancel(self, said: Mapping[str, Any]) -> None:
-        number = len(self.jobs) - int(said.get("number", 0))
-        if 0 <= number < len(self.jobs):
-            self.jobs[number].cancel()
-            self._show()
+        for task in self.kept.tasks:
+            if task.number == said.get("number"):
+                task.cancel()
+        self._show()
+
+    def _open(self, said: Mapping[str, Any]) -> None:
+        """Open a scenario that a task has written."""
+        folder = self.window.folder
+        try:
+            self.window.open(Document.open(folder.file(str(said.get("name")), [".toml"])))
+        except InputError as error:
+            self.wrong.text = str(error)
+            return
+        self.dialog.close()
 
     def _show(self) -> None:
-        count = len(self.jobs)
-        self.part.give(jobs=[self._drawn(count - k, each) for k, each in enumerate(self.jobs)])
-        if all(job.state != "running" for job in self.jobs):
+        self.part.give(jobs=list(map(self._drawn, self.kept.tasks)))
+        if all(task.state != "running" for task in self.kept.tasks):
             self.timer.deactivate()
 
-    def _drawn(self, number: int, job: TaskRun) -> dict[str, Any]:
+    def _drawn(self, job: TaskRun) -> dict[str, Any]:
         folder = self.window.folder
         pages = [file for file in job.files if file.suffix in _PAGES and folder.holds(file)]
         return {
-            "number": number,
+            "number": job.number,
             "title": job.title,
             "state": job.state,
             "fraction": job.fraction,
@@ -112,4 +143,9 @@ class JobsDialog:
                 {"name": folder.named(file), "link": f"{self.address}files/{folder.named(file)}"}
                 for file in pages
             ],
+            "scenarios": [folder.named(file) for file in job.files if file.suffix == ".toml"],
         }
+
+
+#: What is asked for -> what there is to choose from.
+_KNOWN = {"key": JobsDialog._numbers, "file": JobsDialog._measured, "gear": JobsDialog._gears}

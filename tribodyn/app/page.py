@@ -16,7 +16,7 @@ from tribodyn.app.core.worker import Worker
 from tribodyn.app.curves import CHARTED, charts_of
 from tribodyn.app.folder import WorkFolder
 from tribodyn.app.form_view import Sliders, groups_of, held_of, values_of
-from tribodyn.app.kept import KeptDocuments
+from tribodyn.app.kept import KeptWork
 from tribodyn.app.numbers import compared, other_tables, side_by_side
 from tribodyn.app.parts import (
     STYLE,
@@ -59,7 +59,7 @@ class DesignPage:
         document: Document,
         client: Client,
         address: str,
-        kept: KeptDocuments,
+        kept: KeptWork,
         *,
         few: bool = False,
         worker: Worker | None = None,

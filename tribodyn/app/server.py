@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 from tribodyn.app.core.document import Document
 from tribodyn.app.core.worker import Worker
 from tribodyn.app.examples import FIRST
-from tribodyn.app.folder import WorkFolder
+from tribodyn.app.folder import MOST_BYTES, WorkFolder
 from tribodyn.app.guard import SANDBOX, Guard, new_token
-from tribodyn.app.kept import KeptDocuments
-from tribodyn.errors import InputError, quoted
+from tribodyn.app.kept import KeptWork
+from tribodyn.errors import InputError, OutputError, quoted
 from tribodyn.input.sources import is_shipped
 from tribodyn.numerics.processes import child
 
@@ -164,13 +164,13 @@ def _listen(port: int | None) -> socket.socket:
 
 def _application(folder: WorkFolder, first: Document, address: str, token: str, spare: list[Worker]) -> Any:
     """The application: the page of a window, and the pages of results; the first window takes the spare."""
-    from fastapi import FastAPI
+    from fastapi import FastAPI, Request
     from fastapi.responses import FileResponse, PlainTextResponse, Response
     from nicegui import Client, app, ui
 
     from tribodyn.app.page import DesignPage
 
-    kept = KeptDocuments()
+    kept = KeptWork()
 
     @ui.page("/", title="tribodyn")
     def design(client: Client, state: str = "", few: str = "", at: str = "") -> None:
@@ -195,6 +195,19 @@ def _application(folder: WorkFolder, first: Document, address: str, token: str, 
         if path is None or not path.is_file():
             return PlainTextResponse("There is no such file here.\n", 404)
         return FileResponse(path, headers={"content-security-policy": SANDBOX})
+
+    @app.post("/bring/{name:path}")
+    async def bring(name: str, request: Request) -> Response:
+        content = bytearray()
+        async for part in request.stream():
+            content += part
+            if len(content) > MOST_BYTES:
+                break
+        try:
+            path = folder.bring(name, bytes(content))
+        except (InputError, OutputError) as error:
+            return PlainTextResponse(str(error), 400)
+        return PlainTextResponse(folder.named(path))
 
     application = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     ui.run_with(

@@ -1,12 +1,14 @@
-"""Longer work from the page: a run, a sweep, a search, an assessment or a map as the command line's verbs."""
+"""Longer work from the page as verbs of the command line: a run, a sweep, a search, a map, an import."""
 
+import itertools
+import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from tribodyn.app.core.job import Job, State
 from tribodyn.errors import InputError
-from tribodyn.studies import STUDIES
+from tribodyn.studies import DEFAULT, STUDIES
 
 Words = Sequence[str]
 _KEY = ("Key", "drive.pinion.modification.tip_relief")
@@ -28,6 +30,11 @@ class VerbTask(NamedTuple):
         file = f"./{file}"  # a name that begins with - is no option
         if self.verb == "assess":
             return [["assess", file, "-o", f"{name}-assessment", "--force"]]
+        if self.verb == "import":
+            made = f"{(values['name'] or f'{name}-measured').removesuffix('.toml')}.toml"
+            return [
+                ["import", f"./{values['file']}", "--into", file, "--gear", values["gear"], "-o", f"./{made}"]
+            ]
         record = f"{name}-{self.verb}.h5"
         words = [self.verb, file, "-o", record, "--force"]
         if self.verb == "sweep":
@@ -59,37 +66,61 @@ TASKS = {
     "Map of losses": VerbTask(
         "map", {"torque": ("Torques?", "0:500:100N*m"), "speed": ("Speeds?", "500:3000:500rpm")}
     ),
+    "Measured gear": VerbTask(
+        "import",
+        {
+            "file": ("File", "pinion.gde"),
+            "gear": ("Gear", "pinion"),
+            "name": ("New scenario?", "mine-measured"),
+        },
+    ),
 }
 
 
-def tasks_of(kind: str) -> list[str]:
-    """Names of the tasks that a kind of study has: it is run or assessed, not both."""
-    own = STUDIES[kind].verb if kind in STUDIES else "run"
-    return [name for name, task in TASKS.items() if task.verb not in {"run", "assess"} - {own}]
+def refusals_of(kind: str) -> dict[str, str]:
+    """Why a kind of study has a task not, by the task's name; "": it has it."""
+    study = STUDIES[kind if kind in STUDIES else DEFAULT]
+    verb, gears = study.verb, study.mounted_gears() is not None
+    is_map = study.losses() is not None or verb == "map"
+    made = {"assess": "is assessed, not run", "map": "is a map already"}
+    return {
+        "Run": "" if verb == "run" else f"a scenario of kind {kind} {made.get(verb, f'has the verb {verb}')}",
+        "Sweep": "" if study.swept() else f"nothing that kind {kind} computes is kept by sweeps",
+        "Search": "" if study.swept() or study.kind == "design" else f"kind {kind} has nothing to search by",
+        "Assessment": "" if verb == "assess" else "of scenarios of the kinds assessment and train-assessment",
+        "Map of losses": "" if is_map else "of gear pairs and trains, and of kind map",
+        "Measured gear": "" if gears else "of gear pairs and trains",
+    }
+
+
+_NUMBERS = itertools.count(1)
 
 
 class TaskRun:
     """Verbs that run in a folder one after the other, until one fails or all are done."""
 
     def __init__(self, title: str, steps: Sequence[Words], folder: Path) -> None:
-        self.title, self.folder = title, folder
+        self.title, self.folder, self.number = title, folder, next(_NUMBERS)
         self._left = [list(words) for words in steps]
         self._share = 1.0 / len(steps)
         self._jobs: list[Job] = []
         self._go_on()
+        threading.Thread(target=self._follow, daemon=True).start()
 
     def _go_on(self) -> None:
         verb, *words = self._left.pop(0)
         self._jobs.append(Job(verb, words, self.folder))
 
+    def _follow(self) -> None:
+        """Begin each verb when the one before it is done, whether a page looks or not."""
+        while self._jobs[-1].wait() and self._jobs[-1].state == "done" and self._left:
+            self._go_on()
+
     @property
     def state(self) -> State:
-        """How it stands; begins the next verb where the one before it is done."""
+        """How it stands."""
         state = self._jobs[-1].state
-        if state == "done" and self._left:
-            self._go_on()
-            return "running"
-        return state
+        return "running" if state == "done" and self._left else state
 
     @property
     def fraction(self) -> float | None:

@@ -12,9 +12,9 @@ from tribodyn.app.core.document import Document
 from tribodyn.app.core.form import form_of, written_as
 from tribodyn.app.folder import WorkFolder
 from tribodyn.app.form_view import Sliders
-from tribodyn.app.kept import MOST_KEPT, KeptDocuments
+from tribodyn.app.kept import MOST_KEPT, KeptWork
 from tribodyn.app.server import opened
-from tribodyn.app.tasks import TASKS, tasks_of
+from tribodyn.app.tasks import TASKS, refusals_of
 from tribodyn.errors import InputError, OutputError
 
 PAIR = ROOT / "scenarios" / "involute-18-36-tip-relief.toml"
@@ -61,7 +61,7 @@ def test_a_link_leads_to_no_file_elsewhere(tmp_path, name):
 def test_a_page_loaded_again_has_history_and_what_was_saved_last(tmp_path):
     file = tmp_path / "mine.toml"
     shutil.copy(PAIR, file)
-    kept, document = KeptDocuments(), Document.open(file)
+    kept, document = KeptWork(), Document.open(file)
     key = kept.keep(document)
     document.set(RELIEF, "13 um")
     document.set("title", "another")
@@ -148,6 +148,6 @@ def test_a_folder_is_no_scenario(tmp_path):
     ],
 )
 def test_work_is_offered_that_the_kind_has(name, here, elsewhere):
-    offered = tasks_of(Document.open(name).kind)
-    assert here in offered
-    assert elsewhere not in offered
+    refusals = refusals_of(Document.open(name).kind)
+    assert refusals[here] == ""
+    assert len(refusals[elsewhere]) > 10

@@ -117,8 +117,16 @@ class VariantsPart(_PagePart, component="variants.js"):
         self.props.update(names=[], chosen="", groups=[])
 
 
+class BringPart(_PagePart, component="bring.js"):
+    """A file of the browser's computer for the folder. Tells ``brought``, ``refused``."""
+
+    def __init__(self, address: str, endings: Sequence[str]) -> None:
+        super().__init__()
+        self.props.update(address=address, endings=list(dict.fromkeys(endings)))
+
+
 class JobsPart(_PagePart, component="jobs.js"):
-    """Longer work with its progress. Tells ``cancel``."""
+    """Longer work with its progress. Tells ``cancel``, ``open``."""
 
     def __init__(self) -> None:
         super().__init__()
