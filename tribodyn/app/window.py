@@ -233,11 +233,11 @@ class DesignWindow:
 
     def at_work(self) -> str:
         """What has been computed for a while; nothing of what takes no time."""
-        stage, seconds, share = self._worker.at_work
+        stage, seconds, share, doing = self._worker.at_work
         if not self.late or not stage or seconds < _SOON:
             return ""
         part = "" if share is None else f", {100.0 * share:.0f} %"
-        return f"{stage}: {seconds:.0f} s{part}"
+        return f"{stage}: {seconds:.0f} s{part}" + (f", {doing}" if doing else "")
 
     def sentences(self, name: str) -> list[str]:
         """What the computations say under a name, "warnings" or "remarks", each once."""

@@ -83,9 +83,7 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
 def names_gears(name: str, value: Any) -> bool:
     """Whether an unknown key is a table of a train: [gear.NAME], [[body]], [[link]] or [[clutch]]."""
     if name == "gear":
-        return (
-            isinstance(value, dict) and bool(value) and all(isinstance(one, dict) for one in value.values())
-        )
+        return isinstance(value, dict) and bool(value) and all(isinstance(v, dict) for v in value.values())
     return name in ("body", "link", "clutch") and isinstance(value, list)
 
 
@@ -137,8 +135,10 @@ class Origins:
         key = tuple(int(part) if part.isdecimal() else part for part in error.key.split("."))
         typed = value_at(self._data, key)
         rule, value = _ranges_as_typed(error.rule, typed), _as_typed(error.value, typed)
-        remedy = error.remedy + self._which_table(key)
-        return InputError(error.key, _ranges_as_typed(value, typed), rule, remedy, self.of(key))
+        remedy = error.remedy + self._which_table(key)  # parts of a key may have dots
+        above = [one for one in self._files if f"{error.key}.".startswith(".".join((*map(str, one), "")))]
+        of = self._files[max(above, key=len)]
+        return InputError(error.key, _ranges_as_typed(value, typed), rule, remedy, of)
 
     def _scenario_of(self, key: str) -> Mapping[str, Any]:
         """The scenario that a key is of: within one of a search this one."""

@@ -64,7 +64,7 @@ def progress_bar(label: str, total: float = 100.0, unit: str = "%") -> Iterator[
 
     def hear(what: str) -> None:
         nonlocal doing
-        doing = f"{label}: {what}"
+        doing = f"{label}: {what}" if what else label
         show(reached, doing)
 
     def report(fraction: float) -> None:

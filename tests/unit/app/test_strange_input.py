@@ -1,7 +1,12 @@
 """What strangers do to the page: names of files, another writer of the file, units within a field."""
 
 import json
+import os
 import shutil
+import site
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -151,3 +156,34 @@ def test_work_is_offered_that_the_kind_has(name, here, elsewhere):
     refusals = refusals_of(Document.open(name).kind)
     assert refusals[here] == ""
     assert len(refusals[elsewhere]) > 10
+
+
+def test_a_scenario_may_read_what_lies_outside_the_folder_and_the_page_writes_nothing_there(tmp_path):
+    """As on the command line: who may read the scenario here may read those files, too."""
+    (tmp_path / "folder").mkdir()
+    shutil.copy(PAIR, tmp_path / "outside.toml")
+    (tmp_path / "folder" / "mine.toml").write_text('kind = "design"\nscenario = "../outside.toml"\n')
+    folder, document = opened(str(tmp_path / "folder" / "mine.toml"), None)
+    before = (tmp_path / "outside.toml").read_bytes()
+    assert document.value("scenario.drive.pinion.teeth") == 18
+    document.set("scenario.drive.pinion.teeth", 19)
+    document.save()
+    assert document.value("scenario.drive.pinion.teeth") == 19
+    assert (tmp_path / "outside.toml").read_bytes() == before
+    for name in ("../outside.toml", "../new.toml"):
+        with pytest.raises(InputError):
+            folder.new_file(name, ".toml")
+
+
+def test_without_the_extra_the_verb_says_what_to_install(tmp_path):
+    for packages in map(Path, site.getsitepackages()):
+        for entry in packages.iterdir():
+            if not entry.name.startswith("nicegui") and entry.suffix != ".pth":
+                (tmp_path / entry.name).symlink_to(entry)
+    program = [sys.executable, "-S", "-m", "tribodyn", "app"]
+    environment = os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{tmp_path}"}
+    done = subprocess.run(program, capture_output=True, text=True, env=environment, cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.splitlines() == [
+        'app: the package nicegui is not installed; install it: pip install "tribodyn[app]"'
+    ]

@@ -151,3 +151,10 @@ def test_files_that_are_like_one_another_are_refused(tmp_path: Path):
     (tmp_path / "b.toml").write_text('like = "a.toml"\n', encoding="utf-8")
     with pytest.raises(InputError, match=r'drive\.like = "a\.toml": is like itself'):
         case_of(tmp_path, PAIR + 'drive = "a.toml"\n' + DUTY)
+
+
+def test_a_key_with_dots_over_a_model_is_said_with_the_file_that_it_stands_in(tmp_path):
+    drive = '[drive]\nlike = "spur-25-51"\n[drive.pinion.modification]\n"a.b" = 1\n'
+    with pytest.raises(InputError, match="unknown key") as caught:
+        case_of(tmp_path, PAIR + 'bearings = "rigid-1e9"\n' + drive + DUTY)
+    assert caught.value.file == str(tmp_path / "mine.toml")

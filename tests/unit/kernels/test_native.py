@@ -13,6 +13,7 @@ from tribodyn.kernels.native import compiler, kernel, packed, store
 from tribodyn.numerics import elementary
 from tribodyn.numerics.elementary import RuntimeIndices
 from tribodyn.numerics.files.cache import read_kept
+from tribodyn.numerics.processes.work import listened
 
 
 class Inner(NamedTuple):
@@ -113,6 +114,15 @@ def test_code_from_disk_is_not_compiled_again_and_gives_the_same_bits(folder, ar
     monkeypatch.setattr(compiler, "compiled", never)
     assert kernel(weigh.function)(*arguments) == compiled
     assert arguments[-1].tobytes() == bits
+
+
+def test_what_is_compiled_is_said_meanwhile_and_what_is_loaded_is_not(folder):
+    said: list[str] = []
+    for what in ([store.COMPILING, ""], []):
+        with listened(said.append):
+            kernel(half.function)(1.0)
+        assert said == what
+        said.clear()
 
 
 def test_a_damaged_file_is_compiled_anew(folder):

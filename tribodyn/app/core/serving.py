@@ -13,11 +13,13 @@ from time import monotonic
 from typing import IO, Any, BinaryIO, NamedTuple
 
 from tribodyn.app.core.live import Live, LiveRequest
+from tribodyn.numerics.processes.work import listened
 
 #: Before every answer, which is pickled: its length.
 HEAD = struct.Struct(">Q")
-#: What an answer is: a stage was begun, its share, its result, a request's end; the process is ready.
-BEGUN, SHARE, RESULT, DONE, READY = "begun", "share", "result", "done", "ready"
+#: What an answer is: a stage was begun, its share, what it is at, its result, a request's end; the process
+#: is ready.
+BEGUN, SHARE, DOING, RESULT, DONE, READY = "begun", "share", "doing", "result", "done", "ready"
 #: Seconds between two shares.
 _PAUSE = 0.1
 
@@ -85,7 +87,8 @@ class _Serving:
 
         for stage in asked.stages:
             self._answer(BEGUN, asked.number, stage)
-            result = live.compute(stage, asked.request, progress)
+            with listened(lambda what: self._answer(DOING, asked.number, what)):
+                result = live.compute(stage, asked.request, progress)
             if self._is_old(asked):
                 raise _Superseded
             self._answer(RESULT, asked.number, result)

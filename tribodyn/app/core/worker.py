@@ -10,7 +10,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tribodyn.app.core.live import STAGES, LiveRequest
-from tribodyn.app.core.serving import BEGUN, DONE, READY, RESULT, SHARE, answers_in, line_of
+from tribodyn.app.core.serving import BEGUN, DOING, DONE, READY, RESULT, SHARE, answers_in, line_of
 from tribodyn.numerics.processes import child
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ class AtWork(NamedTuple):
     stage: str  # "": nothing, or it is still being started
     seconds: float  # since when
     share: float | None  # done; None: that is not known
+    doing: str  # in a few words; "": there is nothing to say
 
 
 class Worker:
@@ -45,6 +46,7 @@ class Worker:
         self._tell: Tell | None = None
         self._finished: Callable[[], None] | None = None
         self._share: float | None = None
+        self._doing = ""
         self._closed = False
         self._scratch = TemporaryDirectory(prefix="tribodyn-")
         self._start()
@@ -76,7 +78,7 @@ class Worker:
     def at_work(self) -> AtWork:
         """What it is at; before a first motion machine code may have to be made, which takes a minute."""
         with self._lock:
-            return AtWork(self._stage, monotonic() - self._since, self._share)
+            return AtWork(self._stage, monotonic() - self._since, self._share, self._doing)
 
     def results(
         self, request: LiveRequest, stages: tuple[str, ...] = STAGES
@@ -102,7 +104,7 @@ class Worker:
 
     def _start(self) -> None:
         self._ready = False
-        self._stage, self._since, self._share = "", monotonic(), None
+        self._stage, self._since, self._share, self._doing = "", monotonic(), None, ""
         # the module beside this one
         self._process = child.start(f"{__package__}.serving:serve", self._scratch.name)
         threading.Thread(target=self._listen, args=(self._process,), daemon=True).start()
@@ -134,11 +136,13 @@ class Worker:
                 self._ready, self._asked_at = True, monotonic()
             if what == BEGUN:
                 self._begun = max(self._begun, number)
-                self._stage, self._since, self._share = content, monotonic(), None
+                self._stage, self._since, self._share, self._doing = content, monotonic(), None, ""
             if what == SHARE:
                 self._share = content
+            if what == DOING:
+                self._doing = content
             if what == DONE:
-                self._stage, self._since, self._share = "", monotonic(), None
+                self._stage, self._since, self._share, self._doing = "", monotonic(), None, ""
             tell = self._tell if number == self._number else None
         if tell is None:
             return

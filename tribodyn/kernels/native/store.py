@@ -25,9 +25,12 @@ from tribodyn.kernels.native.arguments import OPTIONS, Code, Compiled, Target, i
 from tribodyn.numerics.files.cache import kept_or_made
 from tribodyn.numerics.files.sources import code_of, digest_of
 from tribodyn.numerics.processes.libraries import without_file
+from tribodyn.numerics.processes.work import announced
 
 #: What turns any kernel into machine code.
 _COMPILER = "tribodyn.kernels.native.compiler"
+#: What is said meanwhile: it takes up to a minute, and its result is kept on disk.
+COMPILING = "compiling, once for this kind of gearbox"
 
 
 def machine_code(function: Callable[..., Any], layout: Any) -> Code:
@@ -37,7 +40,8 @@ def machine_code(function: Callable[..., Any], layout: Any) -> Code:
     """
 
     def made() -> tuple[Code, bytes | None]:
-        code = _compiler()(function, layout)
+        with announced(COMPILING):
+            code = _compiler()(function, layout)
         _refuse_foreign(code.target)
         loaded_code = loaded(code)
         assert loaded_code is not None  # made in this process

@@ -53,6 +53,16 @@ def announce(what: str) -> None:
 
 
 @contextmanager
+def announced(what: str) -> Iterator[None]:
+    """Say that this is done inside the block, and nothing behind it."""
+    announce(what)
+    try:
+        yield
+    finally:
+        announce("")
+
+
+@contextmanager
 def watched(report: Callable[[float], None]) -> Iterator[None]:
     """Call `report` with the share done, 0 … 1, of the work inside the block."""
     token = _watcher.set(report)
