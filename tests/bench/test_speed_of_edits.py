@@ -1,7 +1,7 @@
 """How soon an edited scenario shows, as ratios to the verb `run` for the same scenario, in processor time.
 
 With `AT_REST` of a core for the verb the page has 100 ms for the teeth, 300 ms for the quasi-static error and
-1 s for the motion, each from the edit on; the table of a helical pair with relief takes 40 ms more.
+1 s for the motion, each from the edit on; what the browser and the server take is in `test_speed_of_page`.
 """
 
 import os
@@ -22,8 +22,7 @@ pytestmark = pytest.mark.bench
 #: Time of the verb on a machine at rest, s, by scenario.
 AT_REST = {"spur-25-51": 0.77, "helical-23-47": 1.27, "two-stage-reducer": 0.85}
 #: Stage -> its time from the edit on, s.
-AT_MOST = {"geometry": 0.1, "static": 0.3, "motion": 1.0}
-SLOWER = {("helical-relief", "static"): 0.04, ("helical-relief", "motion"): 0.15}
+AT_MOST = {"geometry": 0.05, "static": 0.25, "motion": 0.95}
 #: Scenario, key, values that are dragged; of spur gears with tip relief, by finite elements.
 DRAGGED = {
     "shift": ("spur-25-51", "drive.pinion.profile_shift", "0.1{}", {}),
@@ -32,6 +31,7 @@ DRAGGED = {
     "speed": ("spur-25-51", "operating.pinion_speed", "1500.{} rpm", {}),
     "viscosity": ("spur-25-51", "lubricant.viscosity_40", "220.{} mm**2/s", {}),
     "helical-relief": ("helical-23-47", "drive.pinion.modification.tip_relief", "12.{} um", {}),
+    "helical-torque": ("helical-23-47", "operating.gear_torque", "450.{} N*m", {}),
     "helical-speed": ("helical-23-47", "operating.pinion_speed", "1500.{} rpm", {}),
     "train-shift": ("two-stage-reducer", "gear.pinion-1.profile_shift", "0.2{}", {}),
     "train-torque": ("two-stage-reducer", "operating.output_torque", "1770.{} N*m", {}),
@@ -84,7 +84,7 @@ def test_a_dragged_value_shows_within_its_share_of_a_run(live, verb, dragged):
     scale = AT_REST[name] / verb(name)
     seconds = {stage: min(times[1:]) * scale for stage, times in taken.items()}
     print(dragged, {stage: round(each, 3) for stage, each in seconds.items()}, round(verb(name), 3))
-    late = {stage for stage in seconds if seconds[stage] > AT_MOST[stage] + SLOWER.get((dragged, stage), 0.0)}
+    late = {stage for stage in seconds if seconds[stage] > AT_MOST[stage]}
     assert not late, seconds
 
 

@@ -14,8 +14,9 @@ from tribodyn.app.folder import WorkFolder
 from tribodyn.app.picture import Result
 from tribodyn.errors import InputError
 
-#: A newer value waits until the teeth of the one before it are shown, s more for its quasi-static error.
-_PATIENCE = 0.03
+#: A newer value waits until the teeth of the one before it are shown, and so much more for its quasi-static
+#: error, s; so long where none has come for a while.
+_PATIENCE, _LONG, _WHILE = 0.03, 0.2, 0.25
 #: What is not to keep teeth from the browser comes so much behind them; it waits for them at most so long, s.
 _SHORTLY, _LATEST = 0.005, 0.25
 #: Seconds after which it is said what is computed.
@@ -63,7 +64,7 @@ class DesignWindow:
         self._others: asyncio.Task[None] | None = None
         self._stale = False
         self._coming: tuple[str, ...] = ()
-        self._drawn_at = 0.0
+        self._drawn_at = self._static_at = 0.0
         self._behind: list[str] = []
         self.bug: Exception | None = None
         self.closed = False
@@ -181,7 +182,8 @@ class DesignWindow:
             return
         if "static" in self._coming:
             loop = asyncio.get_running_loop()
-            left = self._drawn_at + _PATIENCE - loop.time()
+            seldom = self._drawn_at - self._static_at > _WHILE
+            left = self._drawn_at + (_LONG if seldom else _PATIENCE) - loop.time()
             if left > 0.0:
                 loop.call_later(left, self._go_on)
                 return
@@ -211,8 +213,11 @@ class DesignWindow:
     def _take_one(self, result: Result) -> None:
         stage = result["stage"]
         self._coming = tuple(one for one in self._coming if one != stage)
+        now = asyncio.get_running_loop().time()
         if stage == "geometry":
-            self._drawn_at = asyncio.get_running_loop().time()
+            self._drawn_at = now
+        if stage == "static":
+            self._static_at = now
         self._go_on()
         if not self._stale:
             self.late = tuple(one for one in self.late if one != stage)
