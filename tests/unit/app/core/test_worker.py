@@ -66,6 +66,23 @@ def test_the_latest_request_stops_the_one_before(worker):
     assert found[0]["ok"]
 
 
+def test_a_first_compilation_makes_room_for_a_newer_value(tmp_path, monkeypatch):
+    monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path))  # nothing has been compiled yet
+    worker, begun = Worker(), threading.Event()
+    try:
+        document = Document.open("spur-25-51")
+        worker.submit(of(document), lambda _result: begun.set(), ("geometry", "motion"))
+        assert begun.wait(60.0)
+        until(lambda: worker.at_work.stage == "motion" and worker.at_work.seconds > 1.5)
+        document.set("drive.pinion.profile_shift", 0.3)
+        asked = monotonic()
+        found = answers(worker, document, ("geometry", "static"))
+        assert [result["ok"] for result in found] == [True, True]
+        assert monotonic() - asked < 10.0  # of the half minute that compiling takes
+    finally:
+        worker.close()
+
+
 def test_dragging_ends_with_the_last_value(worker):
     document, ends = Document.open("spur-25-51"), []
     for shift in (0.05, 0.1, 0.15, 0.2):
