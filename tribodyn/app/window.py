@@ -16,7 +16,7 @@ from tribodyn.errors import InputError
 
 #: A newer value waits until the teeth of the one before it are shown, and so much more for its quasi-static
 #: error, s; so long where none has come for a while.
-_PATIENCE, _LONG, _WHILE = 0.03, 0.2, 0.25
+_PATIENCE, _LONG, _WHILE = 0.03, 0.3, 0.3
 #: What is not to keep teeth from the browser comes so much behind them; it waits for them at most so long, s.
 _SHORTLY, _LATEST = 0.005, 0.25
 #: Seconds after which it is said what is computed.
