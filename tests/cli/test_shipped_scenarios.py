@@ -62,6 +62,7 @@ ALIKE = {
     "load-contact-shafts",
     "planetary-thin-ring",
     "ravigneaux",
+    "start-from-rest",
     "two-stage-reducer-hunting",
     "wind-turbine-gearbox",
     "wind-turbine-gearbox-assessment",
