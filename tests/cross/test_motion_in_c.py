@@ -12,7 +12,7 @@ from tests.support.c_code import address, called, compiled, floats, zig_compiler
 from tests.support.drawn_shafts import ROLLER
 from tests.support.helical_motion import HELICAL
 from tests.support.states import random_place, random_state
-from tests.support.time_runs import Walker, pair
+from tests.support.time_runs import Walker, train
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import Model, with_shared_code
 from tribodyn.kernels.c import CEntry, translated
@@ -121,7 +121,7 @@ class Answer(ctypes.Structure):
 
 def test_a_march_by_time_in_c_takes_the_steps_of_the_native_one(tmp_path: Path):
     """Past pairs that come and go, from call to call; with its outputs."""
-    walker = Walker.begun(pair({"operating.start_speed": "150 rad/s"}).model)
+    walker = Walker.begun(train(start_speed="150 rad/s").model)
     model, control = walker.model, walker.control
     y, clock, work, buffer = (
         walker.y.copy(),

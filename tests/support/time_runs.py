@@ -78,6 +78,16 @@ def pair(changes: dict[str, Any], duration: str = "20 ms") -> PreparedGearbox:
     return prepare(td.scenario("run-up", plain | changes))
 
 
+def train(name: str = "two-stage-reducer", **changes: Any) -> PreparedGearbox:
+    """A shipped train that a motor turns, from rest; `changes` are of the operation."""
+    motor = {"source": "torque", "start_speed": "0 rad/s", "input_torque": "300 N*m"} | changes
+    more: dict[str, Any] = {f"operating.{key}": value for key, value in motor.items()}
+    more |= {"film.law": "masjedi-khonsari", "friction.law": "coulomb", "friction.coefficient": 0.06}
+    if name == "planetary-24-84":
+        more["stage.0.frame_forces"] = False
+    return prepare(td.scenario(name, more | {"solver.duration": "1 ms"}))
+
+
 class Walker(NamedTuple):
     """A march by time from call to call, as of a co-simulation."""
 

@@ -21,7 +21,7 @@ from tribodyn.mesh.slices.loaded import PER_CYCLE, WIDTH
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate_loaded import flanks_of, tabulate_loaded
 
-TORQUE, SLICES = 300.0, 9
+TORQUE, SLICES = 300.0, 7
 MODIFIED = Modifications(
     FlankModification(tip=Relief(8e-6, 3e-3), lead=LeadRelief(4e-6, 9e-6, 8e-3)),
     misalignment=Misalignment(2e-4),
