@@ -16,6 +16,7 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
 from tribodyn.post.verdict import IN_DOUBT
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.tribology.closure import duty_range, exceeded_limits, law_quantities, laws_of, nominal_line_load
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.high_pressure import contact_viscosity
@@ -47,6 +48,8 @@ def with_rounding(checked: CheckResult, toml: str) -> CheckResult:
     return CheckResult(data, (*checked.tables, table), (*checked.remarks, rounded.remark()))
 
 
+LINE_LOAD = Quantity("line_load", "Line load", "N/mm", ".0f")
+PER_WIDTH = Quantity("per_width", "Stiffness per width", "N/(mm µm)", ".2f")
 #: Factor to the unit that is shown, and that unit, by SI unit.
 _SHOWN = {"Pa s": (1e3, "mPa s"), "1/Pa": (1e9, "1/GPa"), "1": (1.0, ""), "m2/s": (1e6, "mm²/s")}
 
@@ -225,10 +228,10 @@ def sheet_and_stiffness(
     sheet = geometry_sheet(assembly, masses, gear_torque=gear_torque)
     line_load = normal_load / width
     table = TextTable(
-        f"Stiffness of a single pair at the pitch point, at {line_load * 1e-3:.0f} N/mm",
+        f"Stiffness of a single pair at the pitch point, at {LINE_LOAD.with_unit(line_load)}",
         ("by", "N/(mm µm)", "N/µm"),
         [
-            (name, f"{value['per_width'] * 1e-9:.2f}", f"{value['stiffness'] * 1e-6:.4g}")
+            (name, PER_WIDTH.written(value["per_width"]), f"{value['stiffness'] * 1e-6:.4g}")
             for name, value in by.items()
         ],
     )
@@ -262,15 +265,15 @@ def _reference(
     limits = [*outside(pair), *bodies_outside(assembly)]
     per_width = "N/(mm µm)"
     rows = [
-        ("c'_th, one pair, theory for steel", f"{stiffness.theoretical * 1e-9:.2f}", per_width),
+        ("c'_th, one pair, theory for steel", PER_WIDTH.written(stiffness.theoretical), per_width),
         ("C_M, correction from measurements", f"{stiffness.correction:g}", ""),
         ("C_R, bodies: solid discs", f"{stiffness.blank:g}", ""),
         ("C_B, rack", f"{stiffness.rack:.4g}", ""),
         ("E/E_St", f"{stiffness.material:.4g}", ""),
-        (f"reduction at F_t/b = {pair.line_load * 1e-3:.0f} N/mm", f"{stiffness.load:.4g}", ""),
-        ("c', one pair", f"{stiffness.single_pair * 1e-9:.2f}", per_width),
-        ("c_γα, mean of the mesh", f"{stiffness.mesh * 1e-9:.2f}", per_width),
-        ("c_γβ, for the face load factor", f"{stiffness.mesh_face * 1e-9:.2f}", per_width),
+        (f"reduction at F_t/b = {LINE_LOAD.with_unit(pair.line_load)}", f"{stiffness.load:.4g}", ""),
+        ("c', one pair", PER_WIDTH.written(stiffness.single_pair), per_width),
+        ("c_γα, mean of the mesh", PER_WIDTH.written(stiffness.mesh), per_width),
+        ("c_γβ, for the face load factor", PER_WIDTH.written(stiffness.mesh_face), per_width),
     ]
     remark = "ISO 6336-1, method B, with K_A = 1"
     remark += ", reduced below 100 N/mm" if stiffness.load < 1.0 else ""

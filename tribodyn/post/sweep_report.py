@@ -163,7 +163,7 @@ def _head(record: SweepRecord) -> list[str]:
     axes = ", ".join(f"{size} of {key}" for key, size in sizes.items())
     both = f", {' and '.join(record.directions)}" if record.directions else ""
     states = ", ".join(f"{count[name]} {name}" for name in ("done", "failed", "waiting") if count[name])
-    lines = [f"{count['cases']} cases ({axes}{both}): {states}"]
+    lines = [f"{count['cases']} case{'s' * (count['cases'] != 1)} ({axes}{both}): {states}"]
     if refined := record.settings.get("refine"):
         first = record.parameters[0]
         begun, by = len(record.settings["vary"][first.key]), " or ".join(refined["by"])

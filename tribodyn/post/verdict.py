@@ -252,8 +252,8 @@ def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> li
         lines.append(f"Vibration is largest at {loud[1]}: tooth forces of {loud[0]:.2f} times their mean.")
     if separated := extreme("contact_loss_fraction", np.nanargmax):
         many = int(np.sum(np.nan_to_num(record["contact_loss_fraction"]) > APART))
-        longest = f"for {share(separated[0])} of the time at {separated[1]}"
-        lines.append(f"The teeth separate in {many} cases, {longest}." if many else "Contact is never lost.")
+        longest = f"case{'s' * (many != 1)}, for {share(separated[0])} of the time at {separated[1]}"
+        lines.append(f"The teeth separate in {many} {longest}." if many else "Contact is never lost.")
     if thin := extreme("film_parameter_min", np.nanargmin):
         lines.append(f"The film is thinnest at {thin[1]}: {thin[0]:.2g} times the roughness.")
     low, high = (extreme("efficiency", find) for find in (np.nanargmin, np.nanargmax))
