@@ -8,6 +8,7 @@ than a share of the largest load: one that does is halved and taken again. The v
 coefficient wear off is integrated with the same weights as the depths.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -197,7 +198,9 @@ def _worn(
     work = load * sliding.sliding  # N m/rad
     speed, weight = case.operating.pinion_speed, places.weight[:, None, None]
     through = np.sum(work * weight, axis=(1, 2, 3))
-    corners = np.sum(work * weight * ~places.on_path, axis=(1, 2, 3))
+    # in a revolution: positions are too few to tell by theirs where the path of contact ends
+    on_path_work = pinion * float(np.mean(np.sum(work * places.along, axis=(1, 2, 3))))
+    corners = np.any((work > 0.0) & ~places.on_path)
     lost = np.sum(contacts.friction_coefficient * work * weight, axis=(1, 2, 3))
     return WearPassage(
         depths,
@@ -213,7 +216,7 @@ def _worn(
         rates,
         pinion * float(np.mean(np.sum(coefficient * work * places.along, axis=(1, 2, 3)))),
         speed * float(np.mean(lost)),
-        float(np.sum(corners) / np.sum(through)),
+        max(1.0 - on_path_work / (2.0 * math.pi * float(np.mean(through))), 0.0) if corners else 0.0,
     )
 
 

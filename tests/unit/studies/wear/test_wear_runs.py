@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tests.support.worn_pairs import DRY, OILED
+from tests.support.worn_pairs import COEFFICIENT, DRY, OILED
 from tribodyn.cases.results import writer
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
@@ -223,3 +223,15 @@ def test_a_record_says_what_it_holds(tmp_path: Path):
         np.testing.assert_allclose(record["worn_depth"][:, 1], mean, rtol=1e-12)
         assert record["loaded_transmission_error"].shape[1] == 36
         assert "film_min" not in record
+
+
+@pytest.mark.parametrize("positions", [12, 40])
+def test_what_corners_slide_is_what_the_loss_has_beyond_the_volume(positions: int, tmp_path: Path):
+    """With one k and one μ a flank would lose k P/μ, were the corners of tips to wear too."""
+    table = DRY | {"friction": {"law": "coulomb", "coefficient": 0.05}}
+    case = case_of(table, 1.0, output__positions_per_cycle=positions)
+    with Record(run(case, tmp_path / "worn.h5").path) as record:
+        volume = float(record["worn_volume"][-1, 0]) / float(record["time"][-1])
+        slid, share = record.summary["power_friction_mean"] / 0.05, record.summary["corner_sliding_share"]
+    assert share == pytest.approx(1.0 - volume / (COEFFICIENT * slid), abs=1e-6)
+    assert share == pytest.approx(0.078, abs=0.008)  # that of many positions
