@@ -112,7 +112,7 @@ def test_a_case_that_fails_leaves_the_others_alone(tmp_path: Path):
     said = invoke("sweep", "involute-23-47", *vary, *SHORT, "-o", path)
     assert "2 done, 1 failed" in said
     assert "1 of 3 cases failed." in said
-    assert "failed at 1.5: " in said
+    assert "failed at profile shift 1.5: " in said
     with SweepRecord(path) as record:
         assert record.status == "complete"
         assert record.message == "1 of 3 cases failed"

@@ -1,6 +1,7 @@
 """The summary of a sweep's record: a table for people, a dictionary for programs."""
 
 from collections.abc import Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -296,7 +297,13 @@ def described(record: SweepRecord, name: str) -> Quantity:
 def _place(record: SweepRecord, at: dict[str, Any]) -> str:
     """Name a case by its values in engineers' units, in the order of the dimensions."""
     units = {parameter.name: parameter.units for parameter in record.parameters}
-    return ", ".join(shown(value, units.get(name, "")) for name, value in at.items())
+    return ", ".join(_value(name, value, units.get(name, "")) for name, value in at.items())
+
+
+def _value(name: str, value: object, units: str) -> str:
+    """A value with its unit; a plain number with its name."""
+    plain = isinstance(value, Real) and shown_unit(units)[0] == ""
+    return f"{name.replace('_', ' ')} {shown(value, units)}" if plain else shown(value, units)
 
 
 def sweep_as_json(record: SweepRecord) -> dict[str, Any]:

@@ -187,7 +187,7 @@ def sweep_figure(
 def _unknown(name: str, rule: str, names: Mapping[str, object]) -> InputError:
     near = near_name(name, names)
     hint = f"did you mean {near}? " if near else ""
-    return InputError("plot", name, rule, f"{hint}There are: {', '.join(names)}")
+    return InputError("plot", name, rule, f"{hint}there is: {', '.join(names)}")
 
 
 def sweep_table(record: SweepRecord) -> "Group":
