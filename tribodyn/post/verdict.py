@@ -29,6 +29,8 @@ IN_DOUBT = 0.2
 ROUGH, SMOOTH = 1.0, 3.0
 #: Share of the time without contact that counts; factor on the mean mesh force that is a resonance.
 APART, RESONANT = 1e-4, 1.5
+#: What a remark says on engagement that is all of a dynamic factor.
+KNOCK = "the knock of pairs"
 #: What it means that a limit of a law is exceeded, by how the limit begins.
 _MEANS = {
     "σ/ρ ≤": "the flanks are rougher than it was fitted for",
@@ -110,11 +112,12 @@ def moved(summary: Mapping[str, Any]) -> Iterable[str]:
     if isinstance(course := summary.get("course"), Mapping):
         yield on_course(course)
         return
+    cause = "engagement" if KNOCK in str(summary.get("engagement_remark")) else "vibration"
     summary = numbers(summary)
     if (error := summary.get("transmission_error_peak_to_peak")) is not None:
         parts = [f"The transmission error swings by {with_unit('transmission_error_peak_to_peak', error)}"]
         if (factor := summary.get("dynamic_factor")) is not None:
-            parts.append(f"vibration raises the tooth forces to {factor:.2f} times their mean")
+            parts.append(f"{cause} raises the tooth forces to {factor:.2f} times their mean")
         parts.append(apart(summary.get("contact_loss_fraction") or 0.0))
         yield f"{'; '.join(parts)}."
     if (loaded := summary.get("loaded_transmission_error_peak_to_peak")) is not None:
@@ -277,11 +280,8 @@ def _of_laws(record: SweepRecord) -> Iterable[str]:
 
 def apart(fraction: float) -> str:
     """Whether contact is lost, by the share of the time without contact."""
-    return (
-        f"the teeth are apart for {share(fraction)} of the time"
-        if fraction > APART
-        else "contact is never lost"
-    )
+    lost = f"the teeth are apart for {share(fraction)} of the time"
+    return lost if fraction > APART else "contact is never lost"
 
 
 def lubrication(ratio: float) -> str:

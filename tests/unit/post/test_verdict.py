@@ -88,6 +88,8 @@ def test_what_to_do_goes_by_what_is_worst():
     assert "resonance" in next(iter(advised(loud)))
     engaged = loud | {"engagement_remark": 'mesh.compliance = "fem" tells.'}
     assert 'fem" tells' in next(iter(advised(engaged)))
+    knocking = loud | {"engagement_remark": "K_v 1.47 is the knock of pairs that engage at once."}
+    assert "engagement raises the tooth forces" in next(iter(moved(knocking)))
     rough = loud | {"dynamic_factor": 1.1}
     assert "smoother flanks" in next(iter(advised(rough)))
     assert "carry much of the load" in next(iter(pressed(rough)))

@@ -210,12 +210,13 @@ def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) 
         text = of_any.on_course(courses[name])
         yield text if len(meshes) == 1 else f"Mesh {name}: {text[0].lower()}{text[1:]}"
         return
+    cause = "Engagement" if of_any.KNOCK in str(summary.get("engagement_remark")) else "Vibration"
     if len(finite) <= NAMED:
         parts = _listed([f"{factor:.2f} ({name})" for name, factor in finite.items()])
-        text = f"Vibration raises the tooth forces to {parts} times their mean"
+        text = f"{cause} raises the tooth forces to {parts} times their mean"
     else:
         name = max(finite, key=lambda name: finite[name])
-        text = f"Vibration raises the tooth forces to at most {finite[name]:.2f} times their mean ({name})"
+        text = f"{cause} raises the tooth forces to at most {finite[name]:.2f} times their mean ({name})"
     yield f"{text}; {of_any.apart(loss)}{where}."
 
 
