@@ -68,6 +68,18 @@ def test_form_and_text_are_one_scenario(page):
     page.get_by_role("button", name="Edit as text").click()
 
 
+def test_a_text_that_would_not_arrive_is_refused_and_can_be_mended(page):
+    page.get_by_role("button", name="Edit as text").click()
+    text = page.get_by_label("Scenario as text")
+    eventually(page, lambda: text.input_value() != "")
+    before = text.input_value()
+    text.fill(f"{before}# {'x' * 400_000}\n")
+    page.wait_for_selector("text=and the page takes 300000")
+    text.fill(f"{before}# short\n")
+    eventually(page, lambda: wrong(page) == [])
+    page.get_by_role("button", name="Edit as text").click()
+
+
 def test_a_button_takes_the_remedy_of_a_message(page):
     page.get_by_label("Find a field").fill("compliance")
     choice = page.locator('[data-field="mesh.compliance"] select')

@@ -143,6 +143,7 @@ class JobsDialog:
                 {"name": folder.named(file), "link": f"{self.address}files/{folder.named(file)}"}
                 for file in pages
             ],
+            "records": [folder.named(file) for file in job.files if file.suffix == ".h5"],
             "scenarios": [folder.named(file) for file in job.files if file.suffix == ".toml"],
         }
 

@@ -7,7 +7,7 @@ from typing import Any
 from tribodyn.app.core.document import Document
 from tribodyn.app.core.offers.lines import line_of
 from tribodyn.app.core.offers.remedies import Remedy, remedies_of
-from tribodyn.app.parts import MessagesPart, TextPart
+from tribodyn.app.parts import MOST_TEXT, MessagesPart, TextPart
 from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError
 
@@ -111,6 +111,10 @@ class TextView:
     def _write(self, said: Mapping[str, Any]) -> None:
         """Take the text as it was typed, with the ends of lines that it had."""
         document, text = self.window.document, str(said.get("text", ""))
+        if length := int(said.get("length") or 0):
+            rule = f"has {length} characters, and the page takes {MOST_TEXT}"
+            self.complain(InputError("text", None, rule, "save, edit the file elsewhere, and open it again"))
+            return
         if "\r\n" in document.text:
             text = text.replace("\n", "\r\n")
         document.set_text(text)

@@ -9,6 +9,8 @@ from nicegui.element import Element
 from nicegui.events import GenericEventArguments
 
 Told = Callable[[Mapping[str, Any]], Any]
+#: Characters of a text that the browser may send: of 1 000 000 bytes at most.
+MOST_TEXT = 300_000
 #: How the page looks.
 STYLE = Path(__file__).with_name("page.css")
 # serves the script that the charts draw with
@@ -106,7 +108,7 @@ class TextPart(_PagePart, component="text.js"):
 
     def __init__(self) -> None:
         super().__init__()
-        self.props.update(open=False, text="", wrong=[])
+        self.props.update(open=False, text="", wrong=[], most=MOST_TEXT)
 
 
 class VariantsPart(_PagePart, component="variants.js"):

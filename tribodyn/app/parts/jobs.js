@@ -7,7 +7,7 @@ export default {
     <h3>{{ job.title }} <span class="tb-quiet">{{ words[job.state] }}</span></h3>
     <p v-if="job.state === 'running'"><progress :value="job.fraction === null ? undefined : job.fraction" max="1" :aria-label="'Progress of ' + job.title"></progress> <button type="button" @click="$emit('cancel', {number: job.number})">Cancel</button></p>
     <p :class="job.state === 'failed' ? 'tb-error' : 'tb-quiet'">{{ job.said }}</p>
-    <p><a v-for="file in job.files" :key="file.name" :href="file.link" target="_blank" rel="noopener">{{ file.name }}</a> <button v-for="name in job.scenarios" :key="name" type="button" @click="$emit('open', {name: name})">Open {{ name }}</button></p>
+    <p><code v-for="name in job.records" :key="name">{{ name }}</code> <a v-for="file in job.files" :key="file.name" :href="file.link" target="_blank" rel="noopener">{{ file.name }}</a> <button v-for="name in job.scenarios" :key="name" type="button" @click="$emit('open', {name: name})">Open {{ name }}</button></p>
     <details v-if="job.output"><summary>What it printed</summary><pre tabindex="0">{{ job.output }}</pre></details>
   </article>
 </div>`,

@@ -8,7 +8,7 @@ export default {
     <textarea ref="area" wrap="off" spellcheck="false" autocapitalize="off" autocomplete="off" aria-label="Scenario as text" :aria-invalid="Boolean(wrong.length)" @input="typed" @change="send" @scroll="$refs.lines.scrollTop = $event.target.scrollTop"></textarea>
   </div>
 </div>`,
-  props: { open: Boolean, text: String, wrong: Array },
+  props: { open: Boolean, text: String, wrong: Array, most: Number },
   emits: ["show", "text"],
   data() { return { count: 1, sent: null }; },
   mounted() { this.put(this.text); this.place(); },
@@ -37,7 +37,8 @@ export default {
       const text = this.$refs.area.value;
       if (text === this.sent) return;
       this.sent = text;
-      this.$emit("text", { text: text });
+      // a longer message would not arrive
+      this.$emit("text", text.length > this.most ? { length: text.length } : { text: text });
     },
     go(line) {
       this.$nextTick(() => {

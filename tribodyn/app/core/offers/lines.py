@@ -2,11 +2,13 @@
 
 import re
 import tomllib
+from functools import lru_cache
 from typing import Any
 
 from tribodyn.input.messages import Key, value_at
 
 
+@lru_cache(maxsize=256)
 def line_of(text: str, key: str) -> int:
     """The line, from 1, in which a dotted key stands, or begins the table that it is missing in; 0: none.
 
@@ -14,7 +16,6 @@ def line_of(text: str, key: str) -> int:
     """
     if line := re.fullmatch(r"line (\d+)", key):
         return int(line[1])
-    lines = text.splitlines(keepends=True)
     try:
         whole = tomllib.loads(text)
     except tomllib.TOMLDecodeError:
@@ -24,10 +25,10 @@ def line_of(text: str, key: str) -> int:
         parts = parts[:-1]
     if not parts:
         return 0
-    low, high = 0, len(lines)  # the first so many lines do not have it, and do
+    low, high = 0, len(text.splitlines())  # the first so many lines do not have it, and do
     while high - low > 1:
         middle = (low + high) // 2
-        begun, end = _begun(lines, middle)
+        begun, end = _begun(text, middle)
         if value_at(begun, parts) is None:
             low = max(middle, end - 1)
         else:
@@ -35,8 +36,10 @@ def line_of(text: str, key: str) -> int:
     return high
 
 
-def _begun(lines: list[str], count: int) -> tuple[dict[str, Any], int]:
+@lru_cache(maxsize=512)
+def _begun(text: str, count: int) -> tuple[dict[str, Any], int]:
     """What so many lines say, and how many were read: a value that goes over several is read to its end."""
+    lines = text.splitlines(keepends=True)
     for end in range(count, len(lines) + 1):
         try:
             return tomllib.loads("".join(lines[:end])), end
