@@ -42,9 +42,9 @@ class Fit(NamedTuple):
 
     def half_width(self, level: float) -> Float[Array, " unknown"]:
         """Half the width of the shares' intervals of a level, such as 0.95."""
-        from scipy.stats import t
+        from scipy.special import stdtrit
 
-        return t.ppf(0.5 + level / 2.0, self.freedom) * np.sqrt(np.diag(self.covariance))
+        return stdtrit(self.freedom, 0.5 + level / 2.0) * np.sqrt(np.diag(self.covariance))
 
 
 def fitted(
@@ -120,7 +120,7 @@ def whiteness(residuals: Float[Array, " sample"]) -> float:
 
     Q = n (n + 2) Σ r_k²/(n − k) over `LAGS` lags, which is χ² of as many degrees of freedom.
     """
-    from scipy.stats import chi2
+    from scipy.special import chdtrc
 
     values = np.asarray(residuals, dtype=float) - np.mean(residuals)
     count, power = len(values), float(values @ values)
@@ -129,7 +129,7 @@ def whiteness(residuals: Float[Array, " sample"]) -> float:
         return 1.0
     each = np.array([values[k:] @ values[:-k] for k in range(1, lags + 1)]) / power
     statistic = count * (count + 2.0) * float(np.sum(each**2 / (count - np.arange(1, lags + 1))))
-    return float(chi2.sf(statistic, lags))
+    return float(chdtrc(lags, statistic))
 
 
 def sobol(unknowns: int, count: int, seed: int) -> Float[Array, "place unknown"]:
