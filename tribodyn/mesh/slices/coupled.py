@@ -40,7 +40,7 @@ from tribodyn.numerics.shapes import Array, Float
 # a slice's own contact takes, and leaves.
 _SMALL, _LEAST = 0.05, 0.02
 _STEPS = 15
-_KEPT_SIZE = 4_000_000  # entries of matrices that are kept at most
+_KEPT_SIZE = 7_000_000  # entries of matrices that are kept at most
 
 
 def tabulate_helical(

@@ -75,7 +75,7 @@ def matrices(
     return at_nodes, (between, even_between, *fields)
 
 
-@remembered(4)
+@remembered(3)
 def kept_matrices(
     assembly: Assembly,
     materials: tuple[MaterialData, MaterialData],
