@@ -12,6 +12,7 @@ import tomli_w
 
 from tests.support.overhung_train import overhung_train
 from tests.support.planet_sets import ASSESSED_SET
+from tests.support.short_studies import ShortRuns
 from tests.support.train_scenarios import case_of_table
 from tests.support.verbs import invoke, sets
 from tribodyn.cases.assessment_part import Request
@@ -47,25 +48,40 @@ def assessed(folder: Path) -> dict[str, Any]:
     return json.loads(ended)
 
 
-def test_every_mesh_stands_by_the_standards_and_simulated(assessed: dict[str, Any]):
+def stands_by_both(assessed: dict[str, Any], safeties: tuple[str, ...]) -> None:
     """Loss factors: ISO by its sharing, the simulation's by its own, of the same path of contact."""
     meshes = assessed[MESHES]
-    assert len(meshes) == 6
     for mesh in meshes.values():
-        iso, own, margins = mesh["iso"], mesh["simulated"], mesh["margins"]
+        iso, own = mesh["iso"], mesh["simulated"]
         assert iso["H_v"] == pytest.approx(own["H_v"], rel=0.15)
-        assert margins["iso"]["S_lambda"] == pytest.approx(margins["simulated"]["S_lambda"], rel=0.35)
-        assert ("S_intS" in margins["iso"]) == ("sun" in mesh["alike"])
-        assert mesh["load_factors"]["K_gamma"] == pytest.approx(assessed["mesh_load_factor"])
         for side in ("pinion", "gear"):
             assert own["sigma_H"][side] == pytest.approx(iso["sigma_H"][side], rel=0.2)
             # in motion a tooth carries what it carries in slow rotation at least
-            slow = mesh[f"{side}_root_tension_max"] * assessed["mesh_load_factor"]
+            slow = mesh[f"{side}_root_tension_max"] * assessed.get("mesh_load_factor", 1.0)
             assert own["sigma_F"][side] > 0.99 * slow
-    for name in ("S_H", "S_F", "S_B", "S_lambda"):
+    for name in safeties:
         every = [mesh["margins"][part][name] for mesh in meshes.values() for part in ("iso", "simulated")]
         assert assessed[name] == pytest.approx(min(every))
         assert assessed["worst_of"][name] in meshes
+
+
+def test_every_mesh_of_a_set_stands_by_the_standards_and_simulated(assessed: dict[str, Any]):
+    assert len(assessed[MESHES]) == 6
+    stands_by_both(assessed, ("S_H", "S_F", "S_B", "S_lambda"))
+    for mesh in assessed[MESHES].values():
+        films = [mesh["margins"][part]["S_lambda"] for part in ("iso", "simulated")]
+        assert films[0] == pytest.approx(films[1], rel=0.35)
+        assert ("S_intS" in mesh["margins"]["iso"]) == ("sun" in mesh["alike"])
+
+
+def test_both_meshes_of_a_reducer_stand_by_the_standards_and_simulated(short_runs: ShortRuns):
+    assessed = short_runs("train-assessment").summary
+    assert len(assessed[MESHES]) == 2
+    stands_by_both(assessed, ("S_H", "S_F", "S_B"))
+    samples = assessed["by_sample"]
+    for name in ("S_H", "S_F"):
+        lowest = [mesh["iso"]["spread"][name]["p5"] for mesh in assessed[MESHES].values()]
+        assert np.percentile(samples[name], 5.0) <= min(lowest) * (1.0 + 1e-9)
 
 
 def test_roots_bear_the_whole_load_in_slow_rotation_and_no_more_than_it_in_motion(
