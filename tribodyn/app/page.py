@@ -33,6 +33,12 @@ from tribodyn.app.text_view import TextView
 from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError
 
+# a browser may refuse storage to a frame of another page, such as a notebook's; the library stops without it
+_WITHOUT_STORAGE = (
+    "<script>try { sessionStorage.length; } catch (error) { "
+    'Object.defineProperty(window, "sessionStorage", { value: {} }); }</script>'
+)
+
 
 class DesignPage:
     """Builds the page, and keeps it in step with its window.
@@ -81,6 +87,7 @@ class DesignPage:
 
     def _build(self) -> None:
         ui.add_css(STYLE)
+        ui.add_head_html(_WITHOUT_STORAGE)
         with ui.element("div").classes("tb-page" + (" tb-few" if self.few else "")):
             with ui.element("header").classes("tb-bar"):
                 self.bar = Bar(
