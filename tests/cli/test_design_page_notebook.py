@@ -11,18 +11,13 @@ from tests.support.design_page import PATIENCE, RELIEF, browser, eventually
 from tests.support.verbs import ROOT
 
 
-class Notebook(SimpleHTTPRequestHandler):
-    def log_message(self, *_) -> None:
-        pass
-
-
 def test_a_cell_shows_the_page_and_saves_its_file(tmp_path, monkeypatch):
     pytest.importorskip("nicegui", reason="the extra app is not installed")
     import tribodyn as td
 
     monkeypatch.delenv("PYTEST_CURRENT_TEST")  # the library behaves otherwise within a test
     shutil.copy(ROOT / "scenarios" / "involute-18-36-tip-relief.toml", tmp_path / "mine.toml")
-    notebook = ThreadingHTTPServer(("127.0.0.1", 0), partial(Notebook, directory=tmp_path))
+    notebook = ThreadingHTTPServer(("127.0.0.1", 0), partial(SimpleHTTPRequestHandler, directory=tmp_path))
     threading.Thread(target=notebook.serve_forever, daemon=True).start()
     with browser() as started, notebook:
         explorer = td.explore(tmp_path / "mine.toml")
