@@ -123,4 +123,8 @@ def warnings_in(messages: Iterable[str]) -> dict[str, int]:
             if part.startswith(WARNING):
                 text = part.removeprefix(WARNING)
                 count[text] = count.get(text, 0) + 1
+    for text in [text for text in count if text.endswith("…")]:  # cut to the room of a record
+        longer = (one for one in count if one != text and one.startswith(text.removesuffix("…")))
+        if whole := max(longer, key=len, default=""):
+            count[whole] += count.pop(text)
     return count

@@ -19,6 +19,7 @@ from tribodyn.record.withheld_efficiency import (
     reason_to_withhold,
     samples_withheld,
     warnings,
+    warnings_in,
     withheld,
 )
 from tribodyn.studies.pages import summary_json, summary_table, sweep_table
@@ -110,3 +111,16 @@ def test_a_sweep_withholds_it_case_by_case(tmp_path):
         text = printed(sweep_table(record))
     assert "120" not in text
     assert "Warning: 1 of 3 cases: efficiency is withheld, above 1" in text
+
+
+def test_warnings_that_the_room_of_a_record_cut_count_as_what_they_are():
+    fed, lost = "friction feeds the vibration", "frames lose power"
+    messages = [
+        f"warning: {fed}",
+        "period 8; warning: friction…",
+        "warning: fri…",
+        f"warning: {lost}",
+        "period 2",
+    ]
+    assert warnings_in(messages) == {fed: 3, lost: 1}
+    assert warnings_in(["warning: fri…"]) == {"fri…": 1}
