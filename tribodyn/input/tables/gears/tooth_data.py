@@ -234,7 +234,7 @@ def _broken_thickness(drive: DriveTable, key: str, gear: Gear) -> Iterator[Input
         yield InputError(f"{key}.{name}", _shown(gear, name), rule, "leave one of them out")
     for measure, other in _WITH.items():
         if getattr(gear, measure) is not None and getattr(gear, other) is None:
-            remedy = f"add {other} = {_EXAMPLES[other]}"
+            remedy = f"add that of the measurement, such as {other} = {_EXAMPLES[other]}"
             yield InputError(f"{key}.{other}", rule=f"missing: {measure} needs it", remedy=remedy)
     if gear.thickness_code is not None and gear.thickness_code not in CODES:
         yield broken_code(f"{key}.thickness_code", quoted(gear.thickness_code))
