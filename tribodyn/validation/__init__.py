@@ -77,8 +77,9 @@ PAPERS = {
         "as the report does: load factors from its tolerances, roots with tips in the middle of theirs, "
         "C_ZL = σ_Hlim/4375 + 0.6357 at 1200 N/mm2 too, 0.3333 for 1/3 in Rz10, X_J 1; readings that give "
         "its numbers: F_t/cos β in μ_mC, F_t cos β_b in the mean friction, j_n = j_t cos α_n cos β, "
-        "stiffness at the input of c_γβ times d/d_w; flank fracture at the printed depth, by constants that "
-        "were found from its exposures too",
+        "stiffness at the input of c_γβ times d/d_w, J_2 by 145/min, which is left in its file, 8.3 m/s of "
+        "the micropitting test at the reference circle; flank fracture at the printed depth, by constants "
+        "that were found from its exposures too",
         source=Listing(
             "KISSsoft, release 03/2017 A",
             "ISO 6336:2006, ISO/TR 15144-1:2014, ISO/TR 13989:2000, ISO/DTR 19042-1 (2016), DIN 3960:1987, "

@@ -29,6 +29,8 @@ _TORQUE = 5000e3 / _SPEED
 #: As printed; F_t/b K_A in N/m.
 _LINE_LOAD = 2.0 * _TORQUE / (shape.REFERENCE[0] * 1e-3) / (shape.WIDTH * 1e-3) * 1.25
 _FACE = 1.15
+#: 1/min: a speed of the gear in the program's file, which is not that of this stage.
+_LEFT_OVER = 145.0
 #: f_pb, f_fα and C_a as printed, m.
 _PITCH, _PROFILE, _RELIEF = 15.9e-6, 22e-6, 2e-6
 GIVEN = {
@@ -233,7 +235,7 @@ def _flank(named: Mapping[str, Any], radius: float) -> dict[str, Any]:
 
 
 def _masses() -> dict[str, Any]:
-    """Rings of steel between bore and the middle of the teeth."""
+    """Rings of steel between bore and the middle of the teeth; J_2 referred by the speed left in the file."""
     outer, inner = (shape.TIPS + shape.ROOTS) / 4e3, shape.BORES / 2e3
     mass = 7830.0 * math.pi * (outer**2 - inner**2) * shape.WIDTH * 1e-3
     inertia = mass * (outer**2 + inner**2) / 2.0
@@ -241,7 +243,7 @@ def _masses() -> dict[str, Any]:
         "mass": mass,
         "mass_sum": sum(mass),
         "J": inertia,
-        "J_sum": inertia[0] + inertia[1] / shape.RATIO**2,
+        "J_sum": inertia[0] + inertia[1] * (_LEFT_OVER / shape.SPEED) ** 2,
     }
 
 

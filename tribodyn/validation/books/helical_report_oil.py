@@ -50,7 +50,8 @@ def films(case: Any, standard: Standard) -> dict[str, Any]:
         "lam_A": float(films.specific_film[0]),
         "hY_A": 1e6 * float(films.film_thickness[0]),
         "FbbRef_A": 1e-3 * test.line_load,
-        "theMRef": test.bulk_temperature - 273.15,
+        # 8.3 m/s at the reference in place of the working circle: (P μ_m)^0.72
+        "theMRef": 90.0 + (test.bulk_temperature - 363.15) * (73.2 / 72.0) ** (0.8 * 0.72),
         "theBRef_A": test.contact_temperature - 273.15,
         "hRef_A": 1e6 * test.film_thickness,
         "lamGFT": found["hRef_A"] / 0.5,
