@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import signal
 import tomllib
 
 import pytest
@@ -23,8 +24,9 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def page(folder):
-    with served(folder, "broken.toml") as (address, _), browser() as started:
+    with served(folder, "broken.toml") as (address, server), browser() as started:
         shown = opened(started, address, wait=False)
+        shown.server = server
         yield shown
         assert shown.faults == []
 
@@ -77,6 +79,26 @@ def test_a_text_that_would_not_arrive_is_refused_and_can_be_mended(page):
     page.wait_for_selector("text=and the page takes 300000")
     text.fill(f"{before}# short\n")
     eventually(page, lambda: wrong(page) == [])
+    page.get_by_role("button", name="Edit as text").click()
+
+
+def test_what_is_typed_while_the_server_is_behind_stays(page):
+    text = page.get_by_label("Scenario as text")
+    eventually(page, lambda: text.input_value() == "")
+    page.get_by_role("button", name="Edit as text").click()
+    eventually(page, lambda: text.input_value() != "")
+    before = text.input_value()
+    text.press("Control+End")
+    page.server.send_signal(signal.SIGSTOP)
+    for word in ("# one", " two"):  # each is sent by itself
+        page.keyboard.type(word)
+        page.wait_for_timeout(500)
+    page.server.send_signal(signal.SIGCONT)
+    page.keyboard.type(" three four five six seven", delay=30)
+    eventually(page, lambda: page.get_by_role("button", name="Undo").is_enabled())
+    page.wait_for_timeout(1000)
+    assert text.input_value() == f"{before}# one two three four five six seven"
+    text.fill(before)
     page.get_by_role("button", name="Edit as text").click()
 
 

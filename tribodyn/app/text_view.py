@@ -37,6 +37,7 @@ class TextView:
         self.remedies: dict[str, tuple[Remedy, ...]] = {}
         self._tried = ""
         self._trying: asyncio.Task[None] | None = None
+        self._taken = 0
         self.messages = MessagesPart()
         self.messages.tell(go=self._go, mend=self._mend)
         self.part = TextPart()
@@ -68,7 +69,8 @@ class TextView:
             for key, line, _ in errors
         ]
         wrong = sorted(set(lines.values()) - {0})
-        self.part.give(open=self.open, text=text.replace("\r\n", "\n"), wrong=wrong)
+        text = text.replace("\r\n", "\n")
+        self.part.give(open=self.open, text=text, taken=self._taken, wrong=wrong)
         self.messages.give(
             errors=said,
             warnings=self.window.sentences("warnings"),
@@ -117,6 +119,7 @@ class TextView:
             return
         if "\r\n" in document.text:
             text = text.replace("\n", "\r\n")
+        self._taken = int(said.get("number", 0))
         document.set_text(text)
         self.complain(None)
         self.window.changed(["form", "title"])

@@ -108,7 +108,7 @@ class TextPart(_PagePart, component="text.js"):
 
     def __init__(self) -> None:
         super().__init__()
-        self.props.update(open=False, text="", wrong=[], most=MOST_TEXT)
+        self.props.update(open=False, text="", taken=0, wrong=[], most=MOST_TEXT)
 
 
 class VariantsPart(_PagePart, component="variants.js"):

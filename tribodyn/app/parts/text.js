@@ -8,17 +8,20 @@ export default {
     <textarea ref="area" wrap="off" spellcheck="false" autocapitalize="off" autocomplete="off" aria-label="Scenario as text" :aria-invalid="Boolean(wrong.length)" @input="typed" @change="send" @scroll="$refs.lines.scrollTop = $event.target.scrollTop"></textarea>
   </div>
 </div>`,
-  props: { open: Boolean, text: String, wrong: Array, most: Number },
+  // `taken` is the number of the text that the server has taken last
+  props: { open: Boolean, text: String, taken: Number, wrong: Array, most: Number },
   emits: ["show", "text"],
-  data() { return { count: 1, sent: null }; },
+  data() { return { count: 1, sent: null, number: this.taken }; },
   mounted() { this.put(this.text); this.place(); },
   watch: {
-    // what has been typed meanwhile stays
-    text(text) { if (text !== this.sent) this.put(text); },
+    text() { this.follow(); },
+    taken() { this.follow(); },
     open() { this.place(); },
   },
   methods: {
     place() { document.documentElement.classList.toggle("tb-as-text", this.open); },
+    // of a server that is behind nothing is shown: what has been typed meanwhile stays
+    follow() { if (this.taken === this.number && this.text !== this.sent) this.put(this.text); },
     put(text) {
       const area = this.$refs.area, [top, at] = [area.scrollTop, area.selectionStart];
       clearTimeout(this.timer);
@@ -38,7 +41,7 @@ export default {
       if (text === this.sent) return;
       this.sent = text;
       // a longer message would not arrive
-      this.$emit("text", text.length > this.most ? { length: text.length } : { text: text });
+      this.$emit("text", text.length > this.most ? { length: text.length } : { text: text, number: ++this.number });
     },
     go(line) {
       this.$nextTick(() => {
