@@ -187,7 +187,8 @@ class DesignPage:
                 ),
             )
         elif geometry:
-            self.teeth.give(picture=None, pinned=None, empty="There are no teeth to draw of this study.")
+            said = " ".join(["There are no teeth to draw.", *geometry.get("remarks", ())])
+            self.teeth.give(picture=None, pinned=None, empty=said)
         train = geometry.get("train")
         box = gearbox_picture(train) if train else {"bodies": [], "meshes": []}
         self.gearbox.give(**box, chosen=str(geometry.get("mesh", "")))

@@ -22,7 +22,7 @@ from tribodyn.app.core.slow_rotation import at_torques, slow_rotation
 from tribodyn.app.core.strength import strength_of
 from tribodyn.cases.assessment_part import Meshing
 from tribodyn.cases.results import Progress
-from tribodyn.errors import InputError, OutputError, SimulationError, quoted
+from tribodyn.errors import InputError, OutputError, SimulationError
 from tribodyn.gears.prepare import assembled
 from tribodyn.input.tables.duty import in_force
 from tribodyn.studies.motion import PAIR, TRAIN
@@ -40,6 +40,7 @@ _NO_CHOICE = next(name for name, law in FRICTION_LAWS.items() if law.reads_film 
 #: Shares of the nominal torque at which the transmission error is shown.
 SHARES = (0.5, 1.0, 1.5)
 _UNLOADED = "The duty has no torque: nothing is loaded."
+_ELSEWHERE = "A study of kind %s is checked while it is edited, not computed: start it by Run …"
 
 
 @dataclass(frozen=True)
@@ -69,13 +70,16 @@ class Live:
         `progress` is told the share done of a motion.
 
         Every result has `stage`, `ok`, `errors` (of each the fields of `Message`, and `short`), `warnings`
-        and `seconds`; what a stage has besides is said of its function.
+        and `seconds`; what a stage has besides is said of its function. Of a study that is no gearbox in
+        motion there is the check alone.
         """
         begun = perf_counter()
         head: dict[str, Any] = {"stage": stage, "warnings": [], "errors": []}
         try:
             self._progress = progress
-            result = _STAGES[stage](self, request)
+            study = self._of_text(request).study
+            is_live = study in (PAIR, TRAIN) or stage == "check"
+            result = _STAGES[stage](self, request) if is_live else {"remarks": [_ELSEWHERE % study.kind]}
             return head | {"ok": True, "seconds": perf_counter() - begun} | result
         except (InputError, SimulationError, OutputError) as error:
             errors = Message.each(error)
@@ -181,7 +185,6 @@ class Live:
         """The case of a text, its laws chosen."""
         key = request.text, request.path
         sound = self._of_text(request)
-        _refuse_others(sound)
         if key not in self._loaded:
             _keep(self._loaded, key, sound.loaded())
         return self._loaded[key]
@@ -212,16 +215,8 @@ def _stamps(sound: SoundScenario) -> dict[str, int]:
     return found
 
 
-def _refuse_others(sound: SoundScenario) -> None:
-    """Raise InputError for a kind of study that is no gearbox in motion."""
-    if sound.study not in (PAIR, TRAIN):
-        rule = f"{sound.study.about}: such a study is not computed while it is edited"
-        raise InputError("kind", quoted(sound.study.kind), rule, "start it as a job: run", str(sound.path))
-
-
 def _without_choice(sound: SoundScenario) -> Gearbox:
     """The gearbox of a scenario under a law of friction that need not be chosen: for geometry and loads."""
-    _refuse_others(sound)
     scenario = in_force(sound.scenario)
     values = {name: getattr(scenario.friction, name) for name in type(scenario.friction).model_fields}
     friction = type(scenario.friction).model_construct(**values | {"law": _NO_CHOICE})

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.support.verbs import complaints
+from tests.support.verbs import complaints, invoke
 from tribodyn.app.core.document import Document
 from tribodyn.app.core.live import STAGES, Live, LiveRequest
 from tribodyn.input.sources import shipped
@@ -172,11 +172,16 @@ def test_what_is_wrong_is_said_in_the_words_of_the_check(live, tmp_path, stage, 
     assert [error["text"] for error in again["errors"]] == complaints("check", document.path)
 
 
-def test_other_kinds_of_study_are_jobs(live):
-    shown = live.compute("geometry", of(Document.open("efficiency-involute-18-36")))
-    assert not shown["ok"]
-    assert shown["errors"][0]["key"] == "kind"
-    assert "job" in shown["errors"][0]["remedy"]
+def test_of_another_kind_of_study_the_check_is_shown_and_nothing_is_wrong(live):
+    document = Document.open("efficiency-involute-18-36")
+    found = {stage: live.compute(stage, of(document)) for stage in STAGES}
+    assert all(shown["ok"] for shown in found.values())
+    told = {stage for stage, shown in found.items() if "start it by Run" in " ".join(shown["remarks"])}
+    assert told == set(STAGES) - {"check"}
+    sheet = invoke("check", "efficiency-involute-18-36", "--full")
+    numbers = [row[-1] for table in found["check"]["tables"] for row in table["rows"]]
+    assert len(numbers) > 10
+    assert [number for number in numbers if number not in sheet] == []
 
 
 def test_a_duty_without_torque_shows_teeth_and_says_why_nothing_is_loaded(live):
