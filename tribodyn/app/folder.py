@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
+from tribodyn.app.core.document import Document
 from tribodyn.errors import InputError, quoted
 from tribodyn.numerics.files.output_files import write_output
 from tribodyn.studies.handed_over import readers
@@ -80,7 +81,10 @@ class WorkFolder:
         return path
 
     def bring(self, name: str, content: bytes) -> Path:
-        """Write a file that comes from the browser, never over another one; return its path."""
+        """Write a file that comes from the browser, never over another one; return its path.
+
+        A scenario that cannot be opened is not kept: InputError.
+        """
         if len(content) > MOST_BYTES:
             rule = f"has more than {MOST_BYTES // 2**20} MiB"
             raise InputError("file", quoted(name), rule, "copy it into the folder")
@@ -88,7 +92,14 @@ class WorkFolder:
         path = self.new_file(name, ending.lower())
         if path.exists() or path.is_symlink():
             raise InputError("file", quoted(name), "is there already", "rename the file, and bring it again")
-        return write_output(path, content)
+        write_output(path, content)
+        if path.suffix.lower() in scenario_endings():
+            try:
+                Document.open(path)
+            except InputError:
+                path.unlink()
+                raise
+        return path
 
     def holds(self, path: Path) -> bool:
         """Whether a file lies in the folder, links followed."""

@@ -28,6 +28,7 @@ class JobsDialog:
     def __init__(self, window: DesignWindow, address: str, kept: KeptWork, say: Callable[[str], Any]) -> None:
         self.window, self.address, self.kept, self.say = window, address, kept, say
         self.inputs: dict[str, ui.input] = {}
+        self.kind = ""  # of the study when it was open last
         with ui.dialog().props('aria-label="Run"') as self.dialog, ui.card().classes("tb-dialog"):
             ui.label("Run").classes("tb-title").props("role=heading aria-level=2")
             ui.label("It reads the saved file, runs beside this page and writes into its folder.")
@@ -45,9 +46,10 @@ class JobsDialog:
 
     def open(self) -> None:
         """Show the dialog, with what suits this kind of study."""
-        refusals = refusals_of(self.window.document.kind)
+        kind, before = self.window.document.kind, self.kind
+        refusals, self.kind = refusals_of(kind), kind
         suitable = [name for name, reason in refusals.items() if not reason]
-        chosen = self.choice.value if self.choice.value in suitable else suitable[0]
+        chosen = self.choice.value if kind == before and self.choice.value in suitable else suitable[0]
         self.choice.set_options(suitable, value=chosen)
         others = [f"{name}: {reason}." for name, reason in refusals.items() if reason]
         self.others.text = " ".join(["Not here:", *others]) if others else ""

@@ -78,12 +78,12 @@ TASKS = {
 
 
 def refusals_of(kind: str) -> dict[str, str]:
-    """Why a kind of study has a task not, by the task's name; "": it has it."""
+    """Why a kind of study has a task not, by the task's name; "": it has it. The study's own comes first."""
     study = STUDIES[kind if kind in STUDIES else DEFAULT]
     verb, gears = study.verb, study.mounted_gears() is not None
     is_map = study.losses() is not None or verb == "map"
     made = {"assess": "is assessed, not run", "map": "is a map already"}
-    return {
+    found = {
         "Run": "" if verb == "run" else f"a scenario of kind {kind} {made.get(verb, f'has the verb {verb}')}",
         "Sweep": "" if study.swept() else f"nothing that kind {kind} computes is kept by sweeps",
         "Search": "" if study.swept() or study.kind == "design" else f"kind {kind} has nothing to search by",
@@ -91,6 +91,7 @@ def refusals_of(kind: str) -> dict[str, str]:
         "Map of losses": "" if is_map else "of gear pairs and trains, and of kind map",
         "Measured gear": "" if gears else "of gear pairs and trains",
     }
+    return dict(sorted(found.items(), key=lambda one: TASKS[one[0]].verb != verb))
 
 
 _NUMBERS = itertools.count(1)

@@ -155,7 +155,18 @@ def test_a_folder_is_no_scenario(tmp_path):
 def test_work_is_offered_that_the_kind_has(name, here, elsewhere):
     refusals = refusals_of(Document.open(name).kind)
     assert refusals[here] == ""
+    assert next(iter(refusals)) == here
     assert len(refusals[elsewhere]) > 10
+
+
+@pytest.mark.parametrize(("name", "content"), [("binary.toml", b"\xff\x00"), ("none.rexs", b"<a/>")])
+def test_a_file_that_is_brought_and_cannot_be_opened_is_not_kept(tmp_path, name, content):
+    folder = WorkFolder(tmp_path)
+    with pytest.raises(InputError, match=name):
+        folder.bring(name, content)
+    assert list(tmp_path.iterdir()) == []
+    folder.bring("mendable.toml", b"[broken")
+    assert [path.name for path in tmp_path.iterdir()] == ["mendable.toml"]
 
 
 def test_a_scenario_may_read_what_lies_outside_the_folder_and_the_page_writes_nothing_there(tmp_path):
