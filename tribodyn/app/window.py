@@ -15,8 +15,10 @@ from tribodyn.app.picture import Result
 from tribodyn.errors import InputError
 
 #: A newer value waits until the teeth of the one before it are shown, and so much more for its quasi-static
-#: error, s; so long where none has come for a while.
-_PATIENCE, _LONG, _WHILE = 0.03, 0.3, 0.3
+#: error, s; where none has come for a while, twice as long as that took last, unless it takes too long.
+_PATIENCE, _LONG, _WHILE = 0.03, 0.5, 0.3
+#: What it takes is taken to be so much less each time that it did not come: the first one prepares more.
+_AGAIN = 0.8
 #: What is not to keep teeth from the browser comes so much behind them; it waits for them at most so long, s.
 _SHORTLY, _LATEST = 0.005, 0.25
 #: Seconds after which it is said what is computed.
@@ -64,7 +66,7 @@ class DesignWindow:
         self._others: asyncio.Task[None] | None = None
         self._stale = False
         self._coming: tuple[str, ...] = ()
-        self._drawn_at = self._static_at = 0.0
+        self._drawn_at = self._static_at = self._static_takes = 0.0
         self._behind: list[str] = []
         self.bug: Exception | None = None
         self.closed = False
@@ -182,11 +184,13 @@ class DesignWindow:
             return
         if "static" in self._coming:
             loop = asyncio.get_running_loop()
-            seldom = self._drawn_at - self._static_at > _WHILE
-            left = self._drawn_at + (_LONG if seldom else _PATIENCE) - loop.time()
+            seldom = self._drawn_at - self._static_at > _WHILE and self._static_takes < _LONG / 2.0
+            patience = max(_PATIENCE, 2.0 * self._static_takes) if seldom else _PATIENCE
+            left = self._drawn_at + patience - loop.time()
             if left > 0.0:
                 loop.call_later(left, self._go_on)
                 return
+            self._static_takes *= _AGAIN
         self._stale, self._coming = False, STAGES
         results = self._worker.results(self._request(self.document.text, self.mesh))
         self._task = asyncio.create_task(self._take(results))
@@ -217,7 +221,7 @@ class DesignWindow:
         if stage == "geometry":
             self._drawn_at = now
         if stage == "static":
-            self._static_at = now
+            self._static_at, self._static_takes = now, float(result["seconds"])
         self._go_on()
         if not self._stale:
             self.late = tuple(one for one in self.late if one != stage)

@@ -1,7 +1,7 @@
 // Curves over their abscissa, those of the pinned variant dashed behind them; drawn by plotly.
 const COLORS = ["--c1", "--c2", "--c3", "--c4", "--c5", "--c6"];
-// How long charts that are not seen wait for what comes next, ms.
-const QUIET = 500;
+// How long charts that are not seen wait for another value, ms.
+const QUIET = 300;
 const DASHES = ["solid", "dash", "dot", "dashdot", "longdash", "longdashdot"];
 const plain = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;");
 const short = (value) => (Math.abs(value) >= 1e5 || (value && Math.abs(value) < 1e-3) ? value.toExponential(2) : String(Number(value.toPrecision(4))));
@@ -45,7 +45,10 @@ export default {
       for (const chart of charts) this.said[chart.name] = this.told(chart);
       this.$nextTick(() => this.draw(charts));
     },
-    wait(late) { this.late = late; },
+    wait(late) {
+      this.late = late;
+      this.next();
+    },
     told(chart) {
       const all = chart.curves.flatMap((curve) => curve.y).filter((one) => one !== null && isFinite(one));
       if (!all.length) return "no values";
@@ -59,13 +62,13 @@ export default {
       for (const chart of charts) this.stale.add(chart.name);
       this.next();
     },
-    // charts that are seen are drawn at once, the others when nothing has come for a while; between two of them
-    // the browser does what else there is
+    // charts that are seen are drawn at once, the others a while after nothing is computed any more; between
+    // two of them the browser does what else there is
     next() {
       clearTimeout(this.drawing);
       const first = this.charts.find((one) => this.stale.has(one.name) && this.seen.has(one.name));
       const chart = first || this.charts.find((one) => this.stale.has(one.name));
-      if (!this.Plotly || !chart) return;
+      if (!this.Plotly || !chart || (!first && this.late.length)) return;
       this.drawing = setTimeout(() => { this.stale.delete(chart.name); this.drawOne(chart); this.next(); }, first ? 0 : QUIET);
     },
     drawOne(chart) {
