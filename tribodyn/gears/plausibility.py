@@ -19,7 +19,7 @@ from tribodyn.gears.rating.bearings import bearing_part, bearing_rows, shafts_of
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import SIDES, Side, body_of
 from tribodyn.geometry.families import family
-from tribodyn.numerics.files.rows import rows_of
+from tribodyn.numerics.files.rows import table_rows
 from tribodyn.tribology.oil import T_40, T_100, ZERO_CELSIUS, LubricantData
 
 AnyCase = TypeVar("AnyCase", bound=CaseHead)
@@ -52,7 +52,7 @@ class UsualRange(NamedTuple):
 #: By the names of `_numbers`, in whose units the ends are.
 USUAL = {
     name: UsualRange(what, float(low), float(high), *words)
-    for name, what, low, high, *words in (row.values() for row in rows_of(__package__, "usual_ranges.csv"))
+    for name, what, low, high, *words in (row.values() for row in table_rows(__package__, "usual_ranges.csv"))
 }
 
 

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from tribodyn.numerics.files.rows import rows_of
+from tribodyn.numerics.files.rows import table_rows
 
 
 class Parameter(NamedTuple):
@@ -60,7 +60,7 @@ def flag(dims: tuple[str, ...], long_name: str, meanings: str, first: int = -1) 
 def datasets_of(package: str | None) -> dict[str, dict[str, Variable]]:
     """Datasets by group and name, as ``datasets.csv`` beside the modules of a package lists them."""
     groups: dict[str, dict[str, Variable]] = {}
-    for row in rows_of(package, "datasets.csv"):
+    for row in table_rows(package, "datasets.csv"):
         dims, meaning, flags = tuple(row["dims"].split()), row["meaning"], row["flags"]
         made = flag(dims, meaning, flags) if flags else Variable(dims, row["units"], meaning)
         groups.setdefault(row["group"], {})[row["name"]] = made

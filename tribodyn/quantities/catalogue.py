@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.numerics.files.rows import rows_of
+from tribodyn.numerics.files.rows import table_rows
 from tribodyn.quantities.quantity import Quantity
 
 
 def _listed() -> dict[str, tuple[Quantity, ...]]:
     """Quantities by group, both in the order of the file; cells that are empty are left to the defaults."""
     groups: dict[str, tuple[Quantity, ...]] = {}
-    for row in rows_of(__package__, "quantities.csv"):
+    for row in table_rows(__package__, "quantities.csv"):
         group = row.pop("group")
         cells: dict[str, Any] = {name: name == "listed" or cell for name, cell in row.items() if cell}
         groups[group] = (*groups.get(group, ()), Quantity(**cells))

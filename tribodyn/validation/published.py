@@ -1,11 +1,12 @@
 """Published numbers and claims, and how near a computed one has to be."""
 
-import csv
 import json
 from collections.abc import Iterable
 from functools import cache
 from importlib.resources import files
 from typing import Any
+
+from tribodyn.numerics.files.rows import table_rows
 
 #: The tolerance of a number: this share of the value, or of the part of it that matters, or half a unit of
 #: its last printed digit, whichever is larger. Rows of geometry and closed forms name a smaller share.
@@ -77,8 +78,7 @@ def _each(value: Any) -> Iterable[Any]:
 
 def _of_book(paper: str) -> Iterable[dict[str, Any]]:
     """Rows of a book: a listing's numbers as printed, one or (pinion, gear) per line of its file."""
-    text = files("tribodyn.validation.books").joinpath(f"{paper}.csv").read_text(encoding="utf-8")
-    for line in csv.DictReader(text.splitlines()):
+    for line in table_rows("tribodyn.validation.books", f"{paper}.csv"):
         for side in ("pinion", "gear") if line["gear"] else ("pinion",):
             printed = line[side]
             tolerance = 0.5 * _EDGE * last_digit(printed)

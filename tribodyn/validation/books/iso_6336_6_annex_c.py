@@ -5,12 +5,11 @@ misalignment that does not grow with the load; cycles follow there from the prin
 table goes on beyond the stress of 10⁵ cycles with the same slope.
 """
 
-import csv
 import math
 from collections.abc import Iterator
-from importlib.resources import files
 from typing import Any, NamedTuple
 
+from tribodyn.numerics.files.rows import table_rows
 from tribodyn.standards.contact_path import ContactPath, transverse_angle
 from tribodyn.standards.fatigue import StressCurve
 from tribodyn.standards.metals import Metal, contact_factors
@@ -41,8 +40,7 @@ class LoadClass(NamedTuple):
 
 
 def _classes() -> Iterator[LoadClass]:
-    text = files("tribodyn.validation.books").joinpath(f"{BOOK}-spectrum.csv").read_text(encoding="utf-8")
-    for line in csv.DictReader(text.splitlines()):
+    for line in table_rows(__package__, f"{BOOK}-spectrum.csv"):
         yield LoadClass(line["class"], *(float(line[name]) for name in ("torque_kNm", "time_s", "K_Hbeta")))
 
 
