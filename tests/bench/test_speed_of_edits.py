@@ -22,7 +22,9 @@ pytestmark = pytest.mark.bench
 #: Time of the verb on a machine at rest, s, by scenario.
 AT_REST = {"spur-25-51": 0.77, "helical-23-47": 1.27, "two-stage-reducer": 0.85}
 #: Stage -> its time from the edit on, s.
-AT_MOST = {"geometry": 0.05, "static": 0.25, "motion": 0.95}
+AT_MOST = {"geometry": 0.05, "static": 0.25, "motion": 0.8}
+#: Where laws are chosen anew, beside the tables on another core: so much more, s.
+CHOSEN = {("helical-torque", "motion"): 0.25}
 #: Scenario, key, values that are dragged; of spur gears with tip relief, by finite elements.
 DRAGGED = {
     "shift": ("spur-25-51", "drive.pinion.profile_shift", "0.1{}", {}),
@@ -84,7 +86,7 @@ def test_a_dragged_value_shows_within_its_share_of_a_run(live, verb, dragged):
     scale = AT_REST[name] / verb(name)
     seconds = {stage: min(times[1:]) * scale for stage, times in taken.items()}
     print(dragged, {stage: round(each, 3) for stage, each in seconds.items()}, round(verb(name), 3))
-    late = {stage for stage in seconds if seconds[stage] > AT_MOST[stage]}
+    late = {stage for stage in seconds if seconds[stage] > AT_MOST[stage] + CHOSEN.get((dragged, stage), 0.0)}
     assert not late, seconds
 
 
