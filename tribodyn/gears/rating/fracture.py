@@ -99,6 +99,14 @@ def _beyond(pressure: np.ndarray, radius: np.ndarray, cases: Sequence[HardenedCa
             found = " to ".join(dict.fromkeys(f"{scale * end:.3g}" for end in (values.min(), values.max())))
             limits = f"{scale * low:g} to {scale * high:g} {unit}"
             yield f"Tooth flank fracture: {what} {found} {unit}, ISO/TS 6336-4 is for {limits}."
+    known = flank_fracture.COMPARED_PRESSURES
+    greatest = float(pressure.max())
+    if not known[0] <= greatest <= known[1]:
+        limits = " to ".join(f"{1e-6 * each:.0f}" for each in known)
+        yield (
+            f"Tooth flank fracture: {1e-6 * greatest:.0f} N/mm² is beyond the pressures of the printed exposures "
+            f"that its constants were found from, {limits} N/mm²: an extrapolation."
+        )
 
 
 def broken_fracture(

@@ -38,6 +38,15 @@ def test_the_printed_exposures_and_the_radius_out_of_range():
     assert "Tooth flank fracture" in holds_of_mesh(summary)
 
 
+def test_beyond_the_pressures_that_are_known_it_is_an_extrapolation():
+    within, beyond = (
+        check(scenario(changed() | {"operating": SCENARIO["operating"] | {"pinion_torque": torque}})).remarks
+        for torque in ("130 N*m", "200 N*m")
+    )
+    assert not any("extrapolation" in text for text in within)
+    assert sum("772 to 1374 N/mm²: an extrapolation" in text for text in beyond) == 1
+
+
 def test_a_thinner_case_is_more_exposed_and_without_one_nothing_is_rated():
     safeties = [check(scenario(changed(case_depth=f"{mm} mm"))).data["iso"]["S_FF"] for mm in (0.3, 0.675)]
     assert safeties[0]["pinion"] < safeties[1]["pinion"]
