@@ -109,6 +109,8 @@ def test_a_search_and_a_map_run_to_their_end_and_stay_in_the_list(page, folder):
 
 def test_a_map_is_ended_and_what_it_has_is_kept(page, folder):
     start(page, "Map of losses", Torques="100:1000:50N*m", Speeds="500:3000:100rpm")
+    page.get_by_role("button", name="Start", exact=True).click()  # as by a double click
+    page.wait_for_selector('text="Map of losses of mine": is running')
     page.get_by_role("button", name="Cancel", exact=True).click()
     ended(page, "cancelled")
     close(page)

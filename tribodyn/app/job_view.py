@@ -12,7 +12,7 @@ from tribodyn.app.kept import KeptWork
 from tribodyn.app.parts import JobsPart
 from tribodyn.app.tasks import TASKS, TaskRun, refusals_of
 from tribodyn.app.window import DesignWindow
-from tribodyn.errors import InputError, OutputError
+from tribodyn.errors import InputError, OutputError, quoted
 
 #: How often progress is looked at, s; lines of output that are shown.
 _EACH, _LINES = 0.5, 60
@@ -101,7 +101,9 @@ class JobsDialog:
             if given.get("name"):
                 given["name"] = folder.named(folder.new_file(given["name"], ".toml"))
             steps = task.steps(folder.named(document.path), given)
-            title = f"{self.choice.value} of {document.path.stem}"
+            title = f"{self.choice.value} of {folder.named(document.path).removesuffix('.toml')}"
+            if any(one.title == title and one.state == "running" for one in self.kept.tasks):
+                raise InputError("What", quoted(title), "is running", "wait for its end, or cancel it")
             self.kept.begin(TaskRun(title, steps, folder.root))
         except (InputError, OutputError, OSError) as error:
             self.wrong.text = str(error)
