@@ -104,8 +104,8 @@ def _beyond(pressure: np.ndarray, radius: np.ndarray, cases: Sequence[HardenedCa
     if not known[0] <= greatest <= known[1]:
         limits = " to ".join(f"{1e-6 * each:.0f}" for each in known)
         yield (
-            f"Tooth flank fracture: {1e-6 * greatest:.0f} N/mm² is beyond the pressures of the printed exposures "
-            f"that its constants were found from, {limits} N/mm²: an extrapolation."
+            f"Tooth flank fracture: {1e-6 * greatest:.0f} N/mm² is beyond the pressures that its constants "
+            f"were found from, {limits} N/mm²: an extrapolation."
         )
 
 

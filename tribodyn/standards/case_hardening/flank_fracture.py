@@ -21,8 +21,8 @@ _CALIBRATION, _CONVERSION = 0.04, 0.4
 _THIN, _THICK = 0.010, 0.040
 #: Limits of the method: pressure, Pa, radius of relative curvature and hardening depth, m.
 PRESSURES, RADII, CASE_DEPTHS = (0.5e9, 3e9), (0.005, 0.150), (0.0003, 0.0045)
-#: Pressures of the printed exposures that constants were found from, Pa.
-COMPARED_PRESSURES = (0.772e9, 1.374e9)
+#: Pressures of the printed exposures that constants were found from, Pa: 772 to 1374 N/mm².
+COMPARED_PRESSURES = (0.77e9, 1.38e9)
 #: Hardening depth over normal module, which is usual: ISO 6336-5's optimum for the flank, about.
 USUAL_CASE_DEPTH = 0.15
 #: Greatest exposure without risk of fracture: ISO/TS 6336-4, from memory.
