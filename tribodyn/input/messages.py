@@ -334,6 +334,7 @@ def _how_to_write(model: type[BaseModel], key: Key) -> str:
     shape = table.model_json_schema()["properties"][str(key[-1])]
     if named:
         return f"give the {shape['anyOf'][0]['description']}"
-    example = shape.get("examples", [None])[0]
-    wanted = {"integer": "a whole number", "number": "a number", "string": "text"}
-    return f"add {key[-1]} = " + (quoted(example) if example else wanted.get(shape.get("type", ""), "…"))
+    example, choices = shape.get("examples", [None])[0], ", ".join(map(quoted, shape.get("enum", ())))
+    wanted = {"integer": "a whole number", "number": "a number", "string": "text", "array": "a list"}
+    text = f"one of {choices}" if choices else wanted.get(shape.get("type", ""), "…")
+    return f"add {key[-1]} = {quoted(example) if example else text}"

@@ -4,6 +4,7 @@ import json
 import re
 import typing
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from types import UnionType
@@ -225,6 +226,19 @@ def converted(number: str, unit: str, to: str) -> str:
         except NotAQuantity:
             continue
     return number
+
+
+def measures_as(unit: str, other: str) -> bool:
+    """Whether a unit is of a quantity that the other one is of, as far as that is known."""
+
+    def takes(kind: Kind) -> bool:
+        with suppress(NotAQuantity):
+            to_si(f"1 {unit}", kind)
+            return True
+        return False
+
+    kinds = list(_kinds_with(other))
+    return not kinds or any(map(takes, kinds))
 
 
 def _kinds_with(unit: str) -> Iterator[Kind]:

@@ -21,6 +21,7 @@ from tribodyn.app.core.fields import (
     is_first,
     label_of,
     many_tables,
+    measures_as,
     of_parameter,
     of_value,
     parts_of_quantity,
@@ -264,6 +265,8 @@ class _Form:
         value = written.get(path[-1], of.default if value is None else value)
         plain = of.kind != "quantity" or isinstance(value, list)
         shown, unit = (as_toml(value), "") if plain else parts_of_quantity(value)
+        if unit and of.units and unit not in of.units and not measures_as(unit, of.units[0]):
+            shown, unit = str(value), ""  # the next number does not get what is no unit here
         given, origin, usual = path[-1] in written, self.origins.of(path), of.usual
         return FormField(
             path=_dotted(path),

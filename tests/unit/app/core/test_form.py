@@ -153,3 +153,17 @@ def test_a_broken_text_has_the_form_of_an_empty_scenario():
     document = Document.open("spur-25-51")
     document.set_text("[mesh")
     assert form_of(document)[0].label == "Scenario"
+
+
+@pytest.mark.parametrize(
+    ("before", "number", "after"),
+    [("70 banana", "90", "90 degC"), ("70 um", "90", "90 degC"), ("340 K", "350", "350 K")],
+)
+def test_a_number_does_not_get_the_unit_that_was_wrong_before_it(before, number, after):
+    document, key = Document.open("spur-25-51"), "operating.oil_temperature"
+    document.set(key, before)
+    fields = {field.path: field for group in form_of(document) for field in group.fields}
+    assert written_as(fields[key], fields[key].shown, fields[key].unit) == before
+    document.set(key, written_as(fields[key], number, fields[key].unit))
+    assert document.value(key) == after
+    assert document.messages() == ()

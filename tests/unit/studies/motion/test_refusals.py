@@ -47,6 +47,12 @@ REFUSED: dict[str, tuple[list[Change], str, str]] = {
         "body.0.inertia",
         "missing; add inertia",
     ),
+    "a shaft without gears": ([put("shaft.+", {"name": "third"})], "shaft.1.gears", "add gears = a list"),
+    "a sensor of no kind": (
+        [put("sensor", [{"name": "A", "rate": "20 kHz"}])],
+        "sensor.0.kind",
+        'add kind = one of "acceleration", "force"',
+    ),
     "a body with none": (
         [put("body", [{"name": "flywheel", "mass": "3 kg", "inertia": "0 kg*m**2"}])],
         "body.0.inertia",
