@@ -102,9 +102,8 @@ def test_a_search_and_a_map_run_to_their_end_and_stay_in_the_list(page, folder):
         assert record.status == "complete"
     page.reload()
     page.get_by_role("button", name="Run …").click()
-    assert page.locator(".tb-jobs article").count() == 2
+    eventually(page, lambda: page.locator(".tb-jobs article").count() == 2)
     assert page.locator(f".tb-jobs a[href='{link}']").count() == 1
-    close(page)
 
 
 def test_a_map_is_ended_and_what_it_has_is_kept(page, folder):
