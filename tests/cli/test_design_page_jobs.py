@@ -1,6 +1,7 @@
 """Longer work from the page to design on: searches, maps, assessments, files brought in; ended, and kept."""
 
 import shutil
+import signal
 from urllib.parse import quote
 
 import pytest
@@ -45,9 +46,9 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def served_page(folder):
-    with served(folder, "mine.toml") as (address, _), browser() as started:
+    with served(folder, "mine.toml") as (address, process), browser() as started:
         shown = opened(started, address, wait=False)
-        yield shown, address
+        yield shown, address, process
         # a file that is refused is an error of the console, too
         assert [fault for fault in shown.faults if "status of 400" not in fault] == []
 
@@ -106,6 +107,22 @@ def test_a_search_and_a_map_run_to_their_end_and_stay_in_the_list(page, folder):
     assert page.locator(f".tb-jobs a[href='{link}']").count() == 1
 
 
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="no process can be stopped for a while here")
+def test_a_dialog_that_is_closed_and_asked_for_at_once_comes(served_page):
+    page, _, process = served_page
+    run = page.get_by_role("button", name="Run …")
+    if not page.get_by_role("dialog").is_visible():
+        run.click()
+    page.get_by_role("dialog").wait_for()
+    process.send_signal(signal.SIGSTOP)  # both reach the server together
+    page.keyboard.press("Escape")
+    run.dispatch_event("click")
+    process.send_signal(signal.SIGCONT)
+    page.wait_for_timeout(1500)
+    assert page.get_by_role("dialog").is_visible()
+    close(page)
+
+
 def test_a_map_is_ended_and_what_it_has_is_kept(page, folder):
     start(page, "Map of losses", Torques="100:1000:50N*m", Speeds="500:3000:100rpm")
     page.get_by_role("button", name="Start", exact=True).click()  # as by a double click
@@ -141,13 +158,13 @@ def test_files_are_brought_in_and_never_over_another(page, folder, elsewhere):
     "name", ["../over.toml", "sub/../../over.toml", ".hidden.toml", "a.h5", "/over.toml"]
 )
 def test_nothing_is_brought_to_another_place(served_page, folder, name):
-    page, address = served_page
+    page, address, _ = served_page
     assert page.request.post(f"{address}bring/{quote(name, safe='')}", data=b"x").status in (400, 404)
     assert not (folder.parent / "over.toml").exists()
 
 
 def test_a_foreign_page_brings_nothing(served_page, folder):
-    page, address = served_page
+    page, address, _ = served_page
     headers = {"Origin": "http://evil.example"}
     assert page.request.post(f"{address}bring/evil.toml", data=b"x", headers=headers).status == 403
     assert not (folder / "evil.toml").exists()

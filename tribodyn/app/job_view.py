@@ -28,13 +28,29 @@ class JobsDialog:
     def __init__(self, window: DesignWindow, address: str, kept: KeptWork, say: Callable[[str], Any]) -> None:
         self.window, self.address, self.kept, self.say = window, address, kept, say
         self.inputs: dict[str, ui.input] = {}
-        self.kind = ""  # of the study when it was open last
-        with ui.dialog().props('aria-label="Run"') as self.dialog, ui.card().classes("tb-dialog"):
+        self.kind, self.task = "", ""  # of the study, and what was asked for, when it was open last
+        self.dialog: ui.dialog | None = None
+        self.timer = ui.timer(_EACH, self._show, active=False)
+
+    def open(self) -> None:
+        """Show the dialog, with what suits this kind of study.
+
+        It is made anew: one that the browser has closed and the server not yet would not open.
+        """
+        if self.dialog is not None:
+            self.dialog.delete()
+        kind, before = self.window.document.kind, self.kind
+        refusals, self.kind = refusals_of(kind), kind
+        suitable = [name for name, reason in refusals.items() if not reason]
+        if kind != before or self.task not in suitable:
+            self.task = suitable[0]
+        with ui.dialog(value=True).props('aria-label="Run"') as self.dialog, ui.card().classes("tb-dialog"):
             ui.label("Run").classes("tb-title").props("role=heading aria-level=2")
             ui.label("It reads the saved file, runs beside this page and writes into its folder.")
-            self.choice = ui.select(list(TASKS), value="Run", label="What").classes("tb-wide-input")
-            self.choice.on_value_change(lambda _: self._ask())
-            self.others = ui.label().classes("tb-quiet")
+            choice = ui.select(suitable, value=self.task, label="What").classes("tb-wide-input")
+            choice.on_value_change(lambda chosen: self._ask(chosen.value))
+            if others := [f"{name}: {reason}." for name, reason in refusals.items() if reason]:
+                ui.label(" ".join(["Not here:", *others])).classes("tb-quiet")
             self.asked = ui.column().classes("tb-wide-input")
             self.wrong = ui.label().classes("tb-error").props("role=alert")
             with ui.element("p").classes("tb-choice"):
@@ -42,23 +58,12 @@ class JobsDialog:
                 ui.button("Close", color=None, on_click=self.dialog.close).props("no-caps flat")
             self.part = JobsPart()
             self.part.tell(cancel=self._cancel, open=self._open)
-        self.timer = ui.timer(_EACH, self._show)
-
-    def open(self) -> None:
-        """Show the dialog, with what suits this kind of study."""
-        kind, before = self.window.document.kind, self.kind
-        refusals, self.kind = refusals_of(kind), kind
-        suitable = [name for name, reason in refusals.items() if not reason]
-        chosen = self.choice.value if kind == before and self.choice.value in suitable else suitable[0]
-        self.choice.set_options(suitable, value=chosen)
-        others = [f"{name}: {reason}." for name, reason in refusals.items() if reason]
-        self.others.text = " ".join(["Not here:", *others]) if others else ""
-        self._ask()
+        self._ask(self.task)
         self.timer.activate()
-        self.dialog.open()
 
-    def _ask(self) -> None:
-        self.wrong.text = ""
+    def _ask(self, task: str) -> None:
+        """Ask what a task takes."""
+        self.task, self.wrong.text = task, ""
         self.asked.clear()
         with self.asked:
             self.inputs = {
@@ -69,7 +74,7 @@ class JobsDialog:
                 )
                 .props("stack-label")
                 .classes("tb-wide-input")
-                for key, (label, example) in TASKS[self.choice.value or "Run"].asks.items()
+                for key, (label, example) in TASKS[task].asks.items()
             }
 
     def _numbers(self) -> list[str]:
@@ -94,14 +99,14 @@ class JobsDialog:
             if document.unsaved:
                 document.save()
                 self.window.show(["title", "form"])
-            task = TASKS[self.choice.value]
+            task = TASKS[self.task]
             given = {key: str(entry.value or "") for key, entry in self.inputs.items()}
             if given.get("file"):
                 given["file"] = folder.named(folder.file(given["file"], measured_endings()))
             if given.get("name"):
                 given["name"] = folder.named(folder.new_file(given["name"], ".toml"))
             steps = task.steps(folder.named(document.path), given)
-            title = f"{self.choice.value} of {folder.named(document.path).removesuffix('.toml')}"
+            title = f"{self.task} of {folder.named(document.path).removesuffix('.toml')}"
             if any(one.title == title and one.state == "running" for one in self.kept.tasks):
                 raise InputError("What", quoted(title), "is running", "wait for its end, or cancel it")
             self.kept.begin(TaskRun(title, steps, folder.root))
@@ -126,7 +131,8 @@ class JobsDialog:
         except InputError as error:
             self.wrong.text = str(error)
             return
-        self.dialog.close()
+        if self.dialog is not None:
+            self.dialog.close()
 
     def _show(self) -> None:
         self.part.give(jobs=list(map(self._drawn, self.kept.tasks)))
