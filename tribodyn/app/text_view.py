@@ -69,7 +69,6 @@ class TextView:
             for key, line, _ in errors
         ]
         wrong = sorted(set(lines.values()) - {0})
-        text = text.replace("\r\n", "\n")
         self.part.give(open=self.open, text=text, taken=self._taken, wrong=wrong)
         self.messages.give(
             errors=said,
@@ -111,14 +110,12 @@ class TextView:
         self.window.changed(["form", "title"])
 
     def _write(self, said: Mapping[str, Any]) -> None:
-        """Take the text as it was typed, with the ends of lines that it had."""
+        """Take the text as it was typed."""
         document, text = self.window.document, str(said.get("text", ""))
         if length := int(said.get("length") or 0):
             rule = f"has {length} characters, and the page takes {MOST_TEXT}"
             self.complain(InputError("text", None, rule, "save, edit the file elsewhere, and open it again"))
             return
-        if "\r\n" in document.text:
-            text = text.replace("\n", "\r\n")
         self._taken = int(said.get("number", 0))
         document.set_text(text)
         self.complain(None)

@@ -134,6 +134,17 @@ def _named(key: str, name: str, what: str, folders: Iterable[Path]) -> Path:
     raise InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")
 
 
+def laid_out_like(path: Path, text: str) -> bytes:
+    """A text with the byte-order mark and the ends of lines of a file; as it is where that is not there."""
+    content = b""
+    with suppress(OSError):
+        content = path.read_bytes()
+    mark = codecs.BOM_UTF8 if content.startswith(codecs.BOM_UTF8) else b""
+    return mark + (text.replace("\n", "\r\n") if b"\r\n" in content else text).encode(
+        "utf-8", "backslashreplace"
+    )
+
+
 def read_text(path: Path, most: int, *, of_spreadsheet: bool = False) -> str:
     """Return the text of a file; one that is unreadable, or of more than `most` bytes, is bad input.
 

@@ -16,7 +16,7 @@ from tribodyn.gears.measured.to_scenario import FlankKeys, ToothErrors, keys_of
 from tribodyn.input.edit import Models, put, with_values
 from tribodyn.input.messages import Key
 from tribodyn.input.quantity import defaults_written_out
-from tribodyn.input.sources import MOST_TOML, find_scenario, read_text, read_toml
+from tribodyn.input.sources import MOST_TOML, find_scenario, laid_out_like, read_text, read_toml
 from tribodyn.numerics.files.output_files import check_output, write_output
 from tribodyn.studies.protocol.load import Loaded, load, load_data, table_of
 
@@ -150,7 +150,7 @@ def import_measured(
         check_output(path, force)
     for path, content in tables.items():
         write_output(path, content, force=force)
-    write_output(target, with_values(text, values, models), force=force)
+    write_output(target, laid_out_like(source, with_values(text, values, models)), force=force)
     remarks = [*measured.remarks, *keys.remarks]
     if not values:
         remarks.append("the scenario is as before: what was measured is no deviation of a tooth")

@@ -16,13 +16,13 @@ import tomlkit
 from tribodyn.app.core.link import packed, unpacked
 from tribodyn.app.core.messages import Message, data_of, findings
 from tribodyn.errors import InputError, quoted
+from tribodyn.input import sources
 from tribodyn.input.edit import Models, put, table_added, taken_out, with_values, written_out
 from tribodyn.input.messages import Key, value_at
 from tribodyn.input.names import key_in
 from tribodyn.input.quantity import LIKE, defaults_written_out
 from tribodyn.input.resolve import Resolved, resolve_table, toml_value
 from tribodyn.input.schema import expanded, references
-from tribodyn.input.sources import MOST_TOML, find_scenario, is_file, is_shipped, read_text, shipped
 from tribodyn.numerics.files.output_files import write_output
 from tribodyn.studies import DEFAULT, handed_over
 from tribodyn.studies.protocol.load import filled, table_of
@@ -67,9 +67,9 @@ class Document:
     @classmethod
     def open(cls, name: str | Path) -> "Document":
         """Open a file, one of another program too, or a shipped scenario; InputError where that fails."""
-        path = find_scenario(str(name))
+        path = sources.find_scenario(str(name))
         if path.suffix.lower() in ("", ".toml"):
-            return cls(read_text(path, MOST_TOML), path, saved=True)
+            return cls(sources.read_text(path, sources.MOST_TOML), path, saved=True)
         return cls(handed_over.read_scenario(path).toml, path.with_suffix(".toml"))
 
     @classmethod
@@ -81,7 +81,7 @@ class Document:
     def of_link(cls, link: str, folder: Path) -> "Document":
         """The document that a link holds, as a file of the folder; InputError where it is no such link."""
         name, texts = unpacked(link)
-        path = shipped("scenarios") / name
+        path = sources.shipped("scenarios") / name
         own = name.startswith("./") or not path.is_file()
         document = cls(texts.pop("", ""), folder / name if own else path)
         document.variants = tuple(Variant(name, text) for name, text in texts.items())
@@ -247,9 +247,9 @@ class Document:
         or by `force`. InputError else, and for a file of the package; OutputError where there is no room.
         """
         target = path or self.path
-        if is_shipped(target):
-            rule, remedy = "a scenario of the package", "save it in a folder of your own"
-            raise InputError("output", quoted(str(target)), rule, remedy)
+        if sources.is_shipped(target):
+            rule = "a scenario of the package"
+            raise InputError("output", quoted(str(target)), rule, "save it in a folder of your own")
         text = self.text
         if target.parent.resolve() != self.path.parent.resolve():
             text = self._named_from(target)
@@ -260,7 +260,7 @@ class Document:
                 "save it under another name, or open it",
             )
             raise InputError("output", quoted(str(target)), rule, remedy)
-        write_output(target, text, force=force or own)
+        write_output(target, sources.laid_out_like(self.path, text), force=force or own)
         self.path = target
         if text != self.text:
             self._go_on(text)
@@ -270,9 +270,9 @@ class Document:
 
     def _changed_by_others(self) -> bool:
         try:
-            return read_text(self.path, MOST_TOML).splitlines() != (self._saved or "").splitlines()
+            return sources.read_text(self.path, sources.MOST_TOML) != self._saved
         except InputError:
-            return is_file(self.path)
+            return sources.is_file(self.path)
 
     def _named_from(self, target: Path) -> str:
         """The text with the files that it names by paths, named from another file."""

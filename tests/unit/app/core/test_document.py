@@ -225,6 +225,20 @@ def test_no_file_is_replaced_unasked_and_none_of_the_package(tmp_path):
     assert Document.open(tmp_path / "other.toml").value("solver.cycles") == 30
 
 
+@pytest.mark.parametrize(("mark", "end"), [(b"", b"\n"), (b"\xef\xbb\xbf", b"\r\n")])
+def test_a_file_keeps_its_ends_of_lines_and_its_mark(tmp_path, mark, end):
+    lines = [b"# by an editor", b'title = "one"', b'kind = "gear-pair"', b'drive = "spur-25-51"']
+    path = tmp_path / "mine.toml"
+    path.write_bytes(mark + end.join(lines) + end)
+    document = Document.open(path)
+    document.set("title", "two")
+    document.save()
+    lines[1] = b'title = "two"'
+    assert path.read_bytes() == mark + end.join(lines) + end
+    document.set("title", "three")
+    document.save()  # nobody else has changed it
+
+
 def test_a_new_scenario_has_the_comments_of_its_template(tmp_path):
     document = Document.new("", tmp_path / "mine.toml")
     assert document.messages() == ()
