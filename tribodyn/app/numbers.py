@@ -53,7 +53,8 @@ def _of_rows(results: Mapping[str, Result]) -> Iterator[ShownNumber]:
 
 
 def _of_slow_rotation(results: Mapping[str, Result]) -> Iterator[ShownNumber]:
-    group, about = "Quasi-static", "Of the transmission error over a mesh cycle in slow rotation."
+    group = "Quasi-static"
+    about = "Over a mesh cycle in slow rotation, of the teeth alone, on rigid bearings."
     for stage in ("static", "torques"):
         result = results.get(stage, {})
         for number, (torque, swing) in enumerate(
