@@ -60,6 +60,11 @@ def page(served_page):
 
 def close(page) -> None:
     page.keyboard.press("Escape")
+    closed(page)
+
+
+def closed(page) -> None:
+    """Wait until a dialog is gone: one that fades is visible still."""
     page.wait_for_selector(".q-dialog .tb-dialog", state="detached")
 
 
@@ -140,17 +145,20 @@ def test_files_are_brought_in_and_never_over_another(page, folder, elsewhere):
 
     bring("brought.rexs")
     page.wait_for_selector("h1 >> text=brought.toml")
+    closed(page)
     assert (folder / "brought.rexs").read_bytes() == (elsewhere / "brought.rexs").read_bytes()
     for name, why in (("brought.rexs", "is there already"), ("table.exe", "ends in none of")):
         bring(name)
         page.wait_for_selector(f".q-dialog >> text={why}")
     bring("pinion.gde")
     page.wait_for_selector("text=pinion.gde lies in the folder now")
+    closed(page)
     page.go_back()
     page.wait_for_selector("h1 >> text=mine.toml")
     start(page, "Measured gear", File="pinion.gde", Gear="pinion", New_scenario="measured")
     ended(page).get_by_role("button", name="Open measured.toml").click()
     page.wait_for_selector("h1 >> text=measured.toml")
+    closed(page)
     assert (folder / "measured.toml").is_file()
 
 
@@ -174,6 +182,7 @@ def test_an_assessment_is_begun_and_ended_where_the_kind_has_no_run(page, folder
     page.get_by_role("button", name="Open", exact=True).click()
     page.get_by_role("button", name="margins.toml").click()
     page.wait_for_selector("h1 >> text=margins.toml")
+    closed(page)
     page.get_by_role("button", name="Run …").click()
     page.wait_for_selector("text=Run: a scenario of kind assessment is assessed, not run.")
     start(page, "Assessment")
@@ -198,4 +207,3 @@ def test_the_dialog_of_tasks_and_that_of_files_are_accessible(page):
         found = axe.run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
         assert [each["id"] for each in found.response["violations"]] == []
         close(page)
-        page.wait_for_selector(".q-dialog .tb-dialog", state="detached")

@@ -1,12 +1,12 @@
 // A file of this computer brought into the folder.
 export default {
   template: `
-<p class="tb-bring"><label>Bring a file into this folder <input ref="file" type="file" :accept="endings.join(',')" @change="bring"></label></p>`,
+<p class="tb-bring"><label>Bring a file into this folder <input type="file" :accept="endings.join(',')" @change="bring"></label></p>`,
   props: { address: String, endings: Array },
   emits: ["brought", "refused"],
   methods: {
     async bring(event) {
-      const file = event.target.files[0];
+      const input = event.target, file = input.files[0];
       if (!file) return;
       try {
         const answer = await fetch(this.address + "bring/" + encodeURIComponent(file.name), { method: "POST", body: file });
@@ -15,7 +15,7 @@ export default {
       } catch (error) {
         this.$emit("refused", { text: "The file could not be read: " + error.message });
       }
-      this.$refs.file.value = "";
+      input.value = ""; // the same file may be chosen again; the dialog may be gone
     },
   },
 };
