@@ -33,10 +33,7 @@ class JobsDialog:
         self.timer = ui.timer(_EACH, self._show, active=False)
 
     def open(self) -> None:
-        """Show the dialog, with what suits this kind of study.
-
-        It is made anew: one that the browser has closed and the server not yet would not open.
-        """
+        """Show the dialog, with what suits this kind of study; it is made anew, as others of the page are."""
         if self.dialog is not None:
             self.dialog.delete()
         kind, before = self.window.document.kind, self.kind

@@ -57,7 +57,7 @@ class FieldsPart(_PagePart, component="fields.js"):
         self.run_method("take", values, errors, ranges)
 
 
-class TeethPart(_PagePart, component="teeth.js"):
+class TeethPart(_PagePart, component="teeth.js", esm={"tribodyn-shapes": "shapes"}):
     """The teeth in mesh."""
 
     def __init__(self) -> None:

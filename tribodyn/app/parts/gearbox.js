@@ -1,4 +1,6 @@
 // A gearbox in the true positions of its axes; a mesh is chosen by click or key.
+import { circle, toothed } from "tribodyn-shapes";
+
 export default {
   template: `
 <figure class="tb-gearbox" v-if="bodies.length">
@@ -14,18 +16,7 @@ export default {
   props: { bodies: Array, meshes: Array, chosen: String },
   emits: ["choose"],
   computed: {
-    outlines() {
-      return this.bodies.map((body) => {
-        const tooth = [...body.tooth], { teeth, pitch } = body; // plain numbers: Vue watches what is read of others
-        let text = "";
-        for (let n = 0; n < teeth; n++) {
-          const c = Math.cos(n * pitch), s = Math.sin(n * pitch);
-          for (let k = 0; k < tooth.length; k += 2) text += (text ? "L" : "M") + (c * tooth[k] - s * tooth[k + 1]).toFixed(2) + " " + (s * tooth[k] + c * tooth[k + 1]).toFixed(2);
-        }
-        const r = body.radius;
-        return text + "Z" + (r > 0 ? "M" + r + " 0A" + r + " " + r + " 0 1 0 " + -r + " 0A" + r + " " + r + " 0 1 0 " + r + " 0Z" : "");
-      });
-    },
+    outlines() { return this.bodies.map((body) => toothed(body, 2) + (body.radius > 0 ? circle(body.radius) : "")); },
     touched() { const mesh = this.meshes.find((one) => one.name === this.chosen); return mesh ? mesh.bodies : []; },
     limits() {
       const low = [0, 1].map((k) => Math.min(...this.bodies.map((one) => (k ? one.y : one.x) - one.reach)));

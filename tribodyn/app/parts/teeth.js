@@ -1,4 +1,8 @@
 // Two gears in mesh: rolled by dragging, by keys and by a slider; zoom; path of contact, contacts and loads.
+import { circle, toothed } from "tribodyn-shapes";
+
+// digits of outlines, mm
+const DIGITS = 3;
 const place = (points) => {
   let text = "", starts = true;
   for (let k = 0; k + 1 < points.length; k += 2) {
@@ -8,17 +12,6 @@ const place = (points) => {
   }
   return text + "Z";
 };
-// the outline of a gear: its tooth, turned about the axis
-const toothed = (body) => {
-  const tooth = [...body.tooth], { teeth, pitch } = body; // plain numbers: Vue watches what is read of others
-  let text = "";
-  for (let n = 0; n < teeth; n++) {
-    const c = Math.cos(n * pitch), s = Math.sin(n * pitch);
-    for (let k = 0; k < tooth.length; k += 2) text += (text ? "L" : "M") + (c * tooth[k] - s * tooth[k + 1]).toFixed(3) + " " + (s * tooth[k] + c * tooth[k + 1]).toFixed(3);
-  }
-  return text + "Z";
-};
-const circle = (r) => "M" + r + " 0A" + r + " " + r + " 0 1 0 " + -r + " 0A" + r + " " + r + " 0 1 0 " + r + " 0Z";
 const open = (points) => place(points).slice(0, -1);
 const degrees = 180 / Math.PI;
 
@@ -48,8 +41,8 @@ export default {
   props: { picture: Object, pinned: Object, label: String, empty: String },
   data() { return { angle: 0, zoom: 1, shift: [0, 0], playing: false, held: null }; },
   computed: {
-    outlines() { return this.picture.bodies.map((body) => toothed(body) + (body.outside || body.bore ? circle(body.outside || body.bore) : "")); },
-    pinnedOutlines() { return this.pinned.bodies.map(toothed); },
+    outlines() { return this.picture.bodies.map((body) => toothed(body, DIGITS) + (body.outside || body.bore ? circle(body.outside || body.bore) : "")); },
+    pinnedOutlines() { return this.pinned.bodies.map((body) => toothed(body, DIGITS)); },
     path() { return open(this.picture.path); },
     pinnedPath() { return open(this.pinned.path); },
     // half the width that is seen, mm
