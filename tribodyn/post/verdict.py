@@ -112,7 +112,7 @@ def moved(summary: Mapping[str, Any]) -> Iterable[str]:
     if isinstance(course := summary.get("course"), Mapping):
         yield on_course(course)
         return
-    cause = "engagement" if KNOCK in str(summary.get("engagement_remark")) else "vibration"
+    cause = raised_by(summary)
     summary = numbers(summary)
     if (error := summary.get("transmission_error_peak_to_peak")) is not None:
         parts = [f"The transmission error swings by {with_unit('transmission_error_peak_to_peak', error)}"]
@@ -278,6 +278,11 @@ def _of_laws(record: SweepRecord) -> Iterable[str]:
         yield f"{line[:-1]}; {beyond}." if many else line
 
 
+def raised_by(summary: Mapping[str, Any]) -> str:
+    """What raises the loads of teeth: engagement where a remark says that it is all, else vibration."""
+    return "engagement" if KNOCK in str(summary.get("engagement_remark")) else "vibration"
+
+
 def apart(fraction: float) -> str:
     """Whether contact is lost, by the share of the time without contact."""
     lost = f"the teeth are apart for {share(fraction)} of the time"
@@ -293,13 +298,8 @@ def lubrication(ratio: float) -> str:
 
 def numbers(summary: Any) -> dict[str, float]:
     """The finite numbers of a summary: a record that somebody changed may hold anything."""
-    if not isinstance(summary, Mapping):
-        return {}
-    return {
-        str(name): float(value)
-        for name, value in summary.items()
-        if isinstance(value, Real) and math.isfinite(value)
-    }
+    items = summary.items() if isinstance(summary, Mapping) else ()
+    return {str(name): float(one) for name, one in items if isinstance(one, Real) and math.isfinite(one)}
 
 
 def share(part: float) -> str:

@@ -19,6 +19,7 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in, single_pair
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
+from tribodyn.post.verdict import KNOCK
 from tribodyn.train.layout import TrainLayout, work_of, works_of_meshes
 from tribodyn.train.structure import (
     DAMPING,
@@ -41,7 +42,7 @@ FEEDS = 0.01
 SETTLED, REPEATED = 0.05, 0.005
 #: Dynamic factors that are too large far below all resonances, and that engagement has a part in elsewhere;
 #: share of the lowest natural frequency that is far below it.
-KNOCK, HARD, SLOW = 1.1, 1.25, 0.1
+KNOCKING, HARD, SLOW = 1.1, 1.25, 0.1
 #: What that means, by `friction.sliding`.
 ABOUT_FEEDING = {
     "kinematic": 'which kinematic sliding makes of nothing: use friction.sliding = "dynamic"',
@@ -139,12 +140,12 @@ def on_engagement(compliance: str, factor: float, frequency: float, modes: np.nd
     """
     elastic = modes[modes > 1e-3 * np.max(modes, initial=0.0)]
     slow = frequency < SLOW * float(np.min(elastic, initial=np.inf))
-    if compliance != "energy" or not factor > (KNOCK if slow else HARD):
+    if compliance != "energy" or not factor > (KNOCKING if slow else HARD):
         return ""
     if slow:
         return (
             'mesh.compliance = "fem" lets pairs engage as gradually as teeth bend: this far below all '
-            f"natural frequencies K_v {factor:.2f} is the knock of pairs that engage at once, as the energy "
+            f"natural frequencies K_v {factor:.2f} is {KNOCK} that engage at once, as the energy "
             "method has it."
         )
     return (

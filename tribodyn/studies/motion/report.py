@@ -210,7 +210,7 @@ def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) 
         text = of_any.on_course(courses[name])
         yield text if len(meshes) == 1 else f"Mesh {name}: {text[0].lower()}{text[1:]}"
         return
-    cause = "Engagement" if of_any.KNOCK in str(summary.get("engagement_remark")) else "Vibration"
+    cause = of_any.raised_by(summary).capitalize()
     if len(finite) <= NAMED:
         parts = _listed([f"{factor:.2f} ({name})" for name, factor in finite.items()])
         text = f"{cause} raises the tooth forces to {parts} times their mean"
