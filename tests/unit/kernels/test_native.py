@@ -1,8 +1,11 @@
 """Kernels: what they take and return, and machine code that is kept on disk and loaded again."""
 
+import ctypes
 import subprocess
 import sys
+import threading
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,6 +16,7 @@ from tribodyn.kernels.native import compiler, kernel, packed, store
 from tribodyn.numerics import elementary
 from tribodyn.numerics.elementary import RuntimeIndices
 from tribodyn.numerics.files.cache import read_kept
+from tribodyn.numerics.processes.lasting import stopped_at_times
 from tribodyn.numerics.processes.work import listened
 
 
@@ -123,6 +127,34 @@ def test_what_is_compiled_is_said_meanwhile_and_what_is_loaded_is_not(folder):
             kernel(half.function)(1.0)
         assert said == what
         said.clear()
+
+
+def test_who_is_stopped_while_code_is_made_finds_it_made(folder):
+    """As a newer value stops the computation of an older one in a worker."""
+    of_half, results = kernel(half.function), []
+
+    class Stopped(BaseException):
+        pass
+
+    def first() -> None:
+        with suppress(Stopped), stopped_at_times():
+            results.append(of_half(1.0))
+            results.append("was not stopped")
+
+    caller = threading.Thread(target=first)
+    caller.start()
+    while not (folder / "locks").exists() and caller.is_alive():  # it makes code
+        threading.Event().wait(0.001)
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(caller.ident), ctypes.py_object(Stopped))
+    caller.join()
+    assert results == []
+    said: list[str] = []
+    with listened(said.append), stopped_at_times():
+        assert of_half(3.0) == 1.5
+    assert said in ([store.COMPILING, ""], [])
+    made = kept(folder).stat().st_mtime_ns
+    assert kernel(half.function)(5.0) == 2.5
+    assert kept(folder).stat().st_mtime_ns == made
 
 
 def test_a_damaged_file_is_compiled_anew(folder):

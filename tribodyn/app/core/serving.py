@@ -13,6 +13,7 @@ from time import monotonic
 from typing import IO, Any, BinaryIO, NamedTuple
 
 from tribodyn.app.core.live import Live, LiveRequest
+from tribodyn.numerics.processes.lasting import stopped_at_times
 from tribodyn.numerics.processes.work import listened
 
 #: Before every answer, which is pickled: its length.
@@ -87,7 +88,7 @@ class _Serving:
 
         for stage in asked.stages:
             self._answer(BEGUN, asked.number, stage)
-            with listened(lambda what: self._answer(DOING, asked.number, what)):
+            with listened(lambda what: self._answer(DOING, asked.number, what)), stopped_at_times():
                 result = live.compute(stage, asked.request, progress)
             if self._is_old(asked):
                 raise _Superseded

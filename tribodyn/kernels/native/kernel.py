@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tribodyn.kernels.native.arguments import Code, together
+from tribodyn.numerics.processes.lasting import LastingWork
 
 _ENTRY = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
 
@@ -28,6 +29,7 @@ class Kernel:
         self._names = tuple(inspect.signature(function).parameters)
         self._codes: dict[Any, Callable[[bytes], Any]] = {}
         self._compiling = threading.Lock()
+        self._machine_codes = LastingWork[Code]()
 
     @functools.cached_property
     def _numba_type_(self) -> Any:
@@ -51,7 +53,7 @@ class Kernel:
         """What runs the kernel for arguments of a layout."""
         from tribodyn.kernels.native.store import machine_code
 
-        return caller(machine_code(self.function, layout))
+        return caller(self._machine_codes.made(layout, lambda: machine_code(self.function, layout)))
 
 
 def kernel(function: Callable[..., Any]) -> Kernel:
