@@ -12,6 +12,13 @@ from tribodyn.app.core.offers.remedies import remedies_of
 from tribodyn.app.core.offers.tables import add_table, copy_table
 from tribodyn.errors import InputError
 
+PIT = {
+    "damage.0.kind": "pit",
+    "damage.0.depth": "1.5 mm",
+    "damage.0.diameter": "1 mm",
+    "damage.0.height": 0.5,
+}
+
 
 def leaves(data, above=()):
     if isinstance(data, dict):
@@ -103,6 +110,24 @@ def test_a_remedy_is_offered_where_it_mends_and_takes_the_message_away(changes, 
         remedy.take(document)
         assert not document.messages()
         document.undo()
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "offered"),
+    [
+        ("spur-25-51", {}, {'Set damage.0.gear = "pinion"', "Set damage.0.tooth = 5"}),
+        ("spur-25-51", {"solver.rtol": -1.0}, {'Set damage.0.gear = "pinion"', "Set damage.0.tooth = 5"}),
+        ("planetary-24-84", {}, set()),  # it has no pinion
+        ("planetary-24-84", {"damage.0.gear": "sun", "solver.rtol": -1.0, **PIT}, {"Set damage.0.tooth = 5"}),
+    ],
+)
+def test_an_example_is_offered_where_the_rules_take_it_that_other_messages_hide(name, wrong, offered):
+    document = Document.open(name)
+    document.append("damage", {})
+    for key, value in wrong.items():
+        document.set(key, value)
+    remedies = remedies_of(document)
+    assert {one.text for each in remedies.values() for one in each} == offered
 
 
 @pytest.mark.parametrize("name", ["spur-25-51", "wind-turbine-gearbox", "ring-36-93"])

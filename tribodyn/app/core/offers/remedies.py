@@ -11,8 +11,12 @@ from tribodyn.errors import InputError
 _VALUE = r'"[^"]*"|true|false|[+-]?\d[\d.]*(?:e[+-]?\d+)?'
 _SETTING = re.compile(rf"\b([a-z_]\w*(?:\.\w+)*) = ({_VALUE})(?=[\s,;)]|$)")
 _LEAVING = re.compile(r"\bleave (?:(it)|([a-z_]\w*(?:\.\w+)*)) out\b")
+#: What a message says of a key that is missing: an example, choices, or that it is a text.
+_EXAMPLE = re.compile(rf"add \w+ = (?:one of )?({_VALUE}|text)")
 #: Messages for which remedies are looked for, and remedies of each.
 MOST_MESSAGES, MOST_REMEDIES = 4, 3
+#: How often what is wrong besides is put out of the way: one message may hide another.
+_ROUNDS = 3
 
 
 class Remedy(NamedTuple):
@@ -35,7 +39,10 @@ class Remedy(NamedTuple):
 
 
 def remedies_of(document: Document) -> dict[str, tuple[Remedy, ...]]:
-    """Remedies of messages by their text, each tried: with it that message is gone, and no other has come."""
+    """Remedies of messages by their text, each tried: with it that message is gone, and no other has come.
+
+    A value is also held against the rules that the other messages hide.
+    """
     before = {one.text for one in document.messages()}
 
     def mends(remedy: Remedy, text: str) -> bool:
@@ -44,7 +51,9 @@ def remedies_of(document: Document) -> dict[str, tuple[Remedy, ...]]:
             remedy.take(trial)
         except InputError:
             return False
-        return {one.text for one in trial.messages()} <= before - {text}
+        if not {one.text for one in trial.messages()} <= before - {text}:
+            return False
+        return not remedy.value or _stands(trial, remedy.key)
 
     found = {}
     for message in document.messages()[:MOST_MESSAGES]:
@@ -52,6 +61,23 @@ def remedies_of(document: Document) -> dict[str, tuple[Remedy, ...]]:
         first = (next((one for one in way if mends(one, message.text)), None) for way in ways)
         found[message.text] = tuple(one for one in first if one is not None)
     return found
+
+
+def _stands(trial: Document, key: str) -> bool:
+    """Whether the value of a key is not refused where what is wrong besides is put out of the way."""
+    for _ in range(_ROUNDS):
+        messages = trial.messages()
+        if not messages:
+            return True
+        if any(one.key == key for one in messages):
+            return False
+        for one in messages:
+            example = _EXAMPLE.match(one.remedy)
+            try:
+                trial.set(one.key, example[1]) if example else trial.unset(one.key)
+            except InputError:
+                return False
+    return False
 
 
 def _named(key: str, remedy: str, document: Document) -> Iterator[list[Remedy]]:
@@ -65,6 +91,10 @@ def _named(key: str, remedy: str, document: Document) -> Iterator[list[Remedy]]:
         ]
         return list(dict.fromkeys([*near, *beside]))
 
+    if example := _EXAMPLE.match(remedy):
+        if re.fullmatch(_VALUE, example[1]) and " one of " not in example[0]:
+            yield [Remedy(key, example[1])]
+        return
     for name, value in _SETTING.findall(remedy):
         yield [Remedy(place, value) for place in places(name)]
     for itself, name in _LEAVING.findall(remedy):
