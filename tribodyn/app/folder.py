@@ -7,8 +7,9 @@ from pathlib import Path, PurePosixPath
 
 from tribodyn.app.core.document import Document
 from tribodyn.errors import InputError, quoted
+from tribodyn.input.csv_files import read_curve
 from tribodyn.numerics.files.output_files import write_output
-from tribodyn.studies.handed_over import readers
+from tribodyn.studies.handed_over import format_of, readers
 
 #: Files that are listed, and folders below the one given in which they are looked for.
 MOST_FILES, DEEPEST = 400, 2
@@ -18,6 +19,8 @@ _PORTABLE = re.compile(
 )
 #: Bytes of a file that is brought in from the browser.
 MOST_BYTES = 16 * 2**20
+#: Endings of tables that scenarios name.
+_TABLES = (".csv", ".txt")
 REMEDY = "name a file of the folder that the page was started in, or start it with --folder"
 
 
@@ -83,7 +86,7 @@ class WorkFolder:
     def bring(self, name: str, content: bytes) -> Path:
         """Write a file that comes from the browser, never over another one; return its path.
 
-        A scenario that cannot be opened is not kept: InputError.
+        A scenario that cannot be opened, or no measurement and no table, is not kept: InputError.
         """
         if len(content) > MOST_BYTES:
             rule = f"has more than {MOST_BYTES // 2**20} MiB"
@@ -93,12 +96,11 @@ class WorkFolder:
         if path.exists() or path.is_symlink():
             raise InputError("file", quoted(name), "is there already", "rename the file, and bring it again")
         write_output(path, content)
-        if path.suffix.lower() in scenario_endings():
-            try:
-                Document.open(path)
-            except InputError:
-                path.unlink()
-                raise
+        try:
+            _read(path)
+        except InputError:
+            path.unlink()
+            raise
         return path
 
     def holds(self, path: Path) -> bool:
@@ -127,3 +129,21 @@ class WorkFolder:
                     yield from self._below(entry, depth - 1)
             elif self.holds(entry):
                 yield entry
+
+
+def _read(path: Path) -> None:
+    """Read a file as what it may be: a scenario, a measured gear, a table that a scenario names."""
+    if path.suffix.lower() in scenario_endings():
+        Document.open(path)
+        return
+    measure = format_of(path).measure
+    assert measure is not None, "as its ending says"
+    try:
+        measure(path)
+    except InputError:
+        if path.suffix.lower() not in _TABLES:
+            raise
+        with suppress(InputError):
+            if any(column["values"] for column in read_curve(path, "file").values()):
+                return
+        raise

@@ -159,7 +159,16 @@ def test_work_is_offered_that_the_kind_has(name, here, elsewhere):
     assert len(refusals[elsewhere]) > 10
 
 
-@pytest.mark.parametrize(("name", "content"), [("binary.toml", b"\xff\x00"), ("none.rexs", b"<a/>")])
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("binary.toml", b"\xff\x00"),
+        ("none.rexs", b"<a/>"),
+        ("none.gde", b"nonsense"),
+        ("none.csv", b"some,words\nand,more\n"),
+        ("none.txt", b"some words\n"),
+    ],
+)
 def test_a_file_that_is_brought_and_cannot_be_opened_is_not_kept(tmp_path, name, content):
     folder = WorkFolder(tmp_path)
     with pytest.raises(InputError, match=name):
@@ -167,6 +176,13 @@ def test_a_file_that_is_brought_and_cannot_be_opened_is_not_kept(tmp_path, name,
     assert list(tmp_path.iterdir()) == []
     folder.bring("mendable.toml", b"[broken")
     assert [path.name for path in tmp_path.iterdir()] == ["mendable.toml"]
+
+
+@pytest.mark.parametrize(
+    "content", [b"time [s],torque [N*m]\n0,1\n1,2\n", b"tooth,flank,F_p [um]\n1,left,0\n2,left,1\n"]
+)
+def test_a_table_that_a_scenario_names_and_a_measured_gear_are_taken(tmp_path, content):
+    assert WorkFolder(tmp_path).bring("table.csv", content).read_bytes() == content
 
 
 def test_a_scenario_may_read_what_lies_outside_the_folder_and_the_page_writes_nothing_there(tmp_path):
