@@ -60,8 +60,8 @@ def test_a_state_that_no_address_holds_is_there_when_the_page_is_loaded_again(pa
     digits = f"{7**150_000:x}"  # which no packer makes short
     text.fill(f"{text.input_value()}# {digits}\n")
     eventually(page, lambda: "state=" not in page.evaluate("location.search"))
-    page.reload()
-    page.get_by_role("button", name="Edit as text").click()
+    page.reload()  # it is shown as text again
     eventually(page, lambda: digits in text.input_value())
+    assert page.get_by_role("button", name="Edit as text").get_attribute("aria-pressed") == "true"
     page.get_by_role("button", name="Link", exact=True).click()
     page.wait_for_selector("text=too long for an address")

@@ -51,7 +51,7 @@ class Bar:
         self.window, self.address, self.kept, self.few, self.go = window, address, kept, few, go
         self._shown: Document | None = None
         self._key, self._linked = "", ()
-        self._gone_back = False
+        self._gone_back = self._as_text = False
         self.tour: TourPart | None = None
         self.part = BarPart()
         self.part.give(few=few)
@@ -64,7 +64,7 @@ class Bar:
         self.part.give(
             name=self.window.folder.named(document.path),
             unsaved=document.unsaved,
-            undo=document.can_undo,
+            undo=document.can_undo or self.window.refused,
             redo=document.can_redo,
         )
         if document is not self._shown:
@@ -72,6 +72,9 @@ class Bar:
             is_new, self._shown = self._shown is not None and not self._gone_back, document
             self._key, self._gone_back = self.kept.keep(document), False
             self.part.run_method("keep", self._query(), is_new)
+        elif self.window.as_text != self._as_text:
+            self.part.run_method("keep", self._query(), False)
+        self._as_text = self.window.as_text
 
     def keep_state(self) -> None:
         """Let the address hold the state, so that it outlives this server where it is short."""
@@ -84,7 +87,8 @@ class Bar:
     def _query(self) -> str:
         link = self._link()
         state = f"state={link}&" if len(link) < _LONGEST_STATE else ""
-        return f"?{state}at={self._key}{'&few=1' if self.few else ''}"
+        text = "&text=1" if self.window.as_text else ""
+        return f"?{state}at={self._key}{text}{'&few=1' if self.few else ''}"
 
     def _link(self) -> str:
         document, folder = self.window.document, self.window.folder
@@ -114,7 +118,7 @@ class Bar:
     def _act(self, said: Mapping[str, Any]) -> Any:
         actions = {
             "open": self._open,
-            "undo": lambda: self._step(self.window.document.undo()),
+            "undo": self._undo,
             "redo": lambda: self._step(self.window.document.redo()),
             "pin": self._pin,
             "save": self._save,
@@ -125,6 +129,14 @@ class Bar:
             "tour": lambda: self.tour and self.tour.run_method("show", 0),
         }
         return actions.get(str(said.get("name")), lambda: None)()
+
+    def _undo(self) -> None:
+        """Take back a text that was refused, else what was changed last."""
+        if self.window.refused:
+            self.window.refused = False
+            self.window.show(["text", "title"])
+            return
+        self._step(self.window.document.undo())
 
     def _step(self, moved: bool) -> None:
         if moved:

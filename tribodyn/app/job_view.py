@@ -49,12 +49,12 @@ class JobsDialog:
             if others := [f"{name}: {reason}." for name, reason in refusals.items() if reason]:
                 ui.label(" ".join(["Not here:", *others])).classes("tb-quiet")
             self.asked = ui.column().classes("tb-wide-input")
-            self.wrong = ui.label().classes("tb-error").props("role=alert")
+            self.wrong = ui.label().classes("tb-error tb-room").props("role=alert")
             with ui.element("p").classes("tb-choice"):
                 ui.button("Start", color=None, on_click=self._start).props("no-caps unelevated")
                 ui.button("Close", color=None, on_click=self.dialog.close).props("no-caps flat")
             self.part = JobsPart()
-            self.part.tell(cancel=self._cancel, open=self._open)
+            self.part.tell(cancel=self._cancel, resume=self._go_on, open=self._open)
         self._ask(self.task)
         self.timer.activate()
 
@@ -104,12 +104,19 @@ class JobsDialog:
                 given["name"] = folder.named(folder.new_file(given["name"], ".toml"))
             steps = task.steps(folder.named(document.path), given)
             title = f"{self.task} of {folder.named(document.path).removesuffix('.toml')}"
-            if any(one.title == title and one.state == "running" for one in self.kept.tasks):
-                raise InputError("What", quoted(title), "is running", "wait for its end, or cancel it")
+            self._refuse_running(title)
             self.kept.begin(TaskRun(title, steps, folder.root))
         except (InputError, OutputError, OSError) as error:
             self.wrong.text = str(error)
             return
+        self._follow()
+
+    def _refuse_running(self, title: str) -> None:
+        if any(one.title == title and one.state == "running" for one in self.kept.tasks):
+            raise InputError("What", quoted(title), "is running", "wait for its end, or cancel it")
+
+    def _follow(self) -> None:
+        """Show how far tasks are until all are over."""
         self.wrong.text = ""
         self.timer.activate()
         self._show()
@@ -119,6 +126,18 @@ class JobsDialog:
             if task.number == said.get("number"):
                 task.cancel()
         self._show()
+
+    def _go_on(self, said: Mapping[str, Any]) -> None:
+        """Go on with a task that was ended."""
+        try:
+            for task in self.kept.tasks:
+                if task.number == said.get("number") and task.can_go_on:
+                    self._refuse_running(task.title)
+                    task.go_on()
+        except (InputError, OSError) as error:
+            self.wrong.text = str(error)
+            return
+        self._follow()
 
     def _open(self, said: Mapping[str, Any]) -> None:
         """Open a scenario that a task has written."""
@@ -143,6 +162,8 @@ class JobsDialog:
             "number": job.number,
             "title": job.title,
             "state": job.state,
+            "ending": job.ending,
+            "resumable": job.can_go_on,
             "fraction": job.fraction,
             "said": job.said,
             "output": "\n".join(job.output.splitlines()[-_LINES:]) if job.state != "running" else "",

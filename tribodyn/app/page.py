@@ -55,6 +55,8 @@ class DesignPage:
         Documents that pages of this server go back to.
     few
         Whether it stands within another page, as in a notebook: without files, jobs and tour.
+    as_text
+        Whether the scenario is shown as text at first.
     worker
         A process that is warm already.
     """
@@ -68,6 +70,7 @@ class DesignPage:
         kept: KeptWork,
         *,
         few: bool = False,
+        as_text: bool = False,
         worker: Worker | None = None,
     ) -> None:
         self.client, self.few, self.address, self.kept = client, few, address, kept
@@ -79,6 +82,7 @@ class DesignPage:
         self.problem_at = ""
         self.errors: list[tuple[str, str, str]] = []
         self.window = DesignWindow(folder, document, worker or Worker(), self.show)
+        self.window.as_text = as_text
         client.on_delete(self.window.close)
         self._build()
         ui.timer(1.0, self._each_second)
@@ -137,6 +141,8 @@ class DesignPage:
                 self._show_form()
             if "title" in parts or "form" in parts:
                 self.bar.show()
+            if "text" in parts:
+                self.text.bring_back()
             stages = STAGES if "pinned" in parts else tuple(stage for stage in STAGES if stage in parts)
             if {"geometry", "static"} & set(stages):
                 self._show_teeth()

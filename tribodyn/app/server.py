@@ -1,5 +1,6 @@
 """The server of the page: on this machine alone, for who knows its address, with the files of one folder."""
 
+import asyncio
 import socket
 import sys
 from collections.abc import Callable
@@ -173,7 +174,7 @@ def _application(folder: WorkFolder, first: Document, address: str, token: str, 
     kept = KeptWork()
 
     @ui.page("/", title="tribodyn")
-    def design(client: Client, state: str = "", few: str = "", at: str = "") -> None:
+    def design(client: Client, state: str = "", few: str = "", at: str = "", text: str = "") -> None:
         document, problem = kept.copy(at), ""
         if document is None:
             document = _anew(first)
@@ -182,7 +183,9 @@ def _application(folder: WorkFolder, first: Document, address: str, token: str, 
             except InputError as error:
                 problem = str(error)
         worker = spare.pop() if spare else None
-        page = DesignPage(folder, document, client, address, kept, few=bool(few), worker=worker)
+        page = DesignPage(
+            folder, document, client, address, kept, few=bool(few), as_text=bool(text), worker=worker
+        )
         if problem:
             page.bar.say(problem)
 
@@ -204,7 +207,7 @@ def _application(folder: WorkFolder, first: Document, address: str, token: str, 
             if len(content) > MOST_BYTES:
                 break
         try:
-            path = folder.bring(name, bytes(content))
+            path = await asyncio.to_thread(folder.bring, name, bytes(content))  # which reads it
         except (InputError, OutputError) as error:
             return PlainTextResponse(str(error), 400)
         return PlainTextResponse(folder.named(path))

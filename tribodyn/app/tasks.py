@@ -1,6 +1,7 @@
 """Longer work from the page as verbs of the command line: a run, a sweep, a search, a map, an import."""
 
 import itertools
+import re
 import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -95,6 +96,8 @@ def refusals_of(kind: str) -> dict[str, str]:
 
 
 _NUMBERS = itertools.count(1)
+#: The line in which a verb that was ended says that its record can go on.
+_GOES_ON = re.compile(r"\bgoes on$", re.MULTILINE)
 
 
 class TaskRun:
@@ -102,32 +105,42 @@ class TaskRun:
 
     def __init__(self, title: str, steps: Sequence[Words], folder: Path) -> None:
         self.title, self.folder, self.number = title, folder, next(_NUMBERS)
-        self._left = [list(words) for words in steps]
-        self._share = 1.0 / len(steps)
+        self._steps = [list(words) for words in steps]
         self._jobs: list[Job] = []
-        self._go_on()
+        self._begin()
+
+    def _begin(self) -> None:
+        self.ending = False
+        self._begin_next()
         threading.Thread(target=self._follow, daemon=True).start()
 
-    def _go_on(self) -> None:
-        verb, *words = self._left.pop(0)
+    def _begin_next(self) -> None:
+        verb, *words = self._steps[len(self._jobs)]
         self._jobs.append(Job(verb, words, self.folder))
 
     def _follow(self) -> None:
         """Begin each verb when the one before it is done, whether a page looks or not."""
-        while self._jobs[-1].wait() and self._jobs[-1].state == "done" and self._left:
-            self._go_on()
+        while self._jobs[-1].wait() and self._has_more():
+            self._begin_next()
+
+    def _has_more(self) -> bool:
+        return self._jobs[-1].state == "done" and len(self._jobs) < len(self._steps) and not self.ending
 
     @property
     def state(self) -> State:
         """How it stands."""
-        state = self._jobs[-1].state
-        return "running" if state == "done" and self._left else state
+        return "running" if self._has_more() else self._jobs[-1].state
+
+    @property
+    def can_go_on(self) -> bool:
+        """Whether it was ended, and what it has done so far need not be done again."""
+        return self.state in ("cancelled", "failed") and bool(_GOES_ON.search(self._jobs[-1].output))
 
     @property
     def fraction(self) -> float | None:
         """Share that is done; None where the verb does not say it."""
         last = self._jobs[-1].fraction
-        return None if last is None else self._share * (len(self._jobs) - 1 + last)
+        return None if last is None else (len(self._jobs) - 1 + last) / len(self._steps)
 
     @property
     def said(self) -> str:
@@ -147,6 +160,13 @@ class TaskRun:
         return list(dict.fromkeys([*(file for job in self._jobs for file in job.files), *inside]))
 
     def cancel(self) -> None:
-        """End it."""
-        self._left.clear()
+        """End it; the verb has a while to conclude its record."""
+        self.ending = True
         self._jobs[-1].cancel()
+
+    def go_on(self) -> None:
+        """Go on from what was done before it was ended."""
+        words = self._steps[len(self._jobs) - 1]
+        words[:] = ["--resume" if word == "--force" else word for word in words]
+        del self._jobs[-1]
+        self._begin()

@@ -32,7 +32,6 @@ class TextView:
         complain: Callable[[InputError | None], None],
     ) -> None:
         self.window, self.go, self.complain = window, go, complain
-        self.open = False
         self._shown: Document | None = None
         self.remedies: dict[str, tuple[Remedy, ...]] = {}
         self._tried = ""
@@ -45,19 +44,27 @@ class TextView:
 
     def show(self, is_open: bool) -> None:
         """Show the text in place of the form, or the form again."""
-        self.open = is_open
+        self.window.as_text = is_open
         self.window.show(["form"])
+
+    def bring_back(self) -> None:
+        """Show the text as it stands in place of one that was refused."""
+        self.complain(None)
+        self.part.run_method("put", self.window.document.text)
 
     def say(self, errors: Iterable[tuple[str, str, str]], known: Iterable[str]) -> None:
         """Show what is wrong; `known` are the keys of the form's fields."""
-        errors, document = list(errors), self.window.document
+        errors, window, document = list(errors), self.window, self.window.document
         own = [(key, line) for key, line, _ in errors if line.startswith(f"{document.path}: ")]
         if document is not self._shown:
             self._shown = document
-            self.open = self.open or any(key.startswith("line ") for key, _ in own)  # it has no form
-        text = document.text if self.open else ""
+            # a broken one has no form
+            window.as_text = window.as_text or any(key.startswith("line ") for key, _ in own)
+        text = document.text if window.as_text else ""
         lines = {
-            line: line_of(document.text, key) for key, line in own if self.open or key.startswith("line ")
+            line: line_of(document.text, key)
+            for key, line in own
+            if window.as_text or key.startswith("line ")
         }
         said = [
             {
@@ -69,12 +76,12 @@ class TextView:
             for key, line, _ in errors
         ]
         wrong = sorted(set(lines.values()) - {0})
-        self.part.give(open=self.open, text=text, taken=self._taken, wrong=wrong)
-        self.messages.give(
-            errors=said,
-            warnings=self.window.sentences("warnings"),
-            remarks=self.window.sentences("remarks"),
-        )
+        self.part.give(open=window.as_text, text=text, taken=self._taken, wrong=wrong)
+        spoken = {
+            name: [{"text": line, "old": old} for line, old in window.sentences(name).items()]
+            for name in ("warnings", "remarks")
+        }
+        self.messages.give(errors=said, doubtful=window.doubtful, **spoken)
         if said and document.text != self._tried and (self._trying is None or self._trying.done()):
             self._trying = asyncio.create_task(self._try_remedies())
 
@@ -91,7 +98,7 @@ class TextView:
         if not line:
             self.go(str(said["path"]))
             return
-        if not self.open:
+        if not self.window.as_text:
             self.show(True)
         self.part.run_method("go", line)
 
@@ -114,6 +121,8 @@ class TextView:
         document, text = self.window.document, str(said.get("text", ""))
         if length := int(said.get("length") or 0):
             rule = f"has {length} characters, and the page takes {MOST_TEXT}"
+            self.window.refused = True
+            self.window.show(["title"])
             self.complain(InputError("text", None, rule, "save, edit the file elsewhere, and open it again"))
             return
         self._taken = int(said.get("number", 0))

@@ -45,6 +45,8 @@ class DesignWindow:
     ----------
     results : the last result of each stage
     late : stages whose result is of an older value
+    as_text : whether the scenario is shown as text
+    refused : whether a text was refused, which the browser still shows
     pinned_name : name of the variant that is compared with; "": none
     """
 
@@ -57,6 +59,7 @@ class DesignWindow:
     ) -> None:
         self.folder, self.document, self.show = folder, document, show
         self.mesh = ""
+        self.as_text = self.refused = False
         self.results: Results = {}
         self.late: tuple[str, ...] = STAGES
         self.of_variants: dict[tuple[str, str], Results] = {}
@@ -115,7 +118,7 @@ class DesignWindow:
         self.show([*parts, "late"])
 
     def _begin(self) -> None:
-        self.late, self._stale = STAGES, True
+        self.late, self._stale, self.refused = STAGES, True, False
         self._go_on()  # the worker computes while the page is brought in step
 
     def _show_behind(self) -> None:
@@ -248,19 +251,30 @@ class DesignWindow:
         part = "" if share is None else f", {100.0 * share:.0f} %"
         return f"{stage}: {seconds:.0f} s{part}" + (f", {doing}" if doing else "")
 
-    def sentences(self, name: str) -> list[str]:
-        """What the computations say under a name, "warnings" or "remarks", each once."""
-        said = [line for result in self.results.values() for line in result.get(name, ())]
-        return list(dict.fromkeys(map(str, said)))
+    def sentences(self, name: str) -> dict[str, bool]:
+        """What the computations say under a name, "warnings" or "remarks": whether it is of older values."""
+        said: dict[str, bool] = {}
+        for stage, result in self.results.items():
+            for line in map(str, result.get(name, ())):
+                said[line] = said.get(line, True) and stage in self.late
+        return said
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether a computation failed with older values, and these have not been computed yet."""
+        return any(self.results.get(stage, {}).get("errors") for stage in self.late)
 
     def errors(self) -> list[tuple[str, str, str]]:
-        """Key, text and short text of messages of the document, and of computations that failed."""
+        """Key, text and short text of messages of the document, and of computations that failed.
+
+        A message of a computation with older values may name what is no longer there: it is left out.
+        """
         found = {one.text: (one.key, one.text, one.short) for one in self.document.messages()}
         if self.bug is not None:
             text = f"a bug in tribodyn: {type(self.bug).__name__}: {self.bug}; report it"
             found[text] = "", text, text
-        for result in self.results.values():
-            for one in result.get("errors", ()):
+        for stage, result in self.results.items():
+            for one in result.get("errors", ()) if stage not in self.late else ():
                 found.setdefault(one["text"], (one["key"], one["text"], one["short"]))
         return list(found.values())
 

@@ -39,6 +39,19 @@ class SlowWorker:
         """Nothing is to end."""
 
 
+class RefusingWorker(SlowWorker):
+    """Computes no motion, and says so with the text; warns of every value."""
+
+    async def _results(self, request, stages):
+        async for result in super()._results(request, stages):
+            failed = result["stage"] == "motion"
+            error = {"key": SHIFT, "text": f"of {request.text}", "short": "no"}
+            wrong = (
+                {"ok": False, "errors": [error]} if failed else {"warnings": [f"beware of {request.text}"]}
+            )
+            yield result | wrong
+
+
 def dragged(
     tmp_path, worker, values: int, pause: float, *, begin: bool = False
 ) -> tuple[DesignWindow, list[str]]:
@@ -104,3 +117,28 @@ def test_another_scenario_does_not_wait_for_the_one_before_it(tmp_path):
 
     window = asyncio.run(opened())
     assert {result["text"] for result in window.results.values()} == {window.document.text}
+
+
+def test_a_message_of_a_computation_goes_with_the_value_that_it_names(tmp_path):
+    worker = RefusingWorker(geometry=0.01, motion=0.01)
+
+    async def changed() -> None:
+        window = DesignWindow(WorkFolder(tmp_path), Document.open("spur-25-51"), worker, lambda _parts: None)
+        for shift in (0.1, 0.2):
+            before = window.document.text
+            assert not window.change(SHIFT, shift)
+            assert window.errors() == []
+            assert window.doubtful == (shift > 0.1)
+            assert all(window.sentences("warnings").values())  # they are of the value before
+            while "geometry" in window.late:
+                await asyncio.sleep(0.001)
+            text = window.document.text
+            assert window.sentences("warnings").get(f"beware of {text}") is False
+            assert window.sentences("warnings").get(f"beware of {before}", True)
+            while window.late:
+                await asyncio.sleep(0.001)
+            assert window.errors() == [(SHIFT, f"of {text}", "no")]
+            assert list(window.sentences("warnings")) == [f"beware of {text}"]
+            assert not window.doubtful
+
+    asyncio.run(changed())

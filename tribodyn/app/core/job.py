@@ -13,7 +13,7 @@ from tribodyn.numerics.processes import child
 from tribodyn.post.progress import LINES, MARK
 
 #: Seconds that a verb has to conclude its record once it is cancelled.
-TO_CONCLUDE = 5.0
+TO_CONCLUDE = 20.0
 #: Characters that are kept of what a verb prints.
 MOST_KEPT = 200_000
 #: Endings of what verbs write.

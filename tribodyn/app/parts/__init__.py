@@ -100,7 +100,7 @@ class MessagesPart(_PagePart, component="messages.js"):
 
     def __init__(self) -> None:
         super().__init__()
-        self.props.update(errors=[], warnings=[], remarks=[])
+        self.props.update(errors=[], doubtful=False, warnings=[], remarks=[])
 
 
 class TextPart(_PagePart, component="text.js"):
@@ -128,7 +128,7 @@ class BringPart(_PagePart, component="bring.js"):
 
 
 class JobsPart(_PagePart, component="jobs.js"):
-    """Longer work with its progress. Tells ``cancel``, ``open``."""
+    """Longer work with its progress. Tells ``cancel``, ``resume``, ``open``."""
 
     def __init__(self) -> None:
         super().__init__()
