@@ -16,7 +16,7 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
 from tribodyn.post.verdict import IN_DOUBT
-from tribodyn.quantities.quantity import Quantity
+from tribodyn.quantities.quantity import Quantity, from_to
 from tribodyn.tribology.closure import duty_range, exceeded_limits, law_quantities, laws_of, nominal_line_load
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.high_pressure import contact_viscosity
@@ -177,11 +177,11 @@ def _at_duty(
     if outside.get("closure_exceeded" if law.table == "film" else "friction_exceeded"):
         range = "partly outside its range" if beyond < IN_DOUBT else "outside its range"
     if ratio is not None:
-        return range, f"{ratio[0]:.2g} to {ratio[2]:.2g} at this duty"
+        return range, f"{from_to(ratio[0], ratio[2])} at this duty"
     if law.judged is None:
         return range, "not compared"
     low, _, high = (beyond >= IN_DOUBT and law.judged.outside) or law.judged.ratio
-    return range, f"{low:.2g} to {high:.2g} in nine of ten contacts"
+    return range, f"{from_to(low, high)} in nine of ten contacts"
 
 
 def _exceeded(case: LubricatedCase, closure: Closure) -> dict[str, Any]:

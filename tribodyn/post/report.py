@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tribodyn.post.verdict import meaning
-from tribodyn.quantities.quantity import Reported
+from tribodyn.quantities.quantity import Reported, from_to
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.withheld_efficiency import reasons, warnings
@@ -144,7 +144,7 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
     if low is not None and high is not None:
         sentences.append(
             f"The oil's viscosity at high pressure is estimated by its type: what measured oils span makes "
-            f"the solved friction {float(low):.2g} to {float(high):.2g} times what is printed."
+            f"the solved friction {from_to(float(low), float(high))} times what is printed."
         )
     if errors:
         sentences.append(
@@ -163,7 +163,7 @@ def _without_judged_range(summary: Mapping[str, Any]) -> list[str]:
     for what in ("film", "friction"):
         ratio = summary.get(f"{what}_judged")  # of the law to the solved contact
         if isinstance(ratio, Mapping) and not ratio.get("limits", 1):  # none of one compared at the duty
-            times = f"{ratio['low']:.2g} to {ratio['high']:.2g} times"
+            times = f"{from_to(ratio['low'], ratio['high'])} times"
             sentences.append(
                 f"The {what} law {summary[f'{what}_law']} has no range by the solved contact: in nine of ten "
                 f"contacts of gears it gives {times} the solved {what}."

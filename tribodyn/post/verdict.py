@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities.quantity import from_to
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
@@ -21,13 +22,13 @@ from tribodyn.record.withheld_efficiency import warnings
 #: What the table of solved contacts and the kernels of its law take: 51 to 228 s were measured.
 SOLVED = "one to four minutes of one core the first time"
 #: Lines of a run's verdict, at most.
-LINES = 5
+LINES = 6
 #: Share of the contact, or of the loss, outside the limits of a law from which its values are in doubt: of 94
 #: meshes those with up to a fifth of their loss outside have friction as right as those with none.
 IN_DOUBT = 0.2
 #: Film over roughness below which asperities carry much of the load, and above which they carry none.
 ROUGH, SMOOTH = 1.0, 3.0
-#: Share of the time without contact that counts; factor on the mean mesh force that is a resonance.
+#: Share of time without contact that counts; factor on the mean mesh force that is a resonance.
 APART, RESONANT = 1e-4, 1.5
 #: What a remark says on engagement that is all of a dynamic factor.
 KNOCK = "the knock of pairs"
@@ -180,7 +181,7 @@ def outside(summary: Mapping[str, Any]) -> Iterable[str]:
             for end in ("high", "median", "low")
         )
         if not in_doubt:
-            holding.append(f"{low:.2g} to {high:.2g} times the printed {what} ({law})")
+            holding.append(f"{from_to(low, high)} times the printed {what} ({law})")
             here = here and "at_duty" in judged
             continue
         why = _why(summary.get("closure_exceeded" if what == "film" else "friction_exceeded"))
@@ -201,18 +202,18 @@ def in_doubt_by(summary: Mapping[str, Any], what: str) -> float:
 
 def advised(summary: Mapping[str, Any]) -> Iterable[str]:
     """What to do, the most urgent first."""
-    values = numbers(summary)
-    if "is too few" in str(summary.get("slice_remark")):
-        yield f"To do: {summary['slice_remark']}"
+    values, engaged = numbers(summary), str(summary.get("engagement_remark") or "")
+    if "is too few" in (slices := str(summary.get("slice_remark"))):
+        yield f"To do: {slices}"
     for what in ("film", "friction"):
         if isinstance(summary.get(f"{what}_judged"), Mapping) and in_doubt_by(summary, what) >= IN_DOUBT:
             nearest = "" if summary.get(f"{what}_chosen") else f'{what}.law = "auto" takes the nearest law; '
             solved = f'{what}.law = "solved" solves the contact itself, {SOLVED}'
-            yield f"To do: {nearest}{solved}."
+            yield f"To do: {nearest}{solved}. {engaged}".rstrip()
             return
     if values.get("contact_loss_fraction", 0.0) > APART:
         yield "To do: more load, more damping, tip relief or another speed keeps the teeth together."
-    elif (engaged := summary.get("engagement_remark")) or values.get("dynamic_factor", 0.0) > RESONANT:
+    elif engaged or values.get("dynamic_factor", 0.0) > RESONANT:
         resonance = "find the resonance with tribodyn sweep, and move speed or stiffness away from it."
         yield f"To do: {engaged or resonance}"
     elif values.get("film_parameter_min", SMOOTH) < ROUGH:
@@ -224,18 +225,18 @@ def first(record: Record) -> Iterable[str]:
     if record.status != "complete":
         yield f"The run is {record.status}{': ' if record.message else ''}{record.message}."
     if brief := trust.brief(record.summary):
-        yield f"{_upper(brief)}: these numbers are not to be trusted."
+        yield f"{brief[0].upper()}{brief[1:]}: these numbers are not to be trusted."
     for warning in warnings(record.summary):
         if not warning.startswith(trust.OUTSIDE):
-            yield f"{_upper(warning)}."
+            yield f"{warning[0].upper()}{warning[1:]}."
 
 
 def of_gears(record: Record) -> list[str]:
     """Lines of a record of gears; of any record those for which it has the quantities."""
     summary = over_course(record.summary)
-    start = filter(None, [summary.get("settling_remark")])
+    start = [str(summary.get("settling_remark") or "")]
     parts = (moved(summary), start, pressed(summary), lost(summary), outside(summary), advised(summary))
-    return [line for part in parts for line in part]
+    return [line for part in parts for line in part if line]
 
 
 def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> list[str]:
@@ -315,10 +316,6 @@ def watts(power: float) -> str:
 def with_unit(name: str, value: float) -> str:
     """A value with the unit and the digits of its quantity."""
     return QUANTITIES[name].with_unit(float(value))
-
-
-def _upper(text: str) -> str:
-    return text[0].upper() + text[1:]
 
 
 def meaning(limit: str) -> str:

@@ -35,6 +35,8 @@ SHOWN: dict[str, tuple[str, float, float]] = {
     "h": ("s", 1.0 / 3600.0, 0.0),
     "(N/mm²)**0.5": ("Pa**0.5", 1e-3, 0.0),
 }
+#: Numbers of a fixed number of decimals have some up to this.
+DECIMALS_TO = 1e5
 
 
 def in_si(sheet: Mapping[str, Any]) -> dict[str, Any]:
@@ -118,7 +120,9 @@ class Quantity(NamedTuple):
         if self.digits.endswith("d"):
             return format(int(number), self.digits)
         few = self.digits.endswith("f") and 0.0 < abs(number) < 10.0 ** (1 - int(self.digits[-2]))
-        return format(number, ".3g" if few else self.digits)  # small numbers are not rounded to zero
+        many = self.digits.endswith("f") and abs(number) >= DECIMALS_TO
+        # small numbers are not rounded to zero, and large ones have no decimals
+        return format(number, ".3g" if few else ",.0f" if many else self.digits)
 
     def written_of(self, values: Mapping[str, Any]) -> str:
         """Its value in a mapping by names; a lower bound, where ``NAME_unlimited`` is true, with "≥"."""
@@ -149,3 +153,9 @@ def shown(value: object, units: str, digits: int = 5) -> str:
         return str(value)
     name, factor = shown_unit(units)
     return f"{value * factor:.{digits}g} {name}".rstrip()
+
+
+def from_to(low: float, high: float) -> str:
+    """Two ends of a range to two digits, once where they are the same."""
+    ends = f"{low:.2g}", f"{high:.2g}"
+    return " to ".join(dict.fromkeys(ends))

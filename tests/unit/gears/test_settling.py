@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.gears.motion.steady import on_settling
+from tribodyn.gears.motion.steady import on_settling, on_settling_of_meshes
 
 SAMPLES = 100
 CYCLES = np.arange(10 * SAMPLES) / SAMPLES
@@ -36,6 +36,27 @@ def test_less_than_two_periods_and_teeth_at_rest_say_nothing():
     assert on_settling([np.zeros(400)], SAMPLES) == ""
 
 
+@pytest.mark.parametrize(
+    ("amplitude", "decay", "said"),
+    [(0.5, 0.2, "fades over the 10 cycles"), (1.5, 0.0, "solver.cycles = 184, with"), (0.02, 0.2, "")],
+)
+def test_meshes_that_repeat_together_late_are_judged_by_what_is_of_neither(
+    amplitude: float, decay: float, said: str
+):
+    errors = motion(1.7, amplitude, decay) + 0.7 * np.cos(2.0 * np.pi * 9 / 23 * CYCLES + 1.0)
+    remark = on_settling_of_meshes([errors], [1.0, 9 / 23], SAMPLES, 40, 23)
+    assert said in remark
+    assert bool(remark) is bool(said)
+
+
+@pytest.mark.parametrize(("cycles", "period", "enough"), [(20, 83, 40), (20, 3, 24), (20, 35, 35)])
+def test_few_cycles_of_a_slow_mesh_tell_nothing(cycles: int, period: int, enough: int):
+    remark = on_settling_of_meshes(
+        [motion(0.26, 0.5, 0.05)[: 5 * SAMPLES]], [1.0, 0.2530], SAMPLES, cycles, period
+    )
+    assert f"solver.cycles = {enough} are enough" in remark
+
+
 def test_a_run_that_says_so_is_far_from_the_steady_motion_and_one_that_does_not_is_there():
     """Of a pair at 15 000 rpm: 20 cycles end before the bearings' vibration does."""
     source, free, speed = "spur-25-51", {"friction.law": "none"}, "15000 rpm"
@@ -53,6 +74,25 @@ def test_a_run_that_says_so_is_far_from_the_steady_motion_and_one_that_does_not_
     assert short["transmission_error_peak_to_peak"] > 1.2 * swing
     assert not long.get("settling_remark")
     assert long["transmission_error_peak_to_peak"] == pytest.approx(swing, rel=5e-3)
+
+
+def test_a_train_whose_meshes_repeat_late_says_whether_it_is_at_the_steady_motion():
+    """Of two stages that repeat together after 61 cycles, against a run judged by two such periods."""
+    few, short, long, steady = (
+        td.run(
+            "two-stage-reducer-hunting",
+            {"friction.law": "none", "output.samples_per_cycle": 40, "solver.cycles": cycles},
+            progress=False,
+        ).summary
+        for cycles in (20, 61, 122, 488)
+    )
+    swing = steady["transmission_error_peak_to_peak"]
+    assert "cannot be told by the 5 cycles" in few["settling_remark"]
+    assert "not settled" in short["settling_remark"]
+    assert short["transmission_error_peak_to_peak"] > 1.1 * swing
+    assert not long.get("settling_remark")
+    assert not steady.get("settling_remark")
+    assert long["transmission_error_peak_to_peak"] == pytest.approx(swing, rel=1e-3)
 
 
 def test_far_below_all_resonances_a_dynamic_factor_is_the_engagement_of_the_energy_method():

@@ -60,6 +60,12 @@ def test_a_start_that_has_not_faded_is_said_before_what_follows_from_it():
     assert said(GOOD | laws(0.3, 0.3, settling_remark=remark)).splitlines()[1] == remark
 
 
+def test_a_range_of_one_value_is_written_once():
+    judged = {"low": 1.187, "median": 1.19, "high": 1.193, "at_duty": 1.0}
+    text = said(GOOD | laws(0.0, 0.0) | {"film_judged": judged, "friction_judged": {}})
+    assert "expect 0.84 times the printed film" in text
+
+
 @pytest.mark.parametrize("what", ["film", "friction"])
 def test_a_law_in_doubt_says_by_how_much_and_why(what: str):
     """The printed value over the ratio to the solved contact outside the limits."""
@@ -78,6 +84,10 @@ def test_a_law_in_doubt_says_by_how_much_and_why(what: str):
     assert others[0].startswith("By solved contacts")
     assert what not in others[0].replace("friction law", "")
     assert f'{what}.law = "solved"' in next(iter(advised(summary)))
+    engaged = summary | {"engagement_remark": "K_v 1.47 is the knock of pairs that engage at once."}
+    assert next(iter(advised(engaged))).endswith(
+        "the first time. K_v 1.47 is the knock of pairs that engage at once."
+    )
 
 
 def test_what_to_do_goes_by_what_is_worst():

@@ -61,6 +61,8 @@ def test_values_are_written_with_their_digits():
         "0.139",
     ]
     assert [share.written(value) for value in (0.99467, 6.5312e-6, 0.0)] == ["99.467", "0.000653", "0.000"]
+    safety = Quantity("safety", "Safety", digits=".2f")
+    assert [safety.written(value) for value in (1.234, 1234.5, 248206.62)] == ["1.23", "1234.50", "248,207"]
     assert film.variable()[:3] == ((), "m", "film")
     assert (film.title, film.titled, film.in_table) == ("Film h", "Film h (µm)", "Film h")
 

@@ -3,6 +3,7 @@
 Means are of the recorded samples and of integrated works; extremes of the dense motion, samples included.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -40,6 +41,11 @@ FEEDS = 0.01
 #: Share of its swing by which the transmission error of a settled motion may change from period to period,
 #: and over several of them where it repeats after these.
 SETTLED, REPEATED = 0.05, 0.005
+#: Of what repeats with no mesh: how much less of it the second half of a window has of a start that fades,
+#: and the share of the swing up to which it may be coupled meshes.
+FADES, COUPLED = 0.75, 0.15
+#: Orders of a mesh that are its own, at most; share of all orders in a window that may be those of meshes.
+OWN_ORDERS, TOLD = 40, 0.5
 #: Dynamic factors that are too large far below all resonances, and that engagement has a part in elsewhere;
 #: share of the lowest natural frequency that is far below it.
 KNOCKING, HARD, SLOW = 1.1, 1.25, 0.1
@@ -130,6 +136,49 @@ def on_settling(errors: Sequence[np.ndarray], period: int) -> str:
         f"by {100.0 * worst:.2g} % of its swing. More solver.cycles let the start fade; tribodyn sweep seeks "
         "the steady motion."
     )
+
+
+def on_settling_of_meshes(
+    errors: Sequence[np.ndarray], rates: Sequence[float], samples: int, cycles: int, period: int
+) -> str:
+    """Say whether a motion has settled whose samples are of less than two common periods.
+
+    What of a transmission error is of no order of a mesh is the start, which fades, or meshes that are
+    coupled. `rates` are those of all that repeats, `cycles` those of the run, all in cycles with `samples`.
+    """
+    window, every = len(errors[0]) / samples, sorted({round(rate, 12) for rate in rates})
+    least = math.ceil(sum(1.0 / rate for rate in every) / TOLD)
+    if window < least:
+        short = 4 * least < period and cycles < period
+        enough = 4 * least if short else period if cycles < period >= least else 8 * period
+        return (
+            f"Whether the motion has settled cannot be told by the {window:.0f} cycles that means are of: "
+            f"solver.cycles = {enough} are enough."
+        )
+    times = np.arange(len(errors[0])) / samples
+    orders = [
+        rate * order for rate in every for order in range(1, OWN_ORDERS + 1) if 2.0 * rate * order < samples
+    ]
+    waves = np.exp(2j * np.pi * np.outer(times, orders))
+    basis = np.hstack([np.ones((len(times), 1)), waves.real, waves.imag])
+    values = np.stack(errors, axis=1)
+    rest = values - basis @ np.linalg.lstsq(basis, values, rcond=1e-8)[0]
+    swings = np.maximum(np.ptp(values, axis=0), 1e-300)
+    begin, end = (np.max(np.abs(half), axis=0) / swings for half in np.array_split(rest, 2))
+    fading = end < FADES * begin
+    if (worst := float(np.max(np.where(fading, begin, 0.0)))) > SETTLED:
+        return (
+            f"The motion has not settled: {100.0 * worst:.2g} % of the swing of the transmission error "
+            f"repeats with no mesh, and fades over the {window:.0f} cycles that means are of. More "
+            "solver.cycles let the start fade."
+        )
+    if (worst := float(np.max(np.maximum(begin, end)))) > COUPLED:
+        return (
+            f"Whether the motion has settled cannot be told: {100.0 * worst:.2g} % of the swing of the "
+            f"transmission error repeats with no mesh. solver.cycles = {8 * period}, with means of two "
+            "common periods, tell."
+        )
+    return ""
 
 
 def on_engagement(compliance: str, factor: float, frequency: float, modes: np.ndarray) -> str:

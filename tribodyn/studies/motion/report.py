@@ -171,8 +171,6 @@ def verdict(record: Record) -> list[str]:
     name = max(meshes, key=lambda name: _beyond(meshes[name]))
     for line in of_any.outside(meshes[name]):
         sentences.append(f"Mesh {name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)
-        if len(sentences) == of_any.LINES - 1:
-            break
     whole = {"engagement_remark": summary.get("engagement_remark"), **of_any.numbers(summary)}
     return [*sentences, *of_any.advised({**meshes[name], **whole})]
 

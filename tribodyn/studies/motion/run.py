@@ -15,7 +15,13 @@ from tribodyn.gears.case import STAGES
 from tribodyn.gears.check import oil_data
 from tribodyn.gears.motion.march import record_motion, run_until_warm
 from tribodyn.gears.motion.running import RunStatistics
-from tribodyn.gears.motion.steady import limits_in, on_engagement, on_settling, warning_of
+from tribodyn.gears.motion.steady import (
+    limits_in,
+    on_engagement,
+    on_settling,
+    on_settling_of_meshes,
+    warning_of,
+)
 from tribodyn.gears.sensing.signal_quantities import signal_quantities
 from tribodyn.record.reader import MESHES
 from tribodyn.record.sensors import write_sensed
@@ -119,6 +125,16 @@ def _engaged(case: Gearbox, summary: Mapping[str, Any], each: Sequence[Mapping[s
     return on_engagement(compliance, worst["dynamic_factor"], fastest, summary["mode_frequencies"])
 
 
+def _settled(case: Gearbox, errors: Sequence[np.ndarray], samples: int) -> str:
+    """Say what keeps the last cycles from being the steady motion; "" where nothing is seen."""
+    if case.period == 1 or len(errors[0]) >= 2 * case.period * samples:
+        return on_settling(errors, samples * case.period)
+    rims = [gearset.rim for gearset in case.sets if gearset.rim is not None]
+    rates = [float(mesh.rate) for mesh in case.meshes]
+    rates += [abs(float(rim.pin_rate)) for rim in rims if rim.pins_pass]
+    return on_settling_of_meshes(errors, rates, samples, case.solver.cycles, case.period)
+
+
 def of_meshes(case: Gearbox, each: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """What a summary has of the meshes: by their names where files name them, else of the only one."""
     if not case.named:
@@ -174,7 +190,7 @@ def _concluded(
     fed = warning_of(whole["friction_work_on_vibration"], case.meshes[0].pair.friction.sliding)
     if settles(case) and not changes:
         errors = [window["transmission_error_rotational"] for window in windows]
-        whole["settling_remark"] = on_settling(errors, samples * case.period) or None
+        whole["settling_remark"] = _settled(case, errors, samples) or None
     whole["warning"] = remarked(*jams(prepared), fed or "") or None
     statistics.judge.take({"efficiency": whole["efficiency"]})
     return whole | statistics.judge.summary()

@@ -208,7 +208,8 @@ class Study:
         from tribodyn.post import verdict
 
         written = self._part("report", "verdict", optional=True)
-        return [*verdict.first(record), *(written or verdict.of_gears)(record)][: verdict.LINES]
+        lines = [*verdict.first(record), *(written or verdict.of_gears)(record)]
+        return [*lines[: verdict.LINES - 1], *lines[verdict.LINES - 1 :][-1:]]  # what to do is last
 
     def swept(self) -> "Mapping[str, Quantity]":
         """Quantities that a sweep keeps of every case, by name; none: such a study cannot be swept."""
