@@ -67,6 +67,7 @@ WITH_SET = [
     ("drive.material=stel", 'drive.material = "stel"', "no such file in models/materials"),
     ("drive.material.poisson_ratio=0.5", "drive.material.poisson_ratio = 0.5", "must be less than 0.5"),
     (f"{BEARING}_x=0.1", f"{BEARING} = 0.05", "contradicts damping_ratio_x and damping_ratio_y"),
+    ("bearings.damping_ratio=0.05", "bearings.damping_ratio = 0.05", "[bearings.pinion] and [bearings.gear]"),
     ("solver.cycles.more=1", "solver.cycles.more", "is not a table"),
     ('lubricant="ISO VG 320"', 'lubricant = "ISO VG 320"', GRADES),
     ("operating.pinion_speed=500-6000rpm", 'operating.pinion_speed = "500-6000rpm"', f'{RANGE} "500 rpm"'),

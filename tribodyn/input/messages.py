@@ -41,9 +41,7 @@ _OUTSIDE = {
     "bevel, worm and hypoid gears": (r"bevel|worm|hypoid|(cone|shaft|spiral)_angle", "omit it"),
 }
 #: What to do about a helix in a scenario that has several stages.
-_STAGED_HELIX = (
-    'write helix_angle = "20 deg" in its [[stage]], and hand = "left" in [gear.NAME] of a left-hand gear'
-)
+_STAGED_HELIX = 'write helix_angle = "20 deg" in its [[stage]], and hand = "left" in a left-hand [gear.NAME]'
 
 
 def outside(error: InputError, *names: str, remedy: str = "", but: tuple[str, ...] = ()) -> InputError | None:
@@ -267,11 +265,14 @@ def _explain_one(detail: dict[str, Any], model: type[BaseModel]) -> InputError:
             return InputError(dotted, text, _UNKNOWN, _near_key(model, detail["loc"]))
         case "literal_error":
             expected = context["expected"].replace("'", '"')
-            near = near_name(
-                str(detail["input"]), expected.replace('"', "").replace(" or ", ", ").split(", ")
-            )
+            choices = expected.replace('"', "").replace(" or ", ", ").split(", ")
+            near = near_name(str(detail["input"]), choices)
             mean = f'did you mean "{near}"? ' if near else ""
             return InputError(dotted, text, "not one of the choices", f"{mean}write {expected}")
+        case "model_type" if key[-1] in fields_of(table_at(model, key)):  # held by name, written without one
+            of, pair = dotted.rpartition(".")[0], key[0] == "bearings" and "stage" not in model.model_fields
+            where = f"[{of}.pinion] and [{of}.gear]" if pair else f"[{of}.NAME]"
+            return InputError(dotted, text, f"outside of a table of {of} by name", f"write it in {where}")
         case "float_type" | "int_type" if isinstance(detail["input"], str) and range_for_one(detail["input"]):
             return InputError(dotted, text, *(range_for_one(detail["input"]) or ()))
         case "string_pattern_mismatch":
@@ -279,7 +280,7 @@ def _explain_one(detail: dict[str, Any], model: type[BaseModel]) -> InputError:
             return InputError(dotted, text, "a character that is not allowed here", f"use letters, {more}")
         case "finite_number":
             return InputError(dotted, text, "not a finite number", "write a plain number, such as 1.0")
-    rule, remedy = _PLAIN.get(detail["type"], (detail["msg"].lower(), ""))
+    rule, remedy = _PLAIN.get(detail["type"].replace("dict_", "model_"), (detail["msg"].lower(), ""))
     return InputError(dotted, text, rule.format(**context), remedy.format(**context))
 
 
@@ -290,7 +291,6 @@ _PLAIN = {
     "bool_type": ("not true or false", "write true or false, without quotes"),
     "string_type": ("not text", "write text in quotes"),
     "model_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
-    "dict_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
     "tuple_type": ("not a list", "write a list: [ … ]"),
     "too_long": ("more than {max_length} values", "write fewer"),
     "too_short": ("fewer than {min_length} values", "write at least {min_length}"),
