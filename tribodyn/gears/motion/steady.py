@@ -159,8 +159,8 @@ def on_settling_of_meshes(
     orders = [
         rate * order for rate in every for order in range(1, OWN_ORDERS + 1) if 2.0 * rate * order < samples
     ]
-    waves = np.exp(2j * np.pi * np.outer(times, orders))
-    basis = np.hstack([np.ones((len(times), 1)), waves.real, waves.imag])
+    angles = 2.0 * np.pi * np.outer(times, np.array(orders))
+    basis = np.hstack([np.ones((len(times), 1)), np.cos(angles), np.sin(angles)])
     values = np.stack(errors, axis=1)
     rest = values - basis @ np.linalg.lstsq(basis, values, rcond=1e-8)[0]
     swings = np.maximum(np.ptp(values, axis=0), 1e-300)
