@@ -88,6 +88,14 @@ def eventually(page: Any, what: Callable[[], bool]) -> None:
     raise AssertionError("it does not come to hold")
 
 
+def breaches(page: Any) -> list[str]:
+    """Rules of WCAG 2.1 A and AA that the page breaks, by their names at axe, which counts no others."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    rules = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"]
+    found = axe.run(page, options={"runOnly": rules, "resultTypes": ["violations"]})
+    return [each["id"] for each in found.response["violations"]]
+
+
 def entry(page: Any, path: str) -> Any:
     """The input of a field."""
     return page.locator(f'[data-field="{path}"] input[type=text]')
