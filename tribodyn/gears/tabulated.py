@@ -79,7 +79,7 @@ _kept = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
 _kept_cycles = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
 
 
-def tables(case: LubricatedCase) -> Tabulated:
+def tables(case: GearCase) -> Tabulated:
     """Check the geometry and tabulate the mesh cycle; raises as `prepare` does.
 
     The last tables of this process are kept: cases at another speed, with another oil, have the same.
@@ -87,7 +87,7 @@ def tables(case: LubricatedCase) -> Tabulated:
     return _kept(MadeOnce(table_key(case), lambda: _tabulated(case)))
 
 
-def _tabulated(case: LubricatedCase) -> Tabulated:
+def _tabulated(case: GearCase) -> Tabulated:
     from tribodyn.geometry.body import body_masses
     from tribodyn.mesh.by_compliance import mesh_cycle_of, with_slices
 
@@ -109,7 +109,7 @@ def _tabulated(case: LubricatedCase) -> Tabulated:
     return Tabulated(cycle, table, of_one_mesh(table.boundary), (pinion, gear), assembly, split, remark)
 
 
-def opened(case: LubricatedCase, assembly: Assembly, coarse: bool) -> MeshCycle:
+def opened(case: GearCase, assembly: Assembly, coarse: bool) -> MeshCycle:
     """The mesh cycle alone of a case whose number of slices is given, which is not judged; kept likewise.
 
     A coarse one has `by_compliance.FEW_NODES`.

@@ -5,16 +5,18 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.app.core.held import HeldMesh
 from tribodyn.app.core.shown import tables_of
 from tribodyn.drawing.shapes import GearShape
+from tribodyn.gears.case import GearCase
 from tribodyn.gears.check import sheet_tables
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.body import gear_polygon
+from tribodyn.geometry.body import body_masses, gear_polygon
 from tribodyn.geometry.drive import SIDES, body_of, tip_radius
 from tribodyn.geometry.path import position
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.post.page.motion import key_rolls
-from tribodyn.studies.motion.case import Gearbox, TrainMesh
+from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.drivetrain.placed_parts import placed_parts
 from tribodyn.train.planetary import CARRIER
 
@@ -25,21 +27,21 @@ FLANK, PATH, POSITIONS = 14, 61, 61
 COARSE = 2e-5
 
 
-def mesh_geometry(case: Gearbox, mesh: TrainMesh, assembly: Assembly) -> dict[str, Any]:
+def mesh_geometry(mesh: HeldMesh, assembly: Assembly, *, alone: bool) -> dict[str, Any]:
     """Both gears of a mesh about their axes, the path of contact and where pairs touch on it; mm and rad.
 
     From the pitch point, x along the pitch tangent, y along the line of centres to the gear's axis. At a roll
     angle of the pinion its outline stands turned by `turn` times that, counter-clockwise; so does the gear's.
+    `alone`: they are those of no train.
     """
     path, drive = assembly.path, assembly.drive
     start, end = (float(limit) for limit in assembly.roll_limits)
     pitch = float(assembly.pitch_angle)
     radii = float(path.pinion_pitch_radius), float(path.gear_pitch_radius)
     rolls = key_rolls(start, end, pitch)
-    names = ("pinion", "gear") if not case.named else tuple(case.gears[gear].name for gear in mesh.gears)
     gears = []
     for side, name, turn, place in zip(
-        SIDES, names, (-1.0, radii[0] / radii[1]), (-radii[0], radii[1]), strict=True
+        SIDES, mesh.gears, (-1.0, radii[0] / radii[1]), (-radii[0], radii[1]), strict=True
     ):
         body = body_of(drive, side)
         gears.append(
@@ -69,7 +71,7 @@ def mesh_geometry(case: Gearbox, mesh: TrainMesh, assembly: Assembly) -> dict[st
         "key_points": {name: _at(assembly, np.asarray(roll)).tolist() for name, roll in rolls.items()},
         "rolls": roll,
         "contact": np.where(inside[..., None], _at(assembly, np.where(inside, rolled, end)), np.nan),
-        "tables": tables_of(sheet_tables(_sheet(case, mesh, assembly))),
+        "tables": tables_of(sheet_tables(_sheet(mesh.pair, assembly, alone))),
     }
 
 
@@ -79,15 +81,13 @@ def _at(assembly: Assembly, roll: np.ndarray) -> np.ndarray:
     return np.stack(position(path, path.signed_distance(roll)), axis=-1) / MILLIMETRE
 
 
-def _sheet(case: Gearbox, mesh: TrainMesh, assembly: Assembly) -> dict[str, Any]:
-    """The sheet of a mesh's gears as `check` lays it out."""
-    masses = None if case.named else [(body.mass, body.inertia) for body in mesh.pair.masses]
-    densities = [material.density for material in mesh.pair.materials]
-    if masses is not None:
-        from tribodyn.geometry.body import body_masses
-
-        masses = body_masses(assembly, masses, densities)
-    return geometry_sheet(assembly, masses, gear_torque=mesh.pair.operating.gear_torque)
+def _sheet(pair: GearCase, assembly: Assembly, alone: bool) -> dict[str, Any]:
+    """The sheet of a mesh's gears as `check` lays it out, with the masses of a pair that is alone."""
+    masses = None
+    if alone:
+        bodies = [(body.mass, body.inertia) for body in pair.masses]
+        masses = body_masses(assembly, bodies, [material.density for material in pair.materials])
+    return geometry_sheet(assembly, masses, gear_torque=pair.operating.gear_torque)
 
 
 def train_geometry(case: Gearbox) -> dict[str, Any]:

@@ -7,14 +7,15 @@ that do not change them. What is wrong with a scenario is part of the result, as
 import math
 import os
 import threading
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 from tribodyn.app.core.geometry import mesh_geometry, train_geometry
+from tribodyn.app.core.held import MOVING, HeldGears, HeldMesh, held_by, keys_within
 from tribodyn.app.core.messages import Message, data_of, findings
 from tribodyn.app.core.motion import motion_of
 from tribodyn.app.core.shown import tables_of
@@ -24,23 +25,19 @@ from tribodyn.cases.assessment_part import Meshing
 from tribodyn.cases.results import Progress
 from tribodyn.errors import InputError, OutputError, SimulationError
 from tribodyn.gears.prepare import assembled
-from tribodyn.input.tables.duty import in_force
-from tribodyn.studies.motion import PAIR, TRAIN
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.studies.motion.prepare import tabulated
 from tribodyn.studies.protocol.load import Loaded, SoundScenario
-from tribodyn.tribology.friction import FRICTION_LAWS
 
 #: In the order in which they are computed.
 STAGES = ("geometry", "static", "motion", "torques", "strength", "check")
 #: Scenarios whose cases are kept, as one is edited and compared with others.
 KEPT = 8
-#: A law that brings the film with it that it reads.
-_NO_CHOICE = next(name for name, law in FRICTION_LAWS.items() if law.reads_film and not law.keys)
 #: Shares of the nominal torque at which the transmission error is shown.
 SHARES = (0.5, 1.0, 1.5)
 _UNLOADED = "The duty has no torque: nothing is loaded."
 _ELSEWHERE = "A study of kind %s is checked while it is edited, not computed: start it by Run …"
+_STILL = "Of a study of kind %s teeth and slow rotation are shown while it is edited: start it by Run …"
 
 
 @dataclass(frozen=True)
@@ -61,7 +58,7 @@ class Live:
         self._progress: Progress | None = None
         self._sound: dict[tuple[str, str], SoundScenario] = {}
         self._stamps: dict[tuple[str, str], dict[str, int]] = {}
-        self._plain: dict[tuple[str, str], Gearbox] = {}
+        self._plain: dict[tuple[str, str], HeldGears | None] = {}
         self._loaded: dict[tuple[str, str], Loaded] = {}
 
     def compute(self, stage: str, request: LiveRequest, progress: Progress | None = None) -> dict[str, Any]:
@@ -70,16 +67,15 @@ class Live:
         `progress` is told the share done of a motion.
 
         Every result has `stage`, `ok`, `errors` (of each the fields of `Message`, and `short`), `warnings`
-        and `seconds`; what a stage has besides is said of its function. Of a study that is no gearbox in
-        motion there is the check alone.
+        and `seconds`; what a stage has besides is said of its function. Gears that do not move have no
+        motion, and of a study that holds no gears there is the check alone.
         """
         begun = perf_counter()
         head: dict[str, Any] = {"stage": stage, "warnings": [], "errors": []}
         try:
             self._progress = progress
-            study = self._of_text(request).study
-            is_live = study in (PAIR, TRAIN) or stage == "check"
-            result = _STAGES[stage](self, request) if is_live else {"remarks": [_ELSEWHERE % study.kind]}
+            missing = self._missing(stage, request)
+            result = {"remarks": [missing]} if missing else _STAGES[stage](self, request)
             return head | {"ok": True, "seconds": perf_counter() - begun} | result
         except (InputError, SimulationError, OutputError) as error:
             errors = Message.each(error)
@@ -92,40 +88,42 @@ class Live:
             "seconds": perf_counter() - begun,
         }
 
+    def _missing(self, stage: str, request: LiveRequest) -> str:
+        """Why there is no such stage of a scenario; "": there is."""
+        sound = self._of_text(request)
+        if stage == "check" or sound.study in MOVING:
+            return ""
+        if self._held(request) is None:
+            return _ELSEWHERE % sound.study.kind
+        return _STILL % sound.study.kind if stage in ("motion", "strength") else ""
+
     def _geometry(self, request: LiveRequest) -> dict[str, Any]:
         """`meshes` and the `mesh`, what `mesh_geometry` has, and of a train `train`, as `train_geometry`."""
-        sound, case, number = self._unchosen(request)
-        with sound.origins.naming():
-            mesh = case.meshes[number]
-            shown = mesh_geometry(case, mesh, assembled(mesh.pair))
-            shown["train"] = train_geometry(case) if case.named else None
-        return _names(case, number) | shown
+        with self._mesh(request) as (held, mesh):
+            shown = mesh_geometry(mesh, assembled(mesh.pair), alone=not held.in_places)
+            shown["train"] = train_geometry(held.gearbox) if held.in_places else None
+            return _names(held, mesh) | shown | {"remarks": list(held.remarks)}
 
     def _static(self, request: LiveRequest) -> dict[str, Any]:
         """What `slow_rotation` has of the mesh; nothing of a duty without torque."""
-        sound, case, number = self._unchosen(request)
-        with sound.origins.naming():
-            pair = case.meshes[number].pair
-            found = slow_rotation(pair, assembled(pair))
-        return _names(case, number) | (found or {"warnings": [_UNLOADED]})
+        with self._mesh(request) as (held, mesh):
+            found = slow_rotation(mesh.pair, assembled(mesh.pair))
+            return _names(held, mesh) | (found or {"warnings": [_UNLOADED]})
 
     def _torques(self, request: LiveRequest) -> dict[str, Any]:
         """What `at_torques` has of the mesh; nothing of a duty without torque."""
-        sound, case, number = self._unchosen(request)
         shares = [share for share in request.torques if math.isfinite(share) and share > 0.0]
-        with sound.origins.naming():
-            pair = case.meshes[number].pair
-            found = at_torques(pair, assembled(pair), shares)
-        return _names(case, number) | (found or {"warnings": [_UNLOADED]})
+        with self._mesh(request) as (held, mesh):
+            found = at_torques(mesh.pair, assembled(mesh.pair), shares)
+            return _names(held, mesh) | (found or {"warnings": [_UNLOADED]})
 
     def _strength(self, request: LiveRequest) -> dict[str, Any]:
         """What `strength_of` has of the mesh."""
-        sound, case, number = self._unchosen(request)
-        whole = sound.study.whole()
-        with sound.origins.naming():
-            pair = case.meshes[number].pair
-            turns = whole.meshes(case)[number].meshing if whole is not None else (Meshing(), Meshing())
-            return _names(case, number) | strength_of(pair, assembled(pair), turns)
+        with self._mesh(request) as (held, mesh):
+            turns = Meshing(), Meshing()
+            if held.whole is not None:
+                turns = held.whole.meshes(held.gearbox)[held.meshes.index(mesh)].meshing
+            return _names(held, mesh) | strength_of(mesh.pair, assembled(mesh.pair), turns)
 
     def _check(self, request: LiveRequest) -> dict[str, Any]:
         """`tables`, `details` and `remarks` as ``tribodyn check`` prints them, and its `data`, SI."""
@@ -142,25 +140,35 @@ class Live:
 
     def _motion(self, request: LiveRequest) -> dict[str, Any]:
         """What `motion_of` has: the run that ``tribodyn run`` makes, its last cycles and its summary."""
-        *_, case, number = self._unchosen(request)
-        beside = threading.Thread(target=_tabulate, args=(case,), daemon=True)
-        if (request.text, request.path) not in self._loaded:
-            beside.start()  # tables need no laws, whose choice takes as long
-        loaded = self._case(request)
-        while beside.is_alive():  # in short waits, so that a newer request is heard
-            beside.join(0.02)
-        with loaded.naming():
-            record = self._scratch / "motion.h5"
-            return _names(loaded.case, number) | motion_of(loaded, record, number, self._progress)
+        with self._mesh(request) as (held, mesh):
+            beside = threading.Thread(target=_tabulate, args=(held.gearbox,), daemon=True)
+            if (request.text, request.path) not in self._loaded:
+                beside.start()  # tables need no laws, whose choice takes as long
+            loaded = self._case(request)
+            while beside.is_alive():  # in short waits, so that a newer request is heard
+                beside.join(0.02)
+            record, number = self._scratch / "motion.h5", held.meshes.index(mesh)
+            return _names(held, mesh) | motion_of(loaded, record, number, self._progress)
 
-    def _unchosen(self, request: LiveRequest) -> tuple[SoundScenario, Gearbox, int]:
-        """The scenario of a text, its gearbox before laws are chosen, and the number of the mesh."""
+    def _held(self, request: LiveRequest) -> HeldGears | None:
+        """The gears of a text before laws are chosen; None: it holds none."""
         sound = self._of_text(request)
         key = request.text, request.path
         if key not in self._plain:
-            _keep(self._plain, key, _without_choice(sound))
-        case = self._plain[key]
-        return sound, case, _mesh_of(case, request)
+            _keep(self._plain, key, held_by(sound))
+        return self._plain[key]
+
+    @contextmanager
+    def _mesh(self, request: LiveRequest) -> Iterator[tuple[HeldGears, HeldMesh]]:
+        """The gears of a text that holds some, and the mesh that is looked at: by name, else the first.
+
+        Errors inside the block are named by the text.
+        """
+        held = self._held(request)
+        assert held is not None, "said to be missing"
+        mesh = next((mesh for mesh in held.meshes if mesh.name == request.mesh), held.meshes[0])
+        with keys_within(self._of_text(request).origins, held.place):
+            yield held, mesh
 
     def _of_text(self, request: LiveRequest) -> SoundScenario:
         """The scenario of a text that has passed schema and rules; raises all that it has not."""
@@ -215,28 +223,11 @@ def _stamps(sound: SoundScenario) -> dict[str, int]:
     return found
 
 
-def _without_choice(sound: SoundScenario) -> Gearbox:
-    """The gearbox of a scenario under a law of friction that need not be chosen: for geometry and loads."""
-    scenario = in_force(sound.scenario)
-    values = {name: getattr(scenario.friction, name) for name in type(scenario.friction).model_fields}
-    friction = type(scenario.friction).model_construct(**values | {"law": _NO_CHOICE})
-    plain = scenario.model_copy(update={"friction": friction, "film": None})
-    with sound.origins.naming():
-        return sound.study.case(plain, "", "")
-
-
 def _tabulate(case: Gearbox) -> None:
     """Make the tables of a case, which are kept; what is wrong with them is said by who needs them."""
     with suppress(InputError, SimulationError):
         tabulated(case)
 
 
-def _mesh_of(case: Gearbox, request: LiveRequest) -> int:
-    """The number of the mesh that is looked at; a name that is gone is the first one."""
-    names = [mesh.name for mesh in case.meshes]
-    return names.index(request.mesh) if request.mesh in names else 0
-
-
-def _names(case: Gearbox, number: int) -> dict[str, Any]:
-    names = [mesh.name if case.named else "" for mesh in case.meshes]
-    return {"meshes": names, "mesh": names[number]}
+def _names(held: HeldGears, mesh: HeldMesh) -> dict[str, Any]:
+    return {"meshes": [one.name for one in held.meshes], "mesh": mesh.name}

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.app.core.shown import harmonics
-from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.case import GearCase
 from tribodyn.gears.tabulated import opened, tables
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle
@@ -18,7 +18,7 @@ PHASES, HARMONICS = 200, 8
 _MICRON, _MILLIMETRE = 1e-6, 1e-3
 
 
-def slow_rotation(pair: LubricatedCase, assembly: Assembly) -> dict[str, Any]:
+def slow_rotation(pair: GearCase, assembly: Assembly) -> dict[str, Any]:
     """A pair at its nominal torque: as `at_torques`, and the loads of its pairs and where they act.
 
     Errors in µm, stiffness in N/µm, loads in N, points in mm, torques of the gear in N m; each over the phase
@@ -32,7 +32,7 @@ def slow_rotation(pair: LubricatedCase, assembly: Assembly) -> dict[str, Any]:
     return _of_nominal(cycle, state) | _of_torques([nominal], [(cycle, state)])
 
 
-def at_torques(pair: LubricatedCase, assembly: Assembly, shares: Sequence[float]) -> dict[str, Any]:
+def at_torques(pair: GearCase, assembly: Assembly, shares: Sequence[float]) -> dict[str, Any]:
     """A pair at its nominal torque and at shares of it; nothing of a duty without torque.
 
     Of helical pairs, whose slices hold each other, and of flanks by finite elements each torque takes a table
@@ -54,7 +54,7 @@ def at_torques(pair: LubricatedCase, assembly: Assembly, shares: Sequence[float]
     return _of_torques(torques, states)
 
 
-def _counted(pair: LubricatedCase) -> LubricatedCase:
+def _counted(pair: GearCase) -> GearCase:
     """A pair with as many slices as it takes, where their number is open."""
     if not pair.drive.helix_angle or pair.mesh.at_load or pair.mesh.slices > 1:
         return pair

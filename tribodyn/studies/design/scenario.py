@@ -3,6 +3,7 @@
 The short form is a search from a scenario and a few options, of the command line and of Python.
 """
 
+import copy
 import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,17 +24,26 @@ from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.design.candidates.archive import FACTORS, resolutions
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, shapes_gears, start_of
 from tribodyn.studies.design.candidates.converged import counts
-from tribodyn.studies.design.candidates.evaluation import loaded_source
-from tribodyn.studies.design.candidates.sources import BASE, NAME, Source, sources_of
+from tribodyn.studies.design.candidates.evaluation import loaded_source, sound_case
+from tribodyn.studies.design.candidates.sources import BASE, NAME, Source, own, sources_of
 from tribodyn.studies.design.case import DesignCase, RobustTable, SearchOptions, flat, unit_of
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import layout_of, names_of, scales_of
 from tribodyn.studies.design.parts import parts_of_design
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
-from tribodyn.studies.protocol.load import Loaded, load_data, loaded_around, put_chosen, schema_inside
+from tribodyn.studies.protocol.load import (
+    Loaded,
+    SoundScenario,
+    load_data,
+    loaded_around,
+    put_chosen,
+    schema_inside,
+)
 from tribodyn.studies.protocol.study import CaseHead
 
 KIND = "design"
+#: Values at the start that are said.
+_FEW = 4
 
 _Bounds = create_model(
     "FreeBounds",
@@ -97,6 +107,16 @@ class DesignScenario(ScenarioHead):
     scenario: Annotated[dict[str, Any], scenario_file()]
     design: DesignTable
 
+    @classmethod
+    def begun(cls, sound: SoundScenario) -> tuple[SoundScenario, str]:
+        """The scenario that is searched through with its free keys at the start, and what they are there."""
+        case = _case(sound.scenario, copy.deepcopy(sound.data), "", "")
+        start = own(BASE, type(sound.scenario.scenario), chosen(case, start_of(case)), case.scenarios)
+        values = [f"{key} = {value}" for key, value in start.items()]
+        more = f" and {len(values) - _FEW} more" if len(values) > _FEW else ""
+        said = f"Shown is the start of the search: {', '.join(values[:_FEW])}{more}."
+        return sound_case(case.base, start), said
+
 
 Scenario = DesignScenario
 
@@ -132,17 +152,22 @@ def _with_fields(model: type[Table], **fields: Any) -> Any:
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
     """Return the case of a scenario that has passed schema and rules."""
-    data, table = tomllib.loads(toml), scenario.design
-    base = data["scenario"]
+    case = _case(scenario, tomllib.loads(toml), toml, sha256)
+    for searched in case.scenarios.values():  # one law for all candidates
+        with suppress(InputError):  # whoever evaluates it says why
+            put_chosen(searched, load_data(searched, "scenario").case.chosen())
+    return case
+
+
+def _case(scenario: Scenario, data: Any, toml: str, sha256: str) -> DesignCase:
+    """The case; its scenarios are the parts of `data` that they are."""
+    base, table = data["scenario"], scenario.design
     if "drive" in base:
         base |= {"drive": with_axes_held(base["drive"])}
     further = dict(data["design"].get("part") or {})
     for name, part in further.items():  # on the drive of the scenario, where both have one
         if "drive" in part and "drive" in base:
             further[name] = part | {"drive": base["drive"]}
-    for searched in (base, *further.values()):  # one law for all candidates
-        with suppress(InputError):  # whoever evaluates it says why
-            put_chosen(searched, load_data(searched, "scenario").case.chosen())
     fields, _ = parts_of_design(table, sources_of({BASE: base, **further}))
     return DesignCase(
         **head_of(scenario, toml, sha256),

@@ -25,7 +25,7 @@ from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.sources import own
 from tribodyn.studies.protocol.cluster import workers_of
 from tribodyn.studies.protocol.evaluated import evaluated, kept_in, within
-from tribodyn.studies.protocol.load import Loaded, loaded_from, table_of
+from tribodyn.studies.protocol.load import Loaded, SoundScenario, sound, table_of
 
 #: Keys of `operating` of which one is given.
 ALTERNATIVES = (SPEEDS, LOADS)
@@ -38,12 +38,17 @@ Results = list[dict[str, Any] | str]
 
 def loaded_case(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> Loaded:
     """Load the base scenario with some keys set; raises as `protocol.load.load`."""
+    return sound_case(base, overrides).loaded()
+
+
+def sound_case(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> SoundScenario:
+    """The same before its case is made."""
     data, given = copy.deepcopy(dict(base)), {same_key(key) for key in overrides}
     for group in ALTERNATIVES:
         if any(f"operating.{name}" in given for name in group):
             for name in group:  # what is given takes the place of what stands there
                 data.get("operating", {}).pop(named_in(data.get("operating", {}), name), None)
-    return loaded_from(resolve_table(data, FILE, overrides, table_of), FILE)
+    return sound(resolve_table(data, FILE, overrides, table_of), FILE)
 
 
 def loaded_source(

@@ -1,0 +1,127 @@
+"""Gears of studies of kinds that do not move, as they are shown while they are edited."""
+
+import numpy as np
+import pytest
+
+from tests.support.verbs import complaints
+from tribodyn.app.core.document import Document
+from tribodyn.app.core.live import Live, LiveRequest
+from tribodyn.studies.protocol.load import load
+
+
+@pytest.fixture(scope="module")
+def live(tmp_path_factory):
+    return Live(tmp_path_factory.mktemp("live"))
+
+
+def of(document: Document, **more) -> LiveRequest:
+    return LiveRequest(document.text, str(document.path), **more)
+
+
+def written(folder, text: str) -> Document:
+    path = folder / "mine.toml"
+    path.write_text(text)
+    return Document.open(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "teeth", "meshes"),
+    [
+        ("efficiency-involute-18-36", [18, 36], [""]),
+        ("load-contact-shafts", [23, 47], [""]),
+        ("wear-18-36", [18, 36], [""]),
+        ("ehl-involute-23-47", [23, 47], [""]),
+        ("assessment-helical-24-95", [24, 95], [""]),
+        ("design-shift-23-47", [23, 47], [""]),
+        ("map-two-stage-reducer", [23, 69], ["first", "second"]),
+    ],
+)
+def test_teeth_of_any_kind_are_shown(live, name, teeth, meshes):
+    shown = live.compute("geometry", of(Document.open(name)))
+    assert shown["ok"]
+    assert [gear["teeth"] for gear in shown["gears"]] == teeth
+    assert shown["meshes"] == meshes
+    assert (shown["train"] is not None) is (len(meshes) > 1)
+    still = live.compute("motion", of(Document.open(name)))
+    assert "start it by Run" in still["remarks"][0]
+    assert "curves" not in still
+
+
+@pytest.mark.parametrize("name", ["load-contact-18-36", "load-contact-misaligned"])
+def test_slow_rotation_is_that_of_a_load_contact_study(live, tmp_path, name):
+    """The study presses the teeth at each position; the page reads a table of secants at the load."""
+    document = Document.open(name)
+    slow = live.compute("static", of(document))
+    loaded = load(document.save(tmp_path / "mine.toml"))
+    run = loaded.study.run(loaded.case, tmp_path / "mine.h5").summary
+    error = slow["transmission_error"][0]
+    assert np.mean(error) == pytest.approx(1e6 * run["loaded_transmission_error_mean"], rel=5e-3)
+    assert np.ptp(error) == pytest.approx(1e6 * run["loaded_transmission_error_peak_to_peak"], rel=1e-2)
+    assert np.max(slow["load"]) == pytest.approx(run["normal_load_max"], rel=5e-3)
+
+
+def test_a_mesh_of_a_mapped_train_is_that_of_the_train(live):
+    mapped, train = Document.open("map-two-stage-reducer"), Document.open("two-stage-reducer")
+    for stage, name in (("geometry", "contact"), ("static", "transmission_error"), ("torques", "torques")):
+        one, other = (live.compute(stage, of(each, mesh="second")) for each in (mapped, train))
+        np.testing.assert_array_equal(one[name], other[name])
+
+
+def test_a_search_is_shown_as_it_begins(live, tmp_path):
+    """Values beyond their range are at its nearest end."""
+    search = written(
+        tmp_path,
+        """
+        title = "Search"
+        kind = "design"
+        [scenario]
+        like = "ehl-involute-23-47"
+        [scenario.drive]
+        like = "liu-ni-involute-23-47"
+        [scenario.drive.pinion]
+        profile_shift = 0.5
+        [design]
+        minimise = "friction_coefficient_mean"
+        free = [
+            { key = "drive.pinion.profile_shift", from = -0.1, to = 0.2 },
+            { key = "drive.gear.profile_shift", from = 0.1, to = 0.3 },
+        ]
+        """,
+    )
+    begun = live.compute("geometry", of(search))
+    assert begun["errors"] == []
+    assert begun["remarks"] == [
+        "Shown is the start of the search: drive.pinion.profile_shift = 0.2, drive.gear.profile_shift = 0.1."
+    ]
+    pair = Document.open("ehl-involute-23-47")
+    for side, shift in (("pinion", 0.2), ("gear", 0.1)):
+        pair.set(f"drive.{side}.profile_shift", shift)
+    alone = live.compute("geometry", of(pair))
+    assert begun["tables"] == alone["tables"]
+    np.testing.assert_array_equal(begun["gears"][0]["outline"], alone["gears"][0]["outline"])
+
+
+def test_what_is_wrong_within_a_scenario_is_named_as_by_the_check(live, tmp_path):
+    broken = written(
+        tmp_path,
+        """
+        title = "Map"
+        kind = "map"
+        [scenario]
+        like = "spur-25-51"
+        [scenario.drive]
+        like = "spur-25-51"
+        [scenario.drive.pinion]
+        bore_radius = "90 mm"
+        """,
+    )
+    (error,) = live.compute("geometry", of(broken))["errors"]
+    assert error["key"] == "scenario.drive.pinion.bore_radius"
+    (said,) = complaints("check", broken.path)
+    assert error["rule"] in said
+
+
+def test_helical_teeth_by_finite_elements_are_shown_by_the_energy_method(live):
+    """An assessment presses them by finite elements; that the page does not is said."""
+    shown = live.compute("geometry", of(Document.open("assessment-helical-24-95")))
+    assert any("energy method" in remark for remark in shown["remarks"])
