@@ -36,7 +36,7 @@ def numbers_of(results: Mapping[str, Result]) -> list[ShownNumber]:
 
 
 def _of_rows(results: Mapping[str, Result]) -> Iterator[ShownNumber]:
-    for stage in ("motion", "strength"):
+    for stage in ("motion", "strength", "check"):
         for row in results.get(stage, {}).get("rows", ()):
             if row["heading"] in _LEFT_OUT:
                 continue

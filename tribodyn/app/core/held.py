@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.gears.case import GearCase, OiledCase
+from tribodyn.gears.rating.settings import RatingTable
 from tribodyn.gears.scenario import GearScenario, gear_fields
 from tribodyn.geometry.drive import SIDES
 from tribodyn.input.messages import Origins
@@ -48,10 +49,16 @@ class HeldGears(NamedTuple):
     place: str = ""  # before their keys, where they are those of a scenario within this one
     remarks: tuple[str, ...] = ()  # which state of them this is
 
+    rated: bool = False  # whether the kind rates them itself
+
+    def chosen(self, name: str) -> HeldMesh:
+        """The mesh of a name; the first where there is none."""
+        return next((mesh for mesh in self.meshes if mesh.name == name), self.meshes[0])
+
     @property
-    def in_places(self) -> bool:
-        """Whether they are those of a train, which stand in places of its own."""
-        return self.gearbox is not None and self.gearbox.named
+    def train(self) -> Gearbox | None:
+        """The gearbox of a train, whose gears stand in places of their own."""
+        return self.gearbox if self.gearbox is not None and self.gearbox.named else None
 
 
 def held_by(sound: SoundScenario, place: str = "") -> HeldGears | None:
@@ -64,13 +71,19 @@ def held_by(sound: SoundScenario, place: str = "") -> HeldGears | None:
             return _of_gearbox(sound)._replace(place=place)
         if isinstance(sound.scenario, GearScenario):
             pair, said = _at_hand(_pair(in_force(sound.scenario)))
-            return HeldGears((HeldMesh("", SIDES, pair),), place=place, remarks=said)
+            return HeldGears((HeldMesh("", SIDES, pair),), place=place, remarks=said, rated=_rates(sound))
     if not isinstance(getattr(sound.scenario, "scenario", None), Table):
         return None
     with keys_within(sound.origins, f"{place}scenario."):
         within, said = _within(sound)
     found = held_by(within._replace(origins=sound.origins), f"{place}scenario.")
-    return found and found._replace(remarks=(*filter(None, [said]), *found.remarks))
+    said = (*filter(None, [said]), *found.remarks) if found else ()
+    return found and found._replace(remarks=said, rated=found.rated or _rates(sound))
+
+
+def _rates(sound: SoundScenario) -> bool:
+    """Whether a scenario has settings of a rating."""
+    return any(isinstance(value, RatingTable) for _, value in sound.scenario)
 
 
 @contextmanager

@@ -20,7 +20,7 @@ from tribodyn.app.core.messages import Message, data_of, findings
 from tribodyn.app.core.motion import motion_of
 from tribodyn.app.core.shown import tables_of
 from tribodyn.app.core.slow_rotation import at_torques, slow_rotation
-from tribodyn.app.core.strength import strength_of
+from tribodyn.app.core.strength import rated_rows, strength_of
 from tribodyn.cases.assessment_part import Meshing
 from tribodyn.cases.results import Progress
 from tribodyn.errors import InputError, OutputError, SimulationError
@@ -33,6 +33,7 @@ from tribodyn.studies.protocol.load import Loaded, SoundScenario
 STAGES = ("geometry", "static", "motion", "torques", "strength", "check")
 #: Scenarios whose cases are kept, as one is edited and compared with others.
 KEPT = 8
+_RATED = "S_H and S_F are those of the check, with the factors that the scenario gives."
 #: Shares of the nominal torque at which the transmission error is shown.
 SHARES = (0.5, 1.0, 1.5)
 _UNLOADED = "The duty has no torque: nothing is loaded."
@@ -93,15 +94,17 @@ class Live:
         sound = self._of_text(request)
         if stage == "check" or sound.study in MOVING:
             return ""
-        if self._held(request) is None:
+        if (held := self._held(request)) is None:
             return _ELSEWHERE % sound.study.kind
-        return _STILL % sound.study.kind if stage in ("motion", "strength") else ""
+        if stage == "strength" and held.rated:
+            return _RATED
+        return _STILL % sound.study.kind if stage == "motion" else ""
 
     def _geometry(self, request: LiveRequest) -> dict[str, Any]:
         """`meshes` and the `mesh`, what `mesh_geometry` has, and of a train `train`, as `train_geometry`."""
         with self._mesh(request) as (held, mesh):
-            shown = mesh_geometry(mesh, assembled(mesh.pair), alone=not held.in_places)
-            shown["train"] = train_geometry(held.gearbox) if held.in_places else None
+            shown = mesh_geometry(mesh, assembled(mesh.pair), alone=held.train is None)
+            shown["train"] = train_geometry(held.train) if held.train is not None else None
             return _names(held, mesh) | shown | {"remarks": list(held.remarks)}
 
     def _static(self, request: LiveRequest) -> dict[str, Any]:
@@ -126,8 +129,13 @@ class Live:
             return _names(held, mesh) | strength_of(mesh.pair, assembled(mesh.pair), turns)
 
     def _check(self, request: LiveRequest) -> dict[str, Any]:
-        """`tables`, `details` and `remarks` as ``tribodyn check`` prints them, and its `data`, SI."""
+        """`tables`, `details` and `remarks` as ``tribodyn check`` prints them, and its `data`, SI.
+
+        Of gears that it rates `rows` of the safeties of the mesh, as `rated_rows`.
+        """
         loaded = self._case(request)
+        held = self._held(request)
+        mesh = held.chosen(request.mesh).name if held is not None else ""
         with loaded.naming():
             checked = loaded.study.check(loaded.case)
         return {
@@ -136,6 +144,7 @@ class Live:
             "remarks": list(checked.remarks),
             "warnings": list(checked.warnings),
             "data": checked.data,
+            "rows": rated_rows(checked.data, mesh) if held is not None and held.rated else [],
         }
 
     def _motion(self, request: LiveRequest) -> dict[str, Any]:
@@ -166,7 +175,7 @@ class Live:
         """
         held = self._held(request)
         assert held is not None, "said to be missing"
-        mesh = next((mesh for mesh in held.meshes if mesh.name == request.mesh), held.meshes[0])
+        mesh = held.chosen(request.mesh)
         with keys_within(self._of_text(request).origins, held.place):
             yield held, mesh
 

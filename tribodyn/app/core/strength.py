@@ -1,10 +1,11 @@
 """Safeties of a mesh against pitting and tooth bending by ISO 6336, as its duty alone gives them."""
 
+from collections.abc import Mapping
 from typing import Any
 
-from tribodyn.app.core.shown import row_of
+from tribodyn.app.core.shown import Row, row_of
 from tribodyn.cases.assessment_part import Meshing
-from tribodyn.gears.case import LubricatedCase
+from tribodyn.gears.case import GearCase, OiledCase
 from tribodyn.gears.rating.capacity import capacity_of, life_bins, safeties
 from tribodyn.gears.rating.settings import RatingTable
 from tribodyn.gears.rating.standard import load_factors, rated_duty
@@ -18,14 +19,14 @@ _TAKEN = "K_A, K_γ and K_Hβ are 1, the whole life is at this duty: an assessme
 
 
 def strength_of(
-    pair: LubricatedCase, assembly: Assembly, meshing: tuple[Meshing, Meshing] = (Meshing(), Meshing())
+    pair: GearCase, assembly: Assembly, meshing: tuple[Meshing, Meshing] = (Meshing(), Meshing())
 ) -> dict[str, Any]:
     """`rows` of S_H, S_F and the life of a pair whose pinion drives, and of either gear in `gears`.
 
     `remarks` say what was taken, or what is missing: then there are no rows.
     """
     missing = _missing(pair, assembly)
-    if missing:
+    if missing or not isinstance(pair, OiledCase):
         return {"rows": [], "gears": [], "remarks": missing}
     settings, temperature = RatingTable(), pair.lubricant.temperature
     warm = ZERO_CELSIUS if temperature is None else float(temperature)
@@ -40,19 +41,26 @@ def strength_of(
     return {"rows": rows, "gears": gears, "remarks": [*metal_remarks(pair), *capacity.remarks, _TAKEN]}
 
 
-def _missing(pair: LubricatedCase, assembly: Assembly) -> list[str]:
+def rated_rows(data: Mapping[str, Any], mesh: str) -> list[Row]:
+    """Rows of S_H and S_F, those of the weaker gear, that a check has of a mesh, if it rates any."""
+    iso = data.get("rating", {}).get(mesh, data).get("iso", {})
+    shown = quantities("S_H", "S_F")
+    return [row_of(each, min(iso[each.name].values())) for each in shown if each.name in iso]
+
+
+def _missing(pair: GearCase, assembly: Assembly) -> list[str]:
     """Why the standard cannot rate a pair; nothing where it can."""
     if not assembly.family.involute:
         return ["ISO 6336 rates involute teeth alone."]
     reasons = []
     if pair.drive.pinion.teeth < 0:
         reasons.append("The ring drives: an assessment rates its mate.")
-    if pair.operating.gear_torque <= 0.0 or pair.operating.pinion_speed <= 0.0:
+    if not (pair.operating.gear_torque > 0.0 and pair.operating.pinion_speed > 0.0):
         reasons.append("ISO 6336 rates a duty in which the pinion drives.")
     if pair.quality is None:
         reasons.append("No tolerance class is given (quality): ISO 6336-1 takes deviations from it.")
     if metals_of(pair) is None:
         reasons += [remark for remark in metal_remarks(pair) if "no heat treatment" in remark]
-    if pair.lubricant.sheet is None:
-        reasons.append("The oil has no data sheet, which ISO 6336-2 takes its viscosity from.")
+    if not isinstance(pair, OiledCase) or pair.lubricant.sheet is None:
+        reasons.append("There is no oil with a data sheet, which ISO 6336-2 takes its viscosity from.")
     return reasons

@@ -110,7 +110,7 @@ class DesignScenario(ScenarioHead):
     @classmethod
     def begun(cls, sound: SoundScenario) -> tuple[SoundScenario, str]:
         """The scenario that is searched through with its free keys at the start, and what they are there."""
-        case = _case(sound.scenario, copy.deepcopy(sound.data), "", "")
+        case = _case(sound.scenario, copy.deepcopy(sound.data), choose=False)
         start = own(BASE, type(sound.scenario.scenario), chosen(case, start_of(case)), case.scenarios)
         values = [f"{key} = {value}" for key, value in start.items()]
         more = f" and {len(values) - _FEW} more" if len(values) > _FEW else ""
@@ -152,15 +152,13 @@ def _with_fields(model: type[Table], **fields: Any) -> Any:
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
     """Return the case of a scenario that has passed schema and rules."""
-    case = _case(scenario, tomllib.loads(toml), toml, sha256)
-    for searched in case.scenarios.values():  # one law for all candidates
-        with suppress(InputError):  # whoever evaluates it says why
-            put_chosen(searched, load_data(searched, "scenario").case.chosen())
-    return case
+    return _case(scenario, tomllib.loads(toml), toml, sha256)
 
 
-def _case(scenario: Scenario, data: Any, toml: str, sha256: str) -> DesignCase:
-    """The case; its scenarios are the parts of `data` that they are."""
+def _case(
+    scenario: Scenario, data: Any, toml: str = "", sha256: str = "", *, choose: bool = True
+) -> DesignCase:
+    """The case of a scenario with data of its own; `choose` laws that it leaves open."""
     base, table = data["scenario"], scenario.design
     if "drive" in base:
         base |= {"drive": with_axes_held(base["drive"])}
@@ -168,6 +166,9 @@ def _case(scenario: Scenario, data: Any, toml: str, sha256: str) -> DesignCase:
     for name, part in further.items():  # on the drive of the scenario, where both have one
         if "drive" in part and "drive" in base:
             further[name] = part | {"drive": base["drive"]}
+    for searched in (base, *further.values()) if choose else ():  # one law for all candidates
+        with suppress(InputError):  # whoever evaluates it says why
+            put_chosen(searched, load_data(searched, "scenario").case.chosen())
     fields, _ = parts_of_design(table, sources_of({BASE: base, **further}))
     return DesignCase(
         **head_of(scenario, toml, sha256),

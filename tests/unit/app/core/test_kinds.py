@@ -125,3 +125,21 @@ def test_helical_teeth_by_finite_elements_are_shown_by_the_energy_method(live):
     """An assessment presses them by finite elements; that the page does not is said."""
     shown = live.compute("geometry", of(Document.open("assessment-helical-24-95")))
     assert any("energy method" in remark for remark in shown["remarks"])
+    rated = live.compute("strength", of(Document.open("assessment-helical-24-95")))
+    assert "those of the check" in rated["remarks"][0]
+
+
+def test_safeties_of_an_oiled_pair_are_those_of_its_motion(live):
+    """Whatever the kind, the standard rates the same pair, oil and duty."""
+    motion = Document.open("helical-23-47")
+    motion.set("drive", "helical-24-95")
+    contact = Document.open("efficiency-helical-24-95")
+    for key in ("lubricant", "operating"):
+        value = contact.written()[key]
+        motion.unset(key)
+        motion.set(key, value)
+    one, other = (
+        [row["value"] for row in live.compute("strength", of(each))["rows"]] for each in (motion, contact)
+    )
+    assert len(one) == 3
+    assert one == pytest.approx(other, rel=1e-9)

@@ -196,8 +196,8 @@ def test_a_duty_without_torque_shows_teeth_and_says_why_nothing_is_loaded(live):
 
 def test_safeties_are_those_of_an_assessment(live):
     """The same pair, oil and duty with K_A = 1, as the check of an assessment rates it."""
-    rated = load("assessment-helical-24-95", {"assessment.application_factor": 1.0})
-    iso = rated.study.check(rated.case).data["iso"]
+    rated = live.compute("check", of(edited("assessment-helical-24-95", assessment__application_factor=1.0)))
+    iso = rated["data"]["iso"]
     document = Document.open("helical-23-47")
     document.set("drive", "helical-24-95")
     for key, value in Document.open("assessment-helical-24-95").written().items():
@@ -212,6 +212,9 @@ def test_safeties_are_those_of_an_assessment(live):
         )
     least = {row["name"]: row["value"] for row in shown["rows"]}
     assert least["S_H"] == pytest.approx(min(iso["S_H"].values()))
+    assert {row["name"]: row["value"] for row in rated["rows"]} == pytest.approx(
+        {name: least[name] for name in ("S_H", "S_F")}, rel=1e-9
+    )
     assert any("K_A" in remark for remark in shown["remarks"])
 
 
