@@ -61,6 +61,7 @@ def test_a_mistake_in_the_file(scenario: Path, old: str, new: str, key: str, rul
 
 RANGE = "a range, where one value is expected; write"
 GRADES = 'did you mean "iso-vg-320-mineral" or "iso-vg-320-pao"?'
+SPRINGS = '{ stiffness_x = "1e6 N/m", stiffness_y = "1e6 N/m", damping_ratio = 0.05 }'
 BEARING = "bearings.gear.damping_ratio"
 WITH_SET = [
     ("drive.pinion.teeth=0", "drive.pinion.teeth = 0", "must be at least 4"),
@@ -68,6 +69,7 @@ WITH_SET = [
     ("drive.material.poisson_ratio=0.5", "drive.material.poisson_ratio = 0.5", "must be less than 0.5"),
     (f"{BEARING}_x=0.1", f"{BEARING} = 0.05", "contradicts damping_ratio_x and damping_ratio_y"),
     ("bearings.damping_ratio=0.05", "bearings.damping_ratio = 0.05", "[bearings.pinion] and [bearings.gear]"),
+    (f"bearings.default={SPRINGS}", "bearings.default", "has no effect: pinion and gear have bearings"),
     ("solver.cycles.more=1", "solver.cycles.more", "is not a table"),
     ('lubricant="ISO VG 320"', 'lubricant = "ISO VG 320"', GRADES),
     ("operating.pinion_speed=500-6000rpm", 'operating.pinion_speed = "500-6000rpm"', f'{RANGE} "500 rpm"'),

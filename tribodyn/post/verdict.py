@@ -28,8 +28,9 @@ LINES = 6
 IN_DOUBT = 0.2
 #: Film over roughness below which asperities carry much of the load, and above which they carry none.
 ROUGH, SMOOTH = 1.0, 3.0
-#: Share of time without contact that counts; factor on the mean mesh force that is a resonance.
-APART, RESONANT = 1e-4, 1.5
+#: Share of time without contact that counts; factor on the mean mesh force that is a resonance; mean
+#: transmission error over what teeth bend from which bearings are soft.
+APART, RESONANT, SOFT = 1e-4, 1.5, 10.0
 #: What a remark says on engagement that is all of a dynamic factor.
 KNOCK = "the knock of pairs"
 #: What it means that a limit of a law is exceeded, by how the limit begins.
@@ -121,6 +122,10 @@ def moved(summary: Mapping[str, Any]) -> Iterable[str]:
             parts.append(f"{cause} raises the tooth forces to {factor:.2f} times their mean")
         parts.append(apart(summary.get("contact_loss_fraction") or 0.0))
         yield f"{'; '.join(parts)}."
+    mean, bent = (summary.get(f"transmission_error_{of}mean", 0.0) for of in ("", "normal_"))
+    if abs(mean) > SOFT * abs(bent) > 0.0:
+        both = (with_unit("transmission_error_mean", each) for each in (mean, bent))
+        yield "The bearings are soft: of a mean transmission error of {} teeth bend {}.".format(*both)
     if (loaded := summary.get("loaded_transmission_error_peak_to_peak")) is not None:
         text = with_unit("loaded_transmission_error_peak_to_peak", loaded)
         yield f"In slow rotation under load the transmission error swings by {text}."
@@ -135,9 +140,7 @@ def pressed(summary: Mapping[str, Any]) -> Iterable[str]:
     if ratio is not None:
         thick = f"at least {with_unit('film_min', film)}, " if film is not None else "at least "
         parts.append(f"the oil film is {thick}{ratio:.2g} times the roughness: {lubrication(ratio)}")
-    roots = [
-        summary[name] for name in ("pinion_root_tension_max", "gear_root_tension_max") if name in summary
-    ]
+    roots = [summary[of] for of in ("pinion_root_tension_max", "gear_root_tension_max") if of in summary]
     if roots:
         parts.append(f"the tooth-root tensile stress is {with_unit('pinion_root_tension_max', max(roots))}")
     if parts:

@@ -15,7 +15,7 @@ from tribodyn import signals
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import Sensed, read_sensed
-from tribodyn.studies.pages import names, write_report
+from tribodyn.studies.pages import names, study_of_record, write_report
 from tribodyn.studies.protocol.load import load_data, load_scenario
 from tribodyn.studies.protocol.run import run
 
@@ -142,6 +142,15 @@ def test_lines_and_numbers_are_those_of_the_mesh(sensed: Sensed, pair: Path):
     assert numbers["shafts"]["pinion"]["turns"] == REVOLUTIONS - 2  # those that are whole
     assert numbers["shafts"]["pinion"]["sideband_energy_ratio"] < 0.01  # all teeth are alike
     assert "fm4" not in numbers["shafts"]["pinion"]  # nothing is left of a perfect mesh
+
+
+def test_sensors_of_what_is_given_and_constant_are_named(sensed: Sensed, pair: Path):
+    """The pinion turns at a constant speed, and the load is constant."""
+    constant = {name for name in ("pinion", "loaded", "driven", "gear") if np.ptp(sensed[name].values) < 1e-9}
+    with Record(pair) as record:
+        (said,) = [line for line in study_of_record(record).sentences(record) if "nothing" in line]
+    assert constant == {"pinion", "loaded"}
+    assert said == "loaded, pinion hear nothing: what is measured there is given, and constant."
 
 
 def test_a_run_that_keeps_few_samples_has_the_same_signals(pair: Path, sensed: Sensed, tmp_path: Path):

@@ -1,4 +1,4 @@
-"""Whether a run has settled, and what of its dynamic factor is engagement: against other runs."""
+"""Whether a run has settled, what is engagement and what bearings: against other runs, and by hand."""
 
 import numpy as np
 import pytest
@@ -114,3 +114,15 @@ def test_far_below_all_resonances_a_dynamic_factor_is_the_engagement_of_the_ener
     assert "K_v 1." in energy["engagement_remark"]
     assert elements["dynamic_factor"] < 1.05
     assert not elements.get("engagement_remark")
+
+
+@pytest.mark.parametrize(("stiffness", "soft"), [(2e7, True), (1e9, False)])
+def test_a_transmission_error_that_is_of_bearings_is_told_by_them(stiffness: float, soft: bool):
+    """Either gear gives way by F_n/k along the path of contact: 2 F_t/(k cos² α) at the pitch radius."""
+    springs = {f"bearings.{side}.stiffness_{axis}": stiffness for side in ("pinion", "gear") for axis in "xy"}
+    rest = {"friction.law": "none", "operating.pinion_speed": "60 rpm", "solver.cycles": 8}
+    run = td.run("spur-25-51", {name: f"{k:g} N/m" for name, k in springs.items()} | rest, progress=False)
+    of_bearings = 2.0 * 550.0 / (0.5 * 51 * 3e-3) / (stiffness * np.cos(np.radians(20.0)) ** 2)
+    mean, bent = (run.summary[f"transmission_error_{of}mean"] for of in ("", "normal_"))
+    assert mean - bent / np.cos(np.radians(20.0)) == pytest.approx(of_bearings, rel=0.02)
+    assert ("bearings are soft" in " ".join(run.verdict)) is soft

@@ -4,6 +4,8 @@ from collections.abc import Iterator, Mapping
 from math import isfinite
 from typing import Any
 
+import numpy as np
+
 from tribodyn.cases.results import TextTable
 from tribodyn.quantities.catalogue import GROUPS
 from tribodyn.record.reader import Record
@@ -16,6 +18,8 @@ from tribodyn.signals.lines import MESH, SHAFT, SignalLine
 SENSORS, SHAFTS = "sensors", "shafts"
 #: Turns of a shaft from which its average is worth a number.
 FEWEST_TURNS = 2
+#: Changes of a signal over its largest magnitude that are rounded digits.
+ROUNDED = 1e-12
 
 
 def signal_quantities(sensed: Sensed) -> dict[str, Any]:
@@ -33,7 +37,9 @@ def signal_quantities(sensed: Sensed) -> dict[str, Any]:
 
 
 def _of_signal(signal: SensorSignal) -> dict[str, float]:
-    numbers = of_signal(signal.values)
+    values = signal.values
+    constant = np.ptp(values) <= ROUNDED * np.max(np.abs(values))
+    numbers = of_signal(np.zeros_like(values) if constant else values)
     if signal.kind == "sound":
         power = power_of(signal.values)
         numbers |= {"sound_power": power, "sound_power_level": level_of(power)}
@@ -65,6 +71,17 @@ def toothed_shafts(lines: tuple[SignalLine, ...]) -> list[tuple[SignalLine, list
 def turns_of(signal: SensorSignal, shaft: SignalLine) -> float:
     """Revolutions of a shaft in a signal."""
     return float(signal.turns[-1] - signal.turns[0]) * shaft.order if len(signal.turns) > 1 else 0.0
+
+
+def on_silent(summary: Mapping[str, Any]) -> list[str]:
+    """Say which sensors are where the scenario gives a constant."""
+    sensors = summary.get(SENSORS)
+    signals = sensors.items() if isinstance(sensors, Mapping) else ()
+    silent = [str(name) for name, of in signals if isinstance(of, Mapping) and of.get("peak_to_peak") == 0.0]
+    if not silent:
+        return []
+    names, hear = ", ".join(silent), "hears" if len(silent) == 1 else "hear"
+    return [f"{names} {hear} nothing: what is measured there is given, and constant."]
 
 
 def sensor_tables(record: Record) -> list[TextTable]:

@@ -169,6 +169,9 @@ def broken_bearing_rules(bearings: Bearings, drawn_sides: Collection[str] = ()) 
     Nothing is missing of gears whose shafts are `drawn_sides`.
     """
     yield from broken_bearings(bearings, [*SIDES, DEFAULT], "gear")
+    if {*SIDES, DEFAULT} <= set(bearings.by_name):
+        rule = "has no effect: pinion and gear have bearings of their own"
+        yield InputError(f"bearings.{DEFAULT}", None, rule, "write [bearings.pinion] and [bearings.gear]")
     for side in SIDES:
         if side not in drawn_sides and bearings.of(side) is None:
             remedy = (

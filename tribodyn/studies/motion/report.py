@@ -14,7 +14,7 @@ from tribodyn.gears.case import (
     stage_table,
 )
 from tribodyn.gears.motion.extremes import on_extremes
-from tribodyn.gears.sensing.signal_quantities import sensor_tables
+from tribodyn.gears.sensing.signal_quantities import on_silent, sensor_tables
 from tribodyn.post import verdict as of_any
 from tribodyn.post.page.motion import Mechanism
 from tribodyn.post.page.solid import Solid
@@ -263,8 +263,9 @@ def _listed(parts: Sequence[str]) -> str:
 def sentences(record: Record) -> list[str]:
     """Say over which cycles means are, and of all meshes what of a pair is said of it."""
     summary, meshes = record.summary, record.mesh_summaries
+    ends = [*on_energy(summary), *on_silent(summary)]
     if not record.names_meshes:
-        return [*on_methods(summary), *on_extremes(summary), *on_closures(summary), *on_energy(summary)]
+        return [*on_methods(summary), *on_extremes(summary), *on_closures(summary), *ends]
     of_train = {name: value for name, value in summary.items() if name != "averaging_cycles"}
     meshes_by_line: dict[str, list[str]] = {}
     for name, mesh in meshes.items():
@@ -274,7 +275,7 @@ def sentences(record: Record) -> list[str]:
         line if len(names) == len(meshes) else f"{line[:-1]} ({together(names)})."
         for line, names in meshes_by_line.items()
     ]
-    return [*on_methods(of_train), *_on_period(record), *of_meshes, *on_energy(summary)]
+    return [*on_methods(of_train), *_on_period(record), *of_meshes, *ends]
 
 
 def _on_period(record: Record) -> list[str]:
