@@ -12,7 +12,7 @@ from tribodyn.app.examples import EXAMPLES
 from tribodyn.app.folder import measured_endings, scenario_endings
 from tribodyn.app.job_view import JobsDialog
 from tribodyn.app.kept import KeptWork
-from tribodyn.app.parts import BarPart, BringPart, TourPart
+from tribodyn.app.parts import BarPart, BringPart, PageDialog, TourPart
 from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError, OutputError, quoted
 from tribodyn.input.sources import SCENARIOS, is_file, names, shipped
@@ -167,7 +167,7 @@ class Bar:
         return ""
 
     def _save_as(self) -> None:
-        with ui.dialog(value=True).props('aria-label="Save as"') as dialog, ui.card().classes("tb-dialog"):
+        with PageDialog("Save as") as dialog, ui.card().classes("tb-dialog"):
             ui.label("Save as").classes("tb-title").props("role=heading aria-level=2")
             name = ui.input("Name in this folder", value=self.window.document.path.name).classes(
                 "tb-wide-input"
@@ -199,7 +199,7 @@ class Bar:
             what = "It is too long for an address. It opens by: tribodyn app 'LINK'."
         if len(address) > _LONGEST_WORD:
             what = "It is too long for an address and for a command: save the scenario, and pass the file on."
-        with ui.dialog(value=True).props('aria-label="Link"') as dialog, ui.card().classes("tb-dialog"):
+        with PageDialog("Link") as dialog, ui.card().classes("tb-dialog"):
             ui.label("Link").classes("tb-title").props("role=heading aria-level=2")
             ui.label(
                 f"It holds this scenario and its variants. {what} It names no file of yours but this one."
@@ -213,7 +213,7 @@ class Bar:
     def _open(self) -> None:
         folder = self.window.folder
         endings = scenario_endings()
-        with ui.dialog(value=True).props('aria-label="Open"') as dialog, ui.card().classes("tb-dialog"):
+        with PageDialog("Open") as dialog, ui.card().classes("tb-dialog"):
             ui.label("Open").classes("tb-title").props("role=heading aria-level=2")
             wrong = ui.label().classes("tb-error").props("role=alert")
             if self.window.document.unsaved:

@@ -9,7 +9,7 @@ from tribodyn.app.core.document import Document
 from tribodyn.app.core.form import form_of
 from tribodyn.app.folder import measured_endings
 from tribodyn.app.kept import KeptWork
-from tribodyn.app.parts import JobsPart
+from tribodyn.app.parts import JobsPart, PageDialog
 from tribodyn.app.tasks import TASKS, TaskRun, refusals_of
 from tribodyn.app.window import DesignWindow
 from tribodyn.errors import InputError, OutputError, quoted
@@ -29,7 +29,7 @@ class JobsDialog:
         self.window, self.address, self.kept, self.say = window, address, kept, say
         self.inputs: dict[str, ui.input] = {}
         self.kind, self.task = "", ""  # of the study, and what was asked for, when it was open last
-        self.dialog: ui.dialog | None = None
+        self.dialog: PageDialog | None = None
         self.timer = ui.timer(_EACH, self._show, active=False)
 
     def open(self) -> None:
@@ -41,7 +41,7 @@ class JobsDialog:
         suitable = [name for name, reason in refusals.items() if not reason]
         if kind != before or self.task not in suitable:
             self.task = suitable[0]
-        with ui.dialog(value=True).props('aria-label="Run"') as self.dialog, ui.card().classes("tb-dialog"):
+        with PageDialog("Run") as self.dialog, ui.card().classes("tb-dialog"):
             ui.label("Run").classes("tb-title").props("role=heading aria-level=2")
             ui.label("It reads the saved file, runs beside this page and writes into its folder.")
             choice = ui.select(suitable, value=self.task, label="What").classes("tb-wide-input")

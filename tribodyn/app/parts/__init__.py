@@ -17,6 +17,16 @@ STYLE = Path(__file__).with_name("page.css")
 _ = ui.plotly
 
 
+class PageDialog(ui.dialog):
+    """A dialog that is open; it closes at once, whatever the server is at."""
+
+    LOOPBACK = False
+
+    def __init__(self, title: str) -> None:
+        super().__init__(value=True)
+        self.props(f'aria-label="{title}"')
+
+
 class _PagePart(Element):
     """A part that says what happens in it, and is drawn anew only where it has changed."""
 
