@@ -19,11 +19,25 @@ class Chart(NamedTuple):
     title: str
     each: str = ""  # what its rows or columns are: "torque", "pair"
     bars: bool = False
+    note: str = ""  # what is in it, and what is not
 
 
 CHARTS = (
-    Chart("te-static", "static", "transmission_error", "Transmission error, quasi-static", "torque"),
-    Chart("te-motion", "motion", "transmission_error_rotational", "Transmission error, in motion"),
+    Chart(
+        "te-static",
+        "static",
+        "transmission_error",
+        "Transmission error, quasi-static",
+        "torque",
+        note="Of the teeth alone: what bearings and shafts give under the load is not in it.",
+    ),
+    Chart(
+        "te-motion",
+        "motion",
+        "transmission_error_rotational",
+        "Transmission error, in motion",
+        note="Of the gears' rotations: bearings and shafts, which give under the load, add to its mean.",
+    ),
     Chart("te-torques", "torques", "transmission_error", "Transmission error at several torques", "torque"),
     Chart("stiffness", "static", "stiffness", "Mesh stiffness", "torque"),
     Chart("load-motion", "motion", "normal_load", "Load of the pairs, in motion", "pair"),
@@ -79,6 +93,7 @@ def _drawn(chart: Chart, result: Result, values: np.ndarray) -> dict[str, Any]:
         "name": chart.name,
         "stage": chart.stage,
         "title": chart.title,
+        "note": chart.note,
         "kind": "bars" if chart.bars else "lines",
         "x_label": label,
         "x_unit": "",

@@ -12,7 +12,7 @@ export default {
   <figure v-for="chart in charts" :key="chart.name" class="tb-chart" :data-chart="chart.name" :class="{late: late.includes(chart.stage)}">
     <h3>{{ chart.title }}<span class="tb-quiet" v-if="chart.y_unit && chart.y_unit !== '1'"> ({{ chart.y_unit }})</span></h3>
     <div class="tb-plot" role="img" :aria-label="said[chart.name]" :data-plot="chart.name"></div>
-    <figcaption class="tb-quiet">{{ said[chart.name] }}</figcaption>
+    <figcaption class="tb-quiet">{{ said[chart.name] }}<br v-if="chart.note">{{ chart.note }}</figcaption>
   </figure>
 </div>`,
   emits: ["ready"],

@@ -64,13 +64,18 @@ def test_what_is_shown_is_what_the_saved_file_gives(live, tmp_path, name, key, v
 
 
 def test_slow_rotation_is_what_a_slow_run_comes_to(live):
-    """At 5 rpm without friction, with tips that enter softly, the motion is the quasi-static one."""
+    """At 5 rpm without friction, with soft entry, and its bearings give besides."""
     slowly = {"operating__pinion_speed": "5 rpm", "friction__law": "none", "solver__method": "switching"}
     document = edited("involute-18-36-tip-relief", **slowly)
     document.unset("friction.coefficient")
     slow, run = (live.compute(stage, of(document)) for stage in ("static", "motion"))
     error = run["curves"]["transmission_error_rotational"]
     assert slow["peak_to_peak"][0] == pytest.approx(np.ptp(error), rel=2e-3)
+    case = load("involute-18-36-tip-relief").case
+    angle, base = case.pair.drive.pressure_angle, case.pair.drive.module * 18.0 * np.cos(np.radians(20.0))
+    springs = sum(1.0 / bearing.stiffness_x for bearing in case.bearings)
+    given = 1e6 * case.pair.operating.gear_torque / base * springs / np.cos(angle)  # at the pitch circles
+    assert np.mean(error) == pytest.approx(np.mean(slow["transmission_error"]) + given, rel=2e-3)
     assert slow["harmonics"][0][:4] == pytest.approx(run["harmonics"][:4], rel=2e-3)
     assert np.max(slow["load"]) == pytest.approx(np.nanmax(run["curves"]["normal_load"]), rel=2e-3)
 
