@@ -27,12 +27,12 @@ FLANK, PATH, POSITIONS = 14, 61, 61
 COARSE = 2e-5
 
 
-def mesh_geometry(mesh: HeldMesh, assembly: Assembly, *, alone: bool) -> dict[str, Any]:
+def mesh_geometry(mesh: HeldMesh, assembly: Assembly, *, bodies: bool) -> dict[str, Any]:
     """Both gears of a mesh about their axes, the path of contact and where pairs touch on it; mm and rad.
 
     From the pitch point, x along the pitch tangent, y along the line of centres to the gear's axis. At a roll
     angle of the pinion its outline stands turned by `turn` times that, counter-clockwise; so does the gear's.
-    `alone`: they are those of no train.
+    `bodies`: whether their masses are shown.
     """
     path, drive = assembly.path, assembly.drive
     start, end = (float(limit) for limit in assembly.roll_limits)
@@ -71,7 +71,7 @@ def mesh_geometry(mesh: HeldMesh, assembly: Assembly, *, alone: bool) -> dict[st
         "key_points": {name: _at(assembly, np.asarray(roll)).tolist() for name, roll in rolls.items()},
         "rolls": roll,
         "contact": np.where(inside[..., None], _at(assembly, np.where(inside, rolled, end)), np.nan),
-        "tables": tables_of(sheet_tables(_sheet(mesh.pair, assembly, alone))),
+        "tables": tables_of(sheet_tables(_sheet(mesh.pair, assembly, bodies))),
     }
 
 
@@ -81,12 +81,12 @@ def _at(assembly: Assembly, roll: np.ndarray) -> np.ndarray:
     return np.stack(position(path, path.signed_distance(roll)), axis=-1) / MILLIMETRE
 
 
-def _sheet(pair: GearCase, assembly: Assembly, alone: bool) -> dict[str, Any]:
-    """The sheet of a mesh's gears as `check` lays it out, with the masses of a pair that is alone."""
+def _sheet(pair: GearCase, assembly: Assembly, bodies: bool) -> dict[str, Any]:
+    """The sheet of a mesh's gears as `check` lays it out, with their masses or without."""
     masses = None
-    if alone:
-        bodies = [(body.mass, body.inertia) for body in pair.masses]
-        masses = body_masses(assembly, bodies, [material.density for material in pair.materials])
+    if bodies:
+        given = [(body.mass, body.inertia) for body in pair.masses]
+        masses = body_masses(assembly, given, [material.density for material in pair.materials])
     return geometry_sheet(assembly, masses, gear_torque=pair.operating.gear_torque)
 
 

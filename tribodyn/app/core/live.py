@@ -103,7 +103,8 @@ class Live:
     def _geometry(self, request: LiveRequest) -> dict[str, Any]:
         """`meshes` and the `mesh`, what `mesh_geometry` has, and of a train `train`, as `train_geometry`."""
         with self._mesh(request) as (held, mesh):
-            shown = mesh_geometry(mesh, assembled(mesh.pair), alone=held.train is None)
+            bodies = held.gearbox is not None and held.train is None
+            shown = mesh_geometry(mesh, assembled(mesh.pair), bodies=bodies)
             shown["train"] = train_geometry(held.train) if held.train is not None else None
             return _names(held, mesh) | shown | {"remarks": list(held.remarks)}
 

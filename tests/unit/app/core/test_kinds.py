@@ -143,3 +143,25 @@ def test_safeties_of_an_oiled_pair_are_those_of_its_motion(live):
     )
     assert len(one) == 3
     assert one == pytest.approx(other, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "value", "mesh"),
+    [
+        ("ehl-involute-23-47", "drive.gear.profile_shift", 0.1, ""),
+        ("efficiency-involute-18-36", "operating.gear_torque", "200 N*m", ""),
+        ("map-two-stage-reducer", "scenario.gear.pinion-2.profile_shift", 0.1, "second"),
+    ],
+)
+def test_numbers_are_those_of_the_check_of_the_saved_file(live, tmp_path, name, key, value, mesh):
+    document = Document.open(name)
+    document.set(key, value)
+    geometry, check = (live.compute(stage, of(document, mesh=mesh)) for stage in ("geometry", "check"))
+    loaded = load(document.save(tmp_path / "mine.toml"))
+    checked = loaded.study.check(loaded.case)
+    np.testing.assert_equal(check["data"], checked.data)
+    printed = {table.title: list(table.rows) for table in (*checked.tables, *checked.details)}
+    for table in geometry["tables"]:
+        rows = [tuple(row) for row in table["rows"]]
+        assert rows == printed.get(table["title"], rows)[: len(rows)]
+    assert {table["title"] for table in geometry["tables"]} <= {*printed} or mesh
