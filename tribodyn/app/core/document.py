@@ -292,8 +292,8 @@ class Document:
         return with_values(self.text, names, self._models())
 
     def _models(self) -> Models:
-        table = table_of(self.written())
-        return Models(defaults_written_out(self.written(), table), table, self.path)
+        data = defaults_written_out(self.written(), table_of(self.written()))
+        return Models(data, table_of(self.resolved.data), self.path)  # of scenarios within this one, too
 
     def _sound(self) -> str:
         """The text; InputError where it is no TOML."""

@@ -55,8 +55,10 @@ def _missing(pair: GearCase, assembly: Assembly) -> list[str]:
     reasons = []
     if pair.drive.pinion.teeth < 0:
         reasons.append("The ring drives: an assessment rates its mate.")
-    if not (pair.operating.gear_torque > 0.0 and pair.operating.pinion_speed > 0.0):
+    if not pair.operating.gear_torque > 0.0 or pair.operating.pinion_speed < 0.0:
         reasons.append("ISO 6336 rates a duty in which the pinion drives.")
+    elif not pair.operating.pinion_speed > 0.0:
+        reasons.append("No speed is given, on which factors and lives of ISO 6336 depend.")
     if pair.quality is None:
         reasons.append("No tolerance class is given (quality): ISO 6336-1 takes deviations from it.")
     if metals_of(pair) is None:

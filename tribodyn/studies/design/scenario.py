@@ -43,7 +43,7 @@ from tribodyn.studies.protocol.study import CaseHead
 
 KIND = "design"
 #: Values at the start that are said.
-_FEW = 4
+_FEW = 5
 
 _Bounds = create_model(
     "FreeBounds",
@@ -111,11 +111,14 @@ class DesignScenario(ScenarioHead):
     def begun(cls, sound: SoundScenario) -> tuple[SoundScenario, str]:
         """The scenario that is searched through with its free keys at the start, and what they are there."""
         case = _case(sound.scenario, copy.deepcopy(sound.data), choose=False)
-        start = own(BASE, type(sound.scenario.scenario), chosen(case, start_of(case)), case.scenarios)
-        values = [f"{key} = {value}" for key, value in start.items()]
+        names, schema = case.scenarios, type(sound.scenario.scenario)
+        start = own(BASE, schema, chosen(case, start_of(case)), names)
+        duty = own(BASE, schema, case.duties[0].set, names)
+        values = [f"{key} = {value}" for key, value in (start | duty).items()]
         more = f" and {len(values) - _FEW} more" if len(values) > _FEW else ""
-        said = f"Shown is the start of the search: {', '.join(values[:_FEW])}{more}."
-        return sound_case(case.base, start), said
+        under = ", under the first of its duties" if len(case.duties) > 1 else ""
+        said = f"Shown is the start of the search{under}: {', '.join(values[:_FEW])}{more}."
+        return sound_case(case.base, start | duty), said
 
 
 Scenario = DesignScenario

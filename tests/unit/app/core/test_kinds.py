@@ -165,3 +165,15 @@ def test_numbers_are_those_of_the_check_of_the_saved_file(live, tmp_path, name, 
         rows = [tuple(row) for row in table["rows"]]
         assert rows == printed.get(table["title"], rows)[: len(rows)]
     assert {table["title"] for table in geometry["tables"]} <= {*printed} or mesh
+
+
+def test_the_drive_of_a_scenario_within_one_is_changed_key_by_key(live):
+    """A model of a scenario that is itself a model is written as one that is like it."""
+    search = Document.open("design-tip-relief-18-36")
+    search.set("scenario.drive.gear.modification.tip_relief", "12 um")
+    assert search.messages() == ()
+    shown = live.compute("geometry", of(search))
+    assert "drive.gear.modification.tip_relief = 12.0 um" in shown["remarks"][0]
+    assert "operating.gear_torque = 100 N*m" in shown["remarks"][0]
+    assert live.compute("static", of(search))["torques"] == pytest.approx(100.0)  # of the first duty
+    assert [gear["teeth"] for gear in shown["gears"]] == [18, 36]
