@@ -44,7 +44,6 @@ def test_the_load_turned_round_passes_the_backlash():
                 "mesh.backlash": f"{gap} m",
                 "mesh.compliance": "constant",
                 "mesh.stiffness": "2e8 N/m",
-                "friction.law": "none",
             },
             "1 ms",
         )
@@ -204,7 +203,6 @@ def test_a_record_begins_at_rest(tmp_path):
         "operating.start_speed": "0 rad/s",
         "operating.pinion_torque": f"{100.0 * 23 / 47!r} N*m",
         "solver.duration": "5 ms",
-        "friction.law": "none",
     }
     case = td.scenario("run-up", made)
     stands = td.run(case, output=tmp_path / "stands.h5")
