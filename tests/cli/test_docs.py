@@ -5,6 +5,7 @@ is put over the shipped CRC scenario, ``csv NAME``, ``python NAME`` and ``toml N
 on the page refer to, ``console`` holds shell commands, of which those of tribodyn run on shorter studies.
 """
 
+import ast
 import os
 import re
 import shlex
@@ -20,6 +21,7 @@ import pytest
 from matplotlib import pyplot
 from typer.main import get_command
 
+import tribodyn as td
 from tests.support.loss_maps import write_map
 from tests.support.passed_before import unless_passed
 from tests.support.short_studies import shorter
@@ -40,11 +42,19 @@ RECORD = "crc-23-47"
 ALIKE = {
     "helical.md": ("td.gradient(",),
     "identify.md": ("td.identify(",),
-    "python.md": ("td.differentiable(",),
-    "api.md": ("td.identify(", "td.gradient(", "td.differentiable("),
+    "python.md": ("td.differentiable(", "second.hertz_pressure"),
+    "api.md": ("td.identify(", "td.gradient(", "td.differentiable(", "td.explore("),
+    "design.md": ("td.design(",),
+    "fmu.md": ("fmpy.simulate_fmu(",),
+    "housing.md": ("td.plate_housing(",),
+    "map.md": ("td.map(",),
+    "wear.md": ('td.run("wear-18-36"',),
 }
-#: Pages whose commands take about ten seconds and more: `make test` reads their words only.
-LONG = {"fmu.md", "load-contact.md", "map.md", "measured-flanks.md", "shafts.md", "trains.md"}
+#: Pages whose commands take long, or are those of other tests: `make test` reads their words only.
+LONG = {
+    *("cad.md", "drive-cycle.md", "efficiency.md", "fmu.md", "gear-sheet.md", "load-contact.md", "map.md"),
+    *("measured-flanks.md", "rexs.md", "scenario.md", "shafts.md", "trains.md"),
+}
 
 
 #: A run with the page's family; its limit, the involute; a path that ends before the teeth.
@@ -243,6 +253,18 @@ def test_python_runs(block: Block, folder: Path, request: pytest.FixtureRequest)
             exec(compile(block.text, str(block), "exec"), {"__name__": "__main__"})
     finally:
         pyplot.close("all")
+
+
+@pytest.mark.parametrize("block", blocks("python", ""), ids=str)
+def test_names_of_the_interface_are_there(block: Block):
+    """Where `make soak` runs the Python of a page, too."""
+    tree = ast.parse(block.text)
+    used = {
+        node.attr
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "td"
+    }
+    assert not {name for name in used if not hasattr(td, name)}
 
 
 def test_the_family_of_the_page_on_extending_works_as_a_package(tmp_path: Path):

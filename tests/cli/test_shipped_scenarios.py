@@ -43,6 +43,7 @@ QUICK_SEARCHES = ("design-cycloid-23-47", "design-shift-23-47")
 ALIKE = {
     "assessment-helical-24-95",
     "crc-23-47-300",
+    "drive-cycle-reducer",
     "dtu-10mw-gearbox",
     "dtu-10mw-gearbox-assessment",
     "efficiency-helical-24-95",
@@ -50,6 +51,7 @@ ALIKE = {
     "electric-axle",
     "ehl-crc-23-47",
     "helical-car-27-71",
+    "idler-train",
     "industrial-reducer",
     "industrial-reducer-assessment",
     "involute-18-36-tip-relief",
@@ -58,6 +60,7 @@ ALIKE = {
     "involute-shifted-23-47",
     "irefc-as-published",
     "jia-involute-17-29",
+    "jump-involute-23-47",
     "load-contact-misaligned",
     "load-contact-shafts",
     "planetary-thin-ring",
