@@ -86,6 +86,11 @@ def _rates(sound: SoundScenario) -> bool:
     return any(isinstance(value, RatingTable) for _, value in sound.scenario)
 
 
+def is_searched(sound: SoundScenario) -> bool:
+    """Whether the gears are those that a run begins with and changes."""
+    return hasattr(type(sound.scenario), "begun")
+
+
 @contextmanager
 def keys_within(origins: Origins, place: str) -> Iterator[None]:
     """Name keys and files of errors inside the block, which are of a scenario at a place of the whole one."""
@@ -100,8 +105,8 @@ def keys_within(origins: Origins, place: str) -> Iterator[None]:
 
 def _within(sound: SoundScenario) -> tuple[SoundScenario, str]:
     """The scenario within one as a run begins with it, and what is to be said of it."""
-    if (begun := getattr(type(sound.scenario), "begun", None)) is not None:
-        return begun(sound)
+    if is_searched(sound):
+        return type(sound.scenario).begun(sound)
     data = sound.data["scenario"]
     return sound._replace(data=data, study=study_of(data), scenario=sound.scenario.scenario), ""
 

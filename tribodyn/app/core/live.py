@@ -15,7 +15,7 @@ from time import perf_counter
 from typing import Any
 
 from tribodyn.app.core.geometry import mesh_geometry, train_geometry
-from tribodyn.app.core.held import MOVING, HeldGears, HeldMesh, held_by, keys_within
+from tribodyn.app.core.held import MOVING, HeldGears, HeldMesh, held_by, is_searched, keys_within
 from tribodyn.app.core.messages import Message, data_of, findings
 from tribodyn.app.core.motion import motion_of
 from tribodyn.app.core.shown import tables_of
@@ -75,8 +75,7 @@ class Live:
         head: dict[str, Any] = {"stage": stage, "warnings": [], "errors": []}
         try:
             self._progress = progress
-            missing = self._missing(stage, request)
-            result = {"remarks": [missing]} if missing else _STAGES[stage](self, request)
+            result = self._computed(stage, request)
             return head | {"ok": True, "seconds": perf_counter() - begun} | result
         except (InputError, SimulationError, OutputError) as error:
             errors = Message.each(error)
@@ -88,6 +87,17 @@ class Live:
             "errors": [message._asdict() | {"short": message.short} for message in errors],
             "seconds": perf_counter() - begun,
         }
+
+    def _computed(self, stage: str, request: LiveRequest) -> dict[str, Any]:
+        """What a stage has; why there is none where there is none. A start of a search may be impossible."""
+        sound = self._of_text(request)
+        try:
+            missing = self._missing(stage, request)
+            return {"remarks": [missing]} if missing else _STAGES[stage](self, request)
+        except InputError as error:
+            if stage == "check" or not is_searched(sound):
+                raise
+            return {"remarks": [f"The start of the search cannot be shown: {error}"]}
 
     def _missing(self, stage: str, request: LiveRequest) -> str:
         """Why there is no such stage of a scenario; "": there is."""

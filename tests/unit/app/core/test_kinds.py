@@ -177,3 +177,12 @@ def test_the_drive_of_a_scenario_within_one_is_changed_key_by_key(live):
     assert "operating.gear_torque = 100 N*m" in shown["remarks"][0]
     assert live.compute("static", of(search))["torques"] == pytest.approx(100.0)  # of the first duty
     assert [gear["teeth"] for gear in shown["gears"]] == [18, 36]
+
+
+def test_a_start_that_cannot_be_made_is_no_mistake_of_the_search(live):
+    """Its check passes, as others of its candidates can be made."""
+    search = Document.open("design-shift-23-47")
+    search.set("scenario.drive.centre_distance", "104 mm")
+    shown = {stage: live.compute(stage, of(search)) for stage in ("geometry", "static", "strength", "check")}
+    assert [result["errors"] for result in shown.values()] == [[]] * 4
+    assert "overlap" in shown["geometry"]["remarks"][0]
