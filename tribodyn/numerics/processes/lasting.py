@@ -1,5 +1,9 @@
-"""Work that goes on where who asked for it is stopped: it takes long, and who asks again gets its result."""
+"""Work that goes on where who asked for it is stopped: it takes long, and who asks again gets its result.
 
+One thing is made at a time: what nobody waits for any more is given up where another thing is asked for.
+"""
+
+import ctypes
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -25,15 +29,28 @@ def stopped_at_times() -> Iterator[None]:
         _stopped_at_times.reset(token)
 
 
+class _GivenUp(BaseException):
+    """Another thing is asked for."""
+
+
 class _Begun(Generic[T]):
     """Work in a thread of its own."""
 
     def __init__(self, make: Callable[[], T]) -> None:
         self._make, self.doing = make, ""
         self.over = threading.Event()
+        self.given_up = False
         self._made: list[T] = []
         self._error: BaseException | None = None
-        threading.Thread(target=self._run, daemon=True).start()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def give_up(self) -> None:
+        """End it where Python's next step would begin."""
+        self.given_up = True
+        if not self.over.is_set():
+            number = ctypes.c_ulong(self._thread.ident or 0)
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(number, ctypes.py_object(_GivenUp))
 
     def _run(self) -> None:
         try:
@@ -53,6 +70,10 @@ class _Begun(Generic[T]):
         return self._made[0]
 
 
+#: What was begun last, of all kinds.
+_latest: list[_Begun[Any]] = []
+
+
 class LastingWork(Generic[T]):
     """Makes things by key; where the caller may be stopped, in a thread that is not."""
 
@@ -61,11 +82,14 @@ class LastingWork(Generic[T]):
 
     def made(self, key: Any, make: Callable[[], T]) -> T:
         """Make the thing of a key, or wait for it where that was begun before; one caller at a time."""
-        if key not in self._begun:
+        begun, said = self._begun.get(key), ""
+        if begun is None or begun.given_up:
             if not _stopped_at_times.get():
                 return make()
-            self._begun[key] = _Begun(make)
-        begun, said = self._begun[key], ""
+            while _latest:
+                _latest.pop().give_up()
+            begun = self._begun[key] = _Begun(make)
+            _latest.append(begun)
         while not begun.over.wait(_EACH):
             if begun.doing != said:
                 said = begun.doing
@@ -73,4 +97,5 @@ class LastingWork(Generic[T]):
         if said:
             announce("")
         del self._begun[key]
+        _latest.clear()
         return begun.result()
