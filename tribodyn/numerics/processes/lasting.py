@@ -6,7 +6,7 @@ One thing is made at a time: what nobody waits for any more is given up where an
 import ctypes
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from typing import Any, Generic, TypeVar
 
@@ -43,7 +43,11 @@ class _Begun(Generic[T]):
         self._made: list[T] = []
         self._error: BaseException | None = None
         self._thread = threading.Thread(target=self._run, daemon=True)
-        self._thread.start()
+
+    def begin(self) -> None:
+        """Begin it, unless that was done."""
+        with suppress(RuntimeError):
+            self._thread.start()
 
     def give_up(self) -> None:
         """End it where Python's next step would begin."""
@@ -90,6 +94,7 @@ class LastingWork(Generic[T]):
                 _latest.pop().give_up()
             begun = self._begun[key] = _Begun(make)
             _latest.append(begun)
+        begun.begin()  # it is known by now, should its caller be stopped meanwhile
         while not begun.over.wait(_EACH):
             if begun.doing != said:
                 said = begun.doing
