@@ -186,3 +186,28 @@ def test_a_start_that_cannot_be_made_is_no_mistake_of_the_search(live):
     shown = {stage: live.compute(stage, of(search)) for stage in ("geometry", "static", "strength", "check")}
     assert [result["errors"] for result in shown.values()] == [[]] * 4
     assert "overlap" in shown["geometry"]["remarks"][0]
+
+
+def test_safeties_of_each_mesh_are_those_of_the_assessment(live, tmp_path):
+    """With all factors 1 they are those of the train itself, mesh by mesh."""
+    assessed = written(
+        tmp_path,
+        """
+        title = "Train"
+        kind = "assessment"
+        [scenario]
+        like = "two-stage-reducer"
+        quality = 6
+        [assessment]
+        samples = 0
+        """,
+    )
+    train = Document.open("two-stage-reducer")
+    train.set("quality", 6)
+    for mesh in ("first", "second"):
+        rated, own = (
+            {row["name"]: row["value"] for row in live.compute(stage, of(document, mesh=mesh))["rows"]}
+            for stage, document in (("check", assessed), ("strength", train))
+        )
+        assert set(rated) == {"S_H", "S_F"}
+        assert rated == pytest.approx({name: own[name] for name in rated}, rel=1e-9)
