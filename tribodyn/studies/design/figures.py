@@ -18,7 +18,15 @@ from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.case import apart, duty_names, naming_key
 from tribodyn.studies.design.outcome import LOWER, OBJECTIVES, UPPER, searched
-from tribodyn.studies.design.report import PANELS, REPORTED, quantity_of, sentences, verdict
+from tribodyn.studies.design.report import (
+    PANELS,
+    REPORTED,
+    bounds,
+    number_of,
+    quantity_of,
+    sentences,
+    verdict,
+)
 from tribodyn.studies.design.teeth import has_teeth, teeth_figure
 from tribodyn.studies.pages import figure, sheet
 from tribodyn.studies.protocol.study import TextTable
@@ -154,12 +162,12 @@ def _draw_values(axes: Axes, records: Sequence[Record]) -> None:
     labels = []
     for row, (name, entry) in enumerate(zip(names, entries, strict=True)):
         key = entry["key"] if isinstance(entry["key"], str) else entry["key"][0]
-        low, high = _bounds(entry)
+        low, high = bounds(entry)
         shares = (record[name][searched(record)] - low) / ((high - low) or 1.0)
         axes.plot(shares[near], np.full(near.sum(), row), "|", color=PALETTE[0], markersize=7, alpha=0.5)
         written = record.summary["best"].get(key, "")
         with suppress(ValueError):  # of a changed record: shown as it is written, without a place
-            share = (_number(written, entry) - low) / ((high - low) or 1.0)
+            share = (number_of(written, entry) - low) / ((high - low) or 1.0)
             axes.plot(share, row, "o", color=BEST, markersize=5, zorder=3)
         labels.append(f"{literal(apart(keys)[row].replace('_', ' '))}\n{literal(_short(written))}")
     axes.set_yticks(range(len(names)), labels, fontsize=6.5)
@@ -175,23 +183,6 @@ def _short(value: Any) -> str:
         return f"{float(number):.4g} {unit}".rstrip()
     except ValueError:
         return str(value)
-
-
-def _bounds(entry: Mapping[str, Any]) -> tuple[float, float]:
-    """Bounds of a free key in the units of its dataset."""
-    if "choices" in entry:
-        return 0.0, len(entry["choices"]) - 1.0
-    return _number(entry["from"], entry), _number(entry["to"], entry)
-
-
-def _number(value: Any, entry: Mapping[str, Any]) -> float:
-    """Value of a free key in the units of its dataset; of a choice its place."""
-    from tribodyn.input.units import base_units
-
-    if "choices" in entry:
-        return float(list(map(str, entry["choices"])).index(str(value)))
-    base = base_units(value)
-    return float(value) if base is None else base[0]
 
 
 def _draw_sensitivities(axes: Axes, records: Sequence[Record]) -> None:

@@ -1,6 +1,7 @@
 """Reported quantities of a search, and how far to trust them."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import Record
 from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.sources import split
+from tribodyn.studies.design.case import naming_key
 
 REPORTED: Reported = {
     "Search": quantities(
@@ -26,6 +28,8 @@ SWEPT = quantities(
 SWEEP_TABLE = quantities("objective", "objective_start", "evaluations")
 
 PANELS = ("objective",)
+#: Share of its range from an end of it at which a free key stands there.
+AT_END = 2e-3
 #: Of what `run --json` prints.
 TOP = ("objective_start", "objective", "best", "evaluations", "evaluations_total")
 
@@ -45,7 +49,7 @@ def verdict(record: Record) -> list[str]:
     values = [f"{key} = {value}" for key, value in summary.get("best", {}).items()]
     if values:
         more = f" and {len(values) - 4} more" if len(values) > 4 else ""
-        texts.append(f"By {', '.join(values[:4])}{more}.")
+        texts.append(f"By {', '.join(values[:4])}{more}.{_at_ends(record)}")
     feasible, evaluations = summary.get("evaluations_feasible"), summary.get("evaluations")
     if feasible is not None and evaluations:
         kept = "The best keeps every constraint" if feasible else "No candidate keeps every constraint"
@@ -91,6 +95,36 @@ def sentences(record: Record) -> list[str]:
             f"{count} candidates have no quantities, most because: {summary['without_quantities_message']}"
         )
     return texts
+
+
+def bounds(entry: Mapping[str, Any]) -> tuple[float, float]:
+    """Bounds of a free key in the units of its dataset."""
+    if "choices" in entry:
+        return 0.0, len(entry["choices"]) - 1.0
+    return number_of(entry["from"], entry), number_of(entry["to"], entry)
+
+
+def number_of(value: Any, entry: Mapping[str, Any]) -> float:
+    """Value of a free key in the units of its dataset; of a choice its place."""
+    from tribodyn.input.units import base_units
+
+    if "choices" in entry:
+        return float(list(map(str, entry["choices"])).index(str(value)))
+    base = base_units(value)
+    return float(value) if base is None else base[0]
+
+
+def _at_ends(record: Record) -> str:
+    """Name the free keys whose best value stands at an end of their range; "" without any."""
+    best, ends = record.summary.get("best", {}), []
+    for entry in record.scenario["design"]["free"]:
+        key = naming_key(entry["key"])
+        with suppress(ValueError):  # of a changed record
+            low, high = bounds(entry)
+            place = (number_of(best.get(key, ""), entry) - low) / ((high - low) or 1.0)
+            if "choices" not in entry and min(place, 1.0 - place) < AT_END:
+                ends.append(key)
+    return f" At an end of its range, beyond which may be better: {', '.join(ends)}." if ends else ""
 
 
 def _objectives(summary: Mapping[str, Any]) -> list[tuple[str, float, float]]:

@@ -36,6 +36,15 @@ def search(output: Path, **more: Any) -> td.Design:
     return td.design(BASE, output=output, **given)
 
 
+@pytest.mark.parametrize(("most", "at_end"), [(1.0, True), (0.9965, False)])
+def test_a_best_value_at_an_end_of_its_range_is_named(tmp_path: Path, most: float, at_end: bool):
+    """The loss goes as the coefficient: the least is best, but where a constraint forbids it."""
+    key = "friction.coefficient"
+    found = search(tmp_path / "a.h5", free={key: (0.02, 0.05)}, subject_to=[f"efficiency <= {most}"])
+    assert (found.best[key] == pytest.approx(0.02, rel=1e-3)) is at_end
+    assert (f"At an end of its range, beyond which may be better: {key}." in found.verdict[1]) is at_end
+
+
 def test_what_a_search_leaves(tmp_path: Path):
     found = search(tmp_path / "a.h5", subject_to=["contact_ratio >= 1.6"])
     assert found.status == "complete"
