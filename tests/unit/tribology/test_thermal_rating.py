@@ -8,8 +8,8 @@ from tribodyn.tribology.heat.thermal_rating import (
     COEFFICIENTS,
     heat_dissipated,
     heat_transfer_coefficient,
+    rated_load,
     sump_temperature,
-    thermal_rating,
 )
 
 
@@ -23,13 +23,15 @@ def test_every_row_of_the_table_is_itself():
 
 
 def test_at_the_rated_power_the_sump_is_at_its_limit():
-    area, ambient, limit, power = 0.9, 298.15, 368.15, 75e3
+    """Of a loss that grows as the power 1.3 of the load."""
+    area, ambient, limit = 0.9, 298.15, 368.15
     dissipated = heat_dissipated(15.0, area, limit, ambient)
     assert dissipated == pytest.approx(945.0)
-    rated = thermal_rating(dissipated, 120.0, 1500.0, power)
-    loss = 120.0 + 1500.0 * rated / power
+    rated = rated_load(lambda load: (120.0, 1500.0 * load**1.3), dissipated)
+    loss = 120.0 + 1500.0 * rated**1.3
     assert sump_temperature(lambda _: loss, 15.0 * area, ambient, (233.0, 453.0)) == pytest.approx(limit)
-    assert thermal_rating(100.0, 120.0, 1500.0, power) == 0.0
+    assert rated_load(lambda load: (120.0, 1500.0 * load), 100.0) == 0.0
+    assert rated_load(lambda load: (120.0, 0.0), 945.0) == math.inf
 
 
 def test_a_loss_that_falls_as_the_sump_warms_is_met_where_the_closed_form_says():

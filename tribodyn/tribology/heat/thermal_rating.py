@@ -3,12 +3,16 @@
 SI units; temperatures in K. The table of coefficients is from memory of the report.
 """
 
+import math
 from collections.abc import Callable
 
 from scipy.optimize import root_scalar
 
 #: Air speed along the housing, m/s -> k, W/(m² K): large indoor space without a fan, then with one.
 COEFFICIENTS = ((1.4, 15.0), (2.5, 15.0), (5.0, 24.0), (10.0, 42.0), (15.0, 58.0))
+
+#: Loads that are tried for a rating, at most, and how near two are that are the same.
+MOST_LOADS, SAME_LOAD = 30, 1e-6
 
 
 def heat_transfer_coefficient(air_speed: float) -> float:
@@ -28,13 +32,23 @@ def heat_dissipated(coefficient: float, area: float, sump: float, ambient: float
     return coefficient * area * (sump - ambient)
 
 
-def thermal_rating(dissipated: float, without_load: float, with_load: float, power: float) -> float:
-    """Return the power P_T, W, at which losses equal the heat dissipated at the limit of the sump.
+def rated_load(losses: Callable[[float], tuple[float, float]], dissipated: float) -> float:
+    """Return the load, over that of the duty, at which losses equal the heat dissipated at the sump's limit.
 
-    P_T = P (P_Q − P_N)/P_L: `without_load` P_N does not depend on the load, `with_load` P_L, the loss at the
-    input power P, goes with it. 0 where the losses without load alone exceed what is dissipated.
+    `losses` are those that do not go with the load and those that do, W, at a load; their sum rises with it.
+    0 where the former alone exceed what is dissipated; infinite where nothing goes with the load.
     """
-    return max(power * (dissipated - without_load) / with_load, 0.0)
+    load = 1.0
+    for _ in range(MOST_LOADS):
+        without, loaded = losses(load)
+        if without >= dissipated:
+            return 0.0
+        if loaded <= 0.0:
+            return math.inf
+        before, load = load, load * (dissipated - without) / loaded
+        if abs(load - before) <= SAME_LOAD * load:
+            break
+    return load
 
 
 def sump_temperature(

@@ -133,9 +133,11 @@ def test_at_its_thermal_rating_the_sump_is_at_the_limit():
     assert rating is not None
     assert rating.coefficient == 15.0
     assert rating.heat_dissipated == pytest.approx(15.0 * 0.7 * 40.0)
-    share = rating.thermal_power / rating.power
-    lost = rating.loss_without_load + share * rating.loss_with_load
-    assert lost == pytest.approx(rating.heat_dissipated)
+    output = 1770.0 * float(case.source.speed) * 23.0 * 23.0 / (69.0 * 57.0)  # W of the duty
+    load = (rating.thermal_power - rating.heat_dissipated) / output
+    limit, driven = np.array([333.15]), np.array([case.source.speed])
+    rated = OperatingPoints(np.array([load]), driven, limit, np.full((1, 2), 333.15))
+    assert LOSSES.at(case, rated).power(driven).sum() == pytest.approx(rating.heat_dissipated, rel=1e-5)
     assert rating.sump_temperature is not None
     speed, bulk = np.array([case.source.speed]), np.full((1, 2), rating.sump_temperature)
     point = OperatingPoints(np.ones(1), speed, np.array([rating.sump_temperature]), bulk)

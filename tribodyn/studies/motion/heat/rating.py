@@ -12,8 +12,8 @@ from tribodyn.studies.motion.losses.gearbox import GearboxLoss
 from tribodyn.tribology.heat.thermal_rating import (
     heat_dissipated,
     heat_transfer_coefficient,
+    rated_load,
     sump_temperature,
-    thermal_rating,
 )
 from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS
 
@@ -61,7 +61,14 @@ def rating_of(loss: GearboxLoss) -> ThermalRating | None:
     dissipated = heat_dissipated(coefficient, data.housing.area, data.sump_limit, data.ambient_temperature)
     idle, with_load = float(limit[~loaded].sum()), float(limit[loaded].sum())
     taken = loss.output_power + float(limit.sum())
-    rated = thermal_rating(dissipated, idle, with_load, taken) if with_load > 0.0 else float("inf")
+
+    def under(load: float) -> tuple[float, float]:
+        point = OperatingPoints(np.array([load]), np.array([speed]), at[-1:], bulk[-1:])
+        each = loss.at(point).power(point.speed)[0]
+        return float(each[~loaded].sum()), float(each[loaded].sum())
+
+    load = rated_load(under, dissipated)
+    rated = load * loss.output_power + dissipated if load > 0.0 else 0.0
     return ThermalRating(coefficient, sump, data.sump_limit, dissipated, idle, with_load, taken, rated)
 
 
