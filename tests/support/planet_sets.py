@@ -79,6 +79,7 @@ def planet_set(
         },
         "mesh": {"compliance": "constant", "stiffness": "3e8 N/m", "damping_ratio": 0.06},
         "friction": {"law": "coulomb", "coefficient": 0.05},
+        "film": {"law": "dowson-higginson"},  # named: none is chosen by a solved contact
     }
     for name, value in changes.items():
         if name in ("solver", "load"):

@@ -13,8 +13,12 @@ from tribodyn.studies.protocol.run import run
 
 #: Kinds whose runs take long even when they are short.
 FINITE_ELEMENTS = ("load-contact", "design", "assessment")
-#: A law whose machine code many tests have.
-COULOMB: dict[str, Any] = {"friction.law": "coulomb", "friction.coefficient": 0.05}
+#: A law whose machine code many tests have, and a film law, so that none is chosen by a solved contact.
+COULOMB: dict[str, Any] = {
+    "friction.law": "coulomb",
+    "friction.coefficient": 0.05,
+    "film.law": "dowson-higginson",
+}
 #: Gears of all that finite elements are made of here, which are then solved once.
 GEARS: dict[str, dict[str, Any]] = {
     "pinion": {"teeth": 18, "profile_shift": 0.0, "face_width": "26.7 mm", "bore_radius": "12 mm"},

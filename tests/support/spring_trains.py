@@ -85,6 +85,7 @@ def scenario_of(
             **operating,
         },
         "friction": friction or {"law": "none"},
+        "film": {"law": "dowson-higginson"},  # named: none is chosen by a solved contact
     }
 
 

@@ -53,7 +53,11 @@ IDLER = [
         pytest.param(
             shipped("two-stage-reducer"),
             REDUCED,
-            {"stage.0.centre_distance": "138.6 mm", "gear.wheel-1.material": "C45"},
+            {
+                "stage.0.centre_distance": "138.6 mm",
+                "gear.wheel-1.material": "C45",
+                "friction.law": "masjedi-khonsari",
+            },
             id="reducer",
         ),
         pytest.param(

@@ -26,6 +26,7 @@ BASE = {
     "operating": {"pinion_speed": "10 rad/s", "gear_torque": "500 N*m"},
     "mesh": {"load_sharing": "uniform"},
     "friction": {"law": "coulomb", "coefficient": 0.05},
+    "film": {"law": "dowson-higginson"},
     "output": {"samples_per_cycle": 8},
 }
 FREE = {"drive.pinion.profile_shift": (-0.2, 0.5), "drive.gear.profile_shift": (-0.2, 0.5)}
