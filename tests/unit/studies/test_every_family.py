@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.short_studies import SHORT, written_template
+from tests.support.short_studies import COULOMB, SHORT, written_template
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.input.schema import references
 from tribodyn.input.sources import DRIVES, shipped
@@ -17,6 +17,7 @@ from tribodyn.studies.protocol.run import run
 
 #: What a template says that not every drive can have, and what the drives of the papers do not say.
 ALSO: dict[str, dict[str, Any]] = {
+    "gear-pair": COULOMB,
     "efficiency": {"friction.law": "masjedi-khonsari"},
     "design": {"design.subject_to": []},
     "assessment": {"drive.quality": 6},
