@@ -67,6 +67,7 @@ def test_a_dragged_value_moves_teeth_curves_and_numbers_beside_the_pinned_state(
     page.get_by_role("button", name="Undo").click()  # the whole drag
     eventually(page, lambda: entry(page, RELIEF).input_value() == "12.4")
     eventually(page, lambda: number(page, SWING) == swing)
+    eventually(page, lambda: page.locator("html.tb-late").count() == 0)
 
 
 def test_keys_roll_the_teeth_and_step_a_value(page):
@@ -257,6 +258,7 @@ def test_a_run_of_minutes_leaves_undo_typing_and_scrolling_free(chromium, addres
     page.mouse.wheel(0, 500)
     eventually(page, lambda: page.evaluate("window.scrollY") > 0)
     assert page.locator(running).count() == 1
+    assert page.locator("html.tb-late .tb-numbers").count() == 1  # they are of no value yet
     assert page.faults == []
     page.close()
 

@@ -44,6 +44,9 @@ class TextView:
 
     def show(self, is_open: bool) -> None:
         """Show the text in place of the form, or the form again."""
+        if self.window.refused:
+            self.window.refused = False
+            self.bring_back()
         self.window.as_text = is_open
         self.window.show(["form"])
 

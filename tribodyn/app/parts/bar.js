@@ -20,6 +20,8 @@ export default {
   props: { name: String, unsaved: Boolean, undo: Boolean, redo: Boolean, few: Boolean, busy: Array, work: String },
   emits: ["act"],
   data() { return { said: "" }; },
+  // numbers of the values before are dimmed, as curves are
+  watch: { busy(now) { document.documentElement.classList.toggle("tb-late", now.includes("motion")); } },
   mounted() {
     this.keys = (event) => {
       const writes = event.target.matches && event.target.matches("input:not([type=range]):not([type=checkbox]), textarea");

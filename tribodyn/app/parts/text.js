@@ -2,8 +2,8 @@
 export default {
   template: `
 <div class="tb-text">
-  <p><button type="button" :aria-pressed="String(open)" @click="$emit('show', {open: !open})">Edit as text</button></p>
-  <div v-show="open" class="tb-editor">
+  <p><button type="button" :aria-pressed="String(shown)" @click="shown = !shown; $emit('show', {open: shown})">Edit as text</button></p>
+  <div v-show="shown" class="tb-editor">
     <div class="tb-lines" aria-hidden="true" ref="lines"><span v-for="n in count" :key="n" :class="{wrong: wrong.includes(n)}">{{ n }}</span></div>
     <textarea ref="area" wrap="off" spellcheck="false" autocapitalize="off" autocomplete="off" aria-label="Scenario as text" :aria-invalid="Boolean(wrong.length)" @input="typed" @change="send" @scroll="$refs.lines.scrollTop = $event.target.scrollTop"></textarea>
   </div>
@@ -11,15 +11,16 @@ export default {
   // `taken` is the number of the text that the server has taken last
   props: { open: Boolean, text: String, taken: Number, wrong: Array, most: Number },
   emits: ["show", "text"],
-  data() { return { count: 1, sent: null, number: this.taken }; },
+  data() { return { shown: this.open, count: 1, sent: null, number: this.taken }; },
   mounted() { this.put(this.text); this.place(); },
   watch: {
     text() { this.follow(); },
     taken() { this.follow(); },
-    open() { this.place(); },
+    open() { this.shown = this.open; },
+    shown() { this.place(); },
   },
   methods: {
-    place() { document.documentElement.classList.toggle("tb-as-text", this.open); },
+    place() { document.documentElement.classList.toggle("tb-as-text", this.shown); },
     // of a server that is behind nothing is shown: what has been typed meanwhile stays
     follow() { if (this.taken === this.number && this.text !== this.sent) this.put(this.text); },
     put(text) {
