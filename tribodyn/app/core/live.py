@@ -20,7 +20,7 @@ from tribodyn.app.core.messages import Message, data_of, findings
 from tribodyn.app.core.motion import motion_of
 from tribodyn.app.core.shown import tables_of
 from tribodyn.app.core.slow_rotation import at_torques, slow_rotation
-from tribodyn.app.core.strength import rated_rows, strength_of
+from tribodyn.app.core.strength import rated_by_check, strength_of
 from tribodyn.cases.assessment_part import Meshing
 from tribodyn.cases.results import Progress
 from tribodyn.errors import InputError, OutputError, SimulationError
@@ -142,20 +142,22 @@ class Live:
     def _check(self, request: LiveRequest) -> dict[str, Any]:
         """`tables`, `details` and `remarks` as ``tribodyn check`` prints them, and its `data`, SI.
 
-        Of gears that it rates `rows` of the safeties of the mesh, as `rated_rows`.
+        Of gears that it rates also `rows` and a table of the mesh, as `rated_by_check`.
         """
         loaded = self._case(request)
         held = self._held(request)
         mesh = held.chosen(request.mesh).name if held is not None else ""
         with loaded.naming():
             checked = loaded.study.check(loaded.case)
+        rates = held is not None and held.rated
+        rows, more = rated_by_check(checked.data, mesh) if rates else ([], [])
         return {
-            "tables": tables_of(checked.tables),
+            "tables": tables_of([*checked.tables, *more]),
             "details": tables_of(checked.details),
             "remarks": list(checked.remarks),
             "warnings": list(checked.warnings),
             "data": checked.data,
-            "rows": rated_rows(checked.data, mesh) if held is not None and held.rated else [],
+            "rows": rows,
         }
 
     def _motion(self, request: LiveRequest) -> dict[str, Any]:

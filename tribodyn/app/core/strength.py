@@ -5,8 +5,10 @@ from typing import Any
 
 from tribodyn.app.core.shown import Row, row_of
 from tribodyn.cases.assessment_part import Meshing
+from tribodyn.cases.results import TextTable
 from tribodyn.gears.case import GearCase, OiledCase
 from tribodyn.gears.rating.capacity import capacity_of, life_bins, safeties
+from tribodyn.gears.rating.rating_text import COLUMNS, rating_rows
 from tribodyn.gears.rating.settings import RatingTable
 from tribodyn.gears.rating.standard import load_factors, rated_duty
 from tribodyn.gears.rating.strength import metal_remarks, metals_of
@@ -41,11 +43,16 @@ def strength_of(
     return {"rows": rows, "gears": gears, "remarks": [*metal_remarks(pair), *capacity.remarks, _TAKEN]}
 
 
-def rated_rows(data: Mapping[str, Any], mesh: str) -> list[Row]:
-    """Rows of S_H and S_F, those of the weaker gear, that a check has of a mesh, if it rates any."""
-    iso = data.get("rating", {}).get(mesh, data).get("iso", {})
+def rated_by_check(data: Mapping[str, Any], mesh: str) -> tuple[list[Row], list[TextTable]]:
+    """Rows of S_H and S_F, those of the weaker gear, that a check has of a mesh, if it rates any.
+
+    And the table of all factors of a mesh of a train, which is not among the check's own.
+    """
+    of_train = data.get("rating", {}).get(mesh, {}).get("iso")
+    iso = of_train or data.get("iso", {})
     shown = quantities("S_H", "S_F")
-    return [row_of(each, min(iso[each.name].values())) for each in shown if each.name in iso]
+    rows = [row_of(each, min(iso[each.name].values())) for each in shown if each.name in iso]
+    return rows, [TextTable(f"ISO 6336, {mesh}", COLUMNS, rating_rows(of_train))] if of_train else []
 
 
 def _missing(pair: GearCase, assembly: Assembly) -> list[str]:

@@ -210,4 +210,8 @@ def test_safeties_of_each_mesh_are_those_of_the_assessment(live, tmp_path):
             for stage, document in (("check", assessed), ("strength", train))
         )
         assert set(rated) == {"S_H", "S_F"}
+        tables = live.compute("check", of(assessed, mesh=mesh))["tables"]
+        (factors,) = [table["rows"] for table in tables if table["title"] == f"ISO 6336, {mesh}"]
+        (pitting,) = [row[1:3] for row in factors if row[0] == "Pitting S_H"]
+        assert min(map(float, pitting)) == pytest.approx(rated["S_H"], abs=0.006)
         assert rated == pytest.approx({name: own[name] for name in rated}, rel=1e-9)
