@@ -1,5 +1,6 @@
 """Numbers of a drive from what was measured on it."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
@@ -37,7 +38,8 @@ class Identified:
     values : dict
         Unknown to its estimate, SI.
     intervals : dict
-        Unknown to the ends of its 95 % interval, SI: of noise that is independent from sample to sample.
+        Unknown to the ends of its 95 % interval, SI: of noise that is independent from sample to sample;
+        NaN of an estimate at an end of its range.
     units : dict
         Unknown to its SI unit.
     correlation : ndarray
@@ -73,20 +75,25 @@ class Identified:
 
     def __repr__(self) -> str:
         parts = [f"{key} = {self._shown(key)}" for key in self.values]
-        return f"<tribodyn identified: {'; '.join(parts)} ({100 * LEVEL:g} % intervals)>"
+        remarks = "".join(f"; {remark}" for remark in self.remarks)
+        return f"<tribodyn identified: {'; '.join(parts)} ({100 * LEVEL:g} % intervals){remarks}>"
 
     def _repr_html_(self) -> str:
         rows = []
-        for key, (low, high) in self.intervals.items():
-            unit = self._unit(key)
-            rows.append((key, f"{self.values[key]:.6g}{unit}", f"{low:.6g} to {high:.6g}{unit}"))
+        for key in self.intervals:
+            rows.append((key, f"{self.values[key]:.6g}{self._unit(key)}", self._interval(key, 6)))
         remarks = "".join(f"<li>{escape(remark)}</li>" for remark in self.remarks)
         table = shown.table(("unknown", "estimate", f"{100 * LEVEL:g} % interval"), rows)
         return shown.block(table, f"<ul>{remarks}</ul>" if remarks else "")
 
     def _shown(self, key: str) -> str:
+        return f"{self.values[key]:.5g}{self._unit(key)} ({self._interval(key, 5)})"
+
+    def _interval(self, key: str, digits: int) -> str:
         low, high = self.intervals[key]
-        return f"{self.values[key]:.5g}{self._unit(key)} ({low:.5g} to {high:.5g})"
+        if not low <= high:
+            return "no interval"
+        return f"{low:.{digits}g} to {high:.{digits}g}{self._unit(key)}"
 
     def _unit(self, key: str) -> str:
         return "" if self.units[key] == "1" else f" {self.units[key]}"
@@ -229,6 +236,7 @@ def _identified(case: Any, sought: Sequence[Unknown], compare: SignalComparison,
         values[unknown.name] = unknown.value(share)
         intervals[unknown.name] = unknown.value(share - width), unknown.value(share + width)
         if not AT_END < share < 1.0 - AT_END:
+            intervals[unknown.name] = math.nan, math.nan
             remarks.append(f"{unknown.name} is at the end of its range: no interval holds, widen it")
         if not np.isfinite(width):
             remarks.append(f"the data do not tell {unknown.name} from the other unknowns")

@@ -76,6 +76,17 @@ def test_a_model_that_lacks_something_is_said(rig):
     assert found.whiteness["e"] < 1e-3
 
 
+def test_an_estimate_at_the_end_of_its_range_has_no_interval(rig):
+    """The pinion runs out by 8 µm; up to 6 µm are allowed."""
+    alone = {"sensor": PAIR["sensor"][:1]}
+    found = td.identify(PAIR, rig[0], {KEY: ("0 um", "6 um")}, alone, **QUIET)
+    assert found[KEY] == pytest.approx(6e-6, rel=1e-3)
+    assert np.all(np.isnan(found.intervals[KEY]))
+    for text in (repr(found), found._repr_html_()):
+        assert "no interval" in text
+        assert "widen it" in text
+
+
 @pytest.mark.parametrize(
     ("measured", "unknowns", "more", "said"),
     [
