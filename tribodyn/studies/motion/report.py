@@ -23,7 +23,7 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.withheld_efficiency import reasons
-from tribodyn.studies.motion.drivetrain.mesh_groups import between, groups_of, together
+from tribodyn.studies.motion.drivetrain.mesh_groups import between, groups_of, idle_meshes, together
 from tribodyn.studies.motion.losses.breakdown import LOSSES, loss_table
 from tribodyn.studies.motion.pictures.deflected_gearbox import deflected_gearbox
 from tribodyn.studies.motion.pictures.rolling_train import rolling_train
@@ -168,10 +168,15 @@ def verdict(record: Record) -> list[str]:
     summary, meshes = of_course(summary, meshes)
     sentences = [*_moved(summary, meshes), *filter(None, [summary.get("settling_remark")])]
     sentences += [*_pressed(summary, meshes), *_lost(summary, meshes)]
-    name = max(meshes, key=lambda name: _beyond(meshes[name]))
+    idle = idle_meshes(meshes)
+    loaded = {name: mesh for name, mesh in meshes.items() if name not in idle}
+    name = max(loaded, key=lambda name: _beyond(loaded[name]))
     for line in of_any.outside(meshes[name]):
         sentences.append(f"Mesh {name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)
     whole = {"engagement_remark": summary.get("engagement_remark"), **of_any.numbers(summary)}
+    if idle:
+        for worst in ("dynamic_factor", "contact_loss_fraction"):
+            whole[worst] = max(of_any.numbers(mesh).get(worst, 0.0) for mesh in loaded.values())
     return [*sentences, *of_any.advised({**meshes[name], **whole})]
 
 
@@ -196,7 +201,8 @@ def _beyond(mesh: Mapping[str, Any]) -> float:
 
 def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
     factors = {name: of_any.numbers(mesh).get("dynamic_factor") for name, mesh in meshes.items()}
-    finite = {name: factor for name, factor in factors.items() if factor is not None}
+    idle = idle_meshes(meshes)
+    finite = {name: factor for name, factor in factors.items() if factor is not None and name not in idle}
     loss = of_any.numbers(summary).get("contact_loss_fraction", 0.0)
     where = f" in {_worst(summary, meshes, 'contact_loss_fraction')}" if loss > of_any.APART else ""
     if not finite:
@@ -215,7 +221,8 @@ def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) 
     else:
         name = max(finite, key=lambda name: finite[name])
         text = f"{cause} raises the tooth forces to at most {finite[name]:.2f} times their mean ({name})"
-    yield f"{text}; {of_any.apart(loss)}{where}."
+    idling = f"; {together(idle)} idle{'s' * (len(idle) == 1)}" if idle else ""
+    yield f"{text}; {of_any.apart(loss)}{where}{idling}."
 
 
 def _pressed(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:

@@ -29,6 +29,7 @@ from tribodyn.record.trust import judge_tribology
 from tribodyn.record.withheld_efficiency import remarked
 from tribodyn.studies.motion.assembly import PreparedGearbox, settles
 from tribodyn.studies.motion.case import Gearbox
+from tribodyn.studies.motion.drivetrain.mesh_groups import idle_meshes
 from tribodyn.studies.motion.heat.settled import in_balance, prepare_settled, warmer
 from tribodyn.studies.motion.heat.thermal_iteration import at_own_temperatures
 from tribodyn.studies.motion.losses.of_case import losses_of_run
@@ -119,7 +120,9 @@ def _engaged(case: Gearbox, summary: Mapping[str, Any], each: Sequence[Mapping[s
     """Say what the engagement of pairs has to do with the largest dynamic factor; "" where loads vary."""
     if not settles(case) or any("course" in mesh for mesh in each):
         return ""
-    mesh, worst = max(zip(case.meshes, each, strict=True), key=lambda of: float(of[1]["dynamic_factor"]))
+    idle = idle_meshes(dict(enumerate(each)))
+    loaded = [(mesh, each[m]) for m, mesh in enumerate(case.meshes) if m not in idle]
+    mesh, worst = max(loaded, key=lambda of: float(of[1]["dynamic_factor"]))
     fastest = max(float(one["mesh_frequency"]) for one in each)
     compliance = mesh.pair.mesh.compliance
     return on_engagement(compliance, worst["dynamic_factor"], fastest, summary["mode_frequencies"])
@@ -190,7 +193,9 @@ def _concluded(
     fed = warning_of(whole["friction_work_on_vibration"], case.meshes[0].pair.friction.sliding)
     if settles(case) and not changes:
         errors = [window["transmission_error_rotational"] for window in windows]
-        whole["settling_remark"] = _settled(case, errors, samples) or None
+        idle = idle_meshes(dict(enumerate(each)))
+        loaded = [error for m, error in enumerate(errors) if m not in idle]
+        whole["settling_remark"] = _settled(case, loaded, samples) or None
     whole["warning"] = remarked(*jams(prepared), fed or "") or None
     statistics.judge.take({"efficiency": whole["efficiency"]})
     return whole | statistics.judge.summary()

@@ -67,6 +67,22 @@ def test_of_many_meshes_it_names_the_worst():
     assert lost.endswith("1 %, most of it in m1: 17 %.")
 
 
+def test_a_gear_that_turns_along_is_said_to_idle():
+    """Its K_v is over a force of nearly nothing, its film that of a light load: neither asks for anything."""
+    carries = {"power_in_mean": 40e3, "normal_load_max": 3e3, "contact_loss_fraction": 0.0}
+    rattles = {"dynamic_factor": 11.0, "contact_loss_fraction": 0.6, "film_judged": {"low": 1.0}}
+    rattles |= {"power_in_mean": 200.0, "normal_load_max": 80.0, "film_outside": 1.0}
+    meshes = {"first": FIRST | carries, "second": SECOND | carries, "loose": FIRST | rattles}
+    lift_off = {"contact_loss_fraction": 0.6, "worst_mesh": {"contact_loss_fraction": 3}}
+    first, *others = verdict(record(meshes, **lift_off))
+    assert first == (
+        "Vibration raises the tooth forces to 1.20 (first) and 1.50 (second) times their mean; the teeth are "
+        "apart for 60 % of the time in loose; loose idles."
+    )
+    assert "doubt" not in " ".join(others)
+    assert others[-1].startswith("To do: smoother flanks")
+
+
 def test_it_says_where_teeth_lift_off_and_a_law_is_in_doubt():
     judged = {"low": 0.9, "median": 1.0, "high": 1.1}
     doubtful = SECOND | {"film_judged": judged, "film_outside": 0.5, "contact_loss_fraction": 0.02}

@@ -1,5 +1,6 @@
 """Meshes of a planetary set that differ by their planet alone: which they are, and their names together."""
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -8,6 +9,8 @@ from tribodyn.train.planetary import CARRIER, PLANETS
 
 #: In the summary of a mesh: the name that it shares with those of the set's other planets.
 ALIKE = "alike"
+#: Share of the largest power, and of the largest load, of a mesh below which one idles.
+IDLES = 0.01
 
 
 def alike_of(case: Gearbox) -> tuple[str, ...]:
@@ -28,6 +31,23 @@ def groups_of(meshes: Mapping[str, Mapping[str, Any]]) -> list[list[str]]:
     for name, mesh in meshes.items():
         groups.setdefault(f"set {mesh[ALIKE]}" if mesh.get(ALIKE) else f"mesh {name}", []).append(name)
     return list(groups.values())
+
+
+def idle_meshes(meshes: Mapping[Any, Mapping[str, Any]]) -> list[Any]:
+    """Those of a summary that carry next to nothing: gears that turn along, whose K_v is of no load."""
+    power = {name: _size(mesh, "power_in_mean") for name, mesh in meshes.items()}
+    load = {
+        name: _size(mesh, "normal_load_max") / max(_size(mesh, "dynamic_factor"), 1.0)
+        for name, mesh in meshes.items()
+    }
+    most = [IDLES * max(each.values(), default=0.0) for each in (power, load)]
+    return [name for name in meshes if power[name] < most[0] and load[name] < most[1]]
+
+
+def _size(mesh: Mapping[str, Any], name: str) -> float:
+    """Magnitude of a quantity of a mesh, 0 where it has none."""
+    value = mesh.get(name)
+    return abs(float(value)) if isinstance(value, (int, float)) and math.isfinite(value) else 0.0
 
 
 def together(names: Iterable[str]) -> str:
