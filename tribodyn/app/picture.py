@@ -43,7 +43,7 @@ def _flat(points: Any, digits: int = _DIGITS) -> list[Any]:
 def pair_picture(geometry: Result, static: Result | None = None) -> dict[str, Any]:
     """Outlines about their own axes, their places, the path and the contacts over one pitch, mm.
 
-    The quasi-static result gives the contacts their loads.
+    The quasi-static result gives the contacts their loads. `said` is which state of the gears this is.
     """
     gears = geometry["gears"]
     path, pitch = np.asarray(geometry["path"]), abs(float(geometry["pitch"]))
@@ -73,6 +73,7 @@ def pair_picture(geometry: Result, static: Result | None = None) -> dict[str, An
         "extent": float(0.75 * (high - low)),
         "middle": float((high + low) / 2.0),
         "contacts": _contacts(geometry, static),
+        "said": " ".join(geometry.get("remarks", ())),
     }
 
 

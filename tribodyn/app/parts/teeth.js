@@ -36,6 +36,7 @@ export default {
     <button type="button" @click="whole">Whole gears</button>
   </div>
   <figcaption v-if="picture"><span v-for="(one, k) in contacts" :key="k" class="tb-chip">pair {{ k + 1 }}{{ one.load === null ? "" : ": " + one.load.toFixed(0) + " N" }}</span>
+    <div v-if="picture.said" class="tb-quiet tb-hint">{{ picture.said }}</div>
     <span class="tb-quiet tb-hint">Drag, ← → or the slider roll the teeth; wheel, + − zoom; Shift and drag moves the picture.</span></figcaption>
 </figure>`,
   props: { picture: Object, pinned: Object, label: String, empty: String },
