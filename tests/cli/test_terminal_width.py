@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.short_studies import written_template
+from tests.support.short_studies import short_case
 from tests.support.verbs import ended, invoke
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario
@@ -20,10 +20,11 @@ WIDE, NARROW = 1000, (80, 60)
 
 @pytest.fixture(scope="module")
 def studies(tmp_path_factory, short_runs) -> Path:
-    """A scenario and a short record of every kind, and a sweep."""
+    """A short scenario and its record of every kind, and a sweep."""
     folder = tmp_path_factory.mktemp("studies")
     for kind in STUDIES:
-        written_template(kind, folder)
+        written = short_case(kind, folder).toml
+        (folder / f"{kind}.toml").write_text(written, encoding="utf-8")
         shutil.copy(short_runs(kind).path, folder)
     swept = ["sweep", "gear-pair.toml", "--vary", "operating.pinion_speed=1000,12000rpm", "-o", "swept.h5"]
     invoke(*swept, "--transient", "2", folder=folder)
