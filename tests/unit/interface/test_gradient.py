@@ -116,7 +116,7 @@ def differences(case, of, keys):
     known = numbers_of(case)
     found = np.empty((len(of), len(keys)))
     for column, key in enumerate(keys):
-        step = 1e-5 * (abs(known[key].value) or 1.0)
+        step = 1e-5 * abs(known[key].value) or 1e-6  # an allowance of nothing is a length
         ends = [known[key].put(case, known[key].value + sign * step) for sign in (1, -1)]
         for row, name in enumerate(of):
             found[row, column] = (quantity(ends[0], name) - quantity(ends[1], name)) / (2 * step)
