@@ -145,7 +145,9 @@ class Live:
         Of gears that it rates also `rows` and a table of the mesh, as `rated_by_check`.
         """
         loaded = self._case(request)
-        held = self._held(request)
+        held = None
+        with suppress(InputError):  # what is wrong is said by the check
+            held = self._held(request)
         mesh = held.chosen(request.mesh).name if held is not None else ""
         with loaded.naming():
             checked = loaded.study.check(loaded.case)

@@ -215,3 +215,21 @@ def test_safeties_of_each_mesh_are_those_of_the_assessment(live, tmp_path):
         (pitting,) = [row[1:3] for row in factors if row[0] == "Pitting S_H"]
         assert min(map(float, pitting)) == pytest.approx(rated["S_H"], abs=0.006)
         assert rated == pytest.approx({name: own[name] for name in rated}, rel=1e-9)
+
+
+def test_a_start_that_breaks_a_rule_is_said_by_the_check_in_its_words(live, tmp_path):
+    search = written(
+        tmp_path,
+        """
+        title = "Search"
+        kind = "design"
+        [scenario]
+        like = "efficiency-involute-18-36"
+        [design]
+        minimise = "loss"
+        free = [{ key = "drive.pinion.modification.tip_relief", from = "5 um", to = "20 um" }]
+        """,
+    )
+    shown, checked = (live.compute(stage, of(search)) for stage in ("geometry", "check"))
+    assert "cannot be shown" in shown["remarks"][0]
+    assert [error["text"] for error in checked["errors"]] == complaints("check", search.path)
