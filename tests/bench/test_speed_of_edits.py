@@ -53,7 +53,7 @@ def verb(tmp_path_factory):
         if name not in found:
             words = [sys.executable, "-m", "tribodyn", "run", name, "--no-plot", "--force", "-o", "a.h5"]
             times = []
-            for _ in range(3):
+            for _ in range(2):
                 before = os.times()
                 subprocess.run(words, cwd=folder, check=True, capture_output=True)
                 after = os.times()
