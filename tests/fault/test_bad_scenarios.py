@@ -70,6 +70,7 @@ WITH_SET = [
     (f"{BEARING}_x=0.1", f"{BEARING} = 0.05", "contradicts damping_ratio_x and damping_ratio_y"),
     ("bearings.damping_ratio=0.05", "bearings.damping_ratio = 0.05", "[bearings.pinion] and [bearings.gear]"),
     (f"bearings.default={SPRINGS}", "bearings.default", "has no effect: pinion and gear have bearings"),
+    ("like=spur-25-51", 'like = "spur-25-51"', "takes up no other one"),
     ("solver.cycles.more=1", "solver.cycles.more", "is not a table"),
     ('lubricant="ISO VG 320"', 'lubricant = "ISO VG 320"', GRADES),
     ("operating.pinion_speed=500-6000rpm", 'operating.pinion_speed = "500-6000rpm"', f'{RANGE} "500 rpm"'),

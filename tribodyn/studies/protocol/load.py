@@ -225,6 +225,9 @@ def sound(resolved: Resolved, path: Path) -> SoundScenario:
     try:
         if (completed := getattr(model, "completed", None)) is not None:
             data = completed(data, path, opened)
+        if LIKE in data:
+            remedy = "run that by its name with changes: tribodyn run NAME --set KEY=VALUE"
+            raise InputError(LIKE, quoted(data[LIKE]), "a scenario takes up no other one", remedy)
         if isinstance(kind, str) and kind not in STUDIES:
             unknown = unknown_name("kind", kind, STUDIES, STUDIES.what)
             raise outside(unknown, kind, remedy=unknown.remedy) or unknown
