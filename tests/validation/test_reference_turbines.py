@@ -51,6 +51,7 @@ def two_inertias(turbine: str, drives: str) -> list[float]:
         "operating": {"input": "rotor", "output": "pinion", "input_speed": "10 rpm", "power": "1 MW"},
         "bearings": {},
         "friction": {"law": "none"},
+        "film": {"law": "dowson-higginson"},
     }
     if drives == "generator":  # its rotation is prescribed: it is held
         table["operating"] |= {"input": "pinion", "output": "rotor"}
