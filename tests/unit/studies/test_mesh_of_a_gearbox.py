@@ -63,7 +63,7 @@ def test_the_mesh_of_the_gearbox_comes_before_the_defaults_of_the_study(tmp_path
 
 def test_losses_of_a_mesh_are_those_of_the_train_in_motion(tmp_path: Path):
     """Slow rotation of the pair alone against the mean of the motion of both stages."""
-    law = {"friction": {"law": "xu"}}
+    law = {"friction": {"law": "masjedi-khonsari"}}
     alone = load_data({"title": "x", "kind": "efficiency", "gearbox": SECOND, **law}, "x").case
     slow = run(alone, tmp_path / "slow.h5").summary
     train = load_scenario("two-stage-reducer", {**law, "solver.cycles": 12, "output.samples_per_cycle": 60})
@@ -74,7 +74,7 @@ def test_losses_of_a_mesh_are_those_of_the_train_in_motion(tmp_path: Path):
 
 def test_a_ring_that_drives_is_the_gear_of_its_pair(tmp_path: Path):
     """The carrier drives the sun: power goes from the ring to the planets. Losses are the motion's."""
-    law = {"friction": {"law": "xu"}}
+    law = {"friction": {"law": "masjedi-khonsari"}}
     reversed_set = {
         "operating": {
             "input": "carrier",
