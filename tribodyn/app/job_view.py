@@ -151,8 +151,10 @@ class JobsDialog:
             self.dialog.close()
 
     def _show(self) -> None:
-        self.part.give(jobs=list(map(self._drawn, self.kept.tasks)))
-        if all(task.state != "running" for task in self.kept.tasks):
+        drawn = list(map(self._drawn, self.kept.tasks))
+        self.part.give(jobs=drawn)
+        # as they were drawn: one may have ended since
+        if all(task["state"] != "running" for task in drawn):
             self.timer.deactivate()
 
     def _drawn(self, job: TaskRun) -> dict[str, Any]:
