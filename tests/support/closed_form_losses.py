@@ -96,7 +96,7 @@ def map_case(
         kind="map",
         toml='title = "Closed forms"\nkind = "map"\n[scenario]\nkind = "closed-form"\n',
         sha256="0",
-        subject=Loaded(SimpleNamespace(), STUDY, Path("closed.toml"), Origins("closed.toml")),
+        subject=Loaded(SimpleNamespace(chosen=dict), STUDY, Path("closed.toml"), Origins("closed.toml")),
         asked=asked,
         directions=directions,
         accuracy=accuracy,

@@ -62,6 +62,9 @@ def sentences(record: Record) -> list[str]:
         "The misses are shares of the drag at points in between that the grid does not rest on; a drag below "
         "2 % of the largest over the torque counts as that.",
     ]
+    if chosen := record.summary.get("chosen"):
+        laws = ", ".join(f'{key} = "{name}"' for key, name in chosen.items())
+        lines.append(f'Everywhere with {laws}, chosen at its own point; "auto" may choose others elsewhere.')
     exceeded = record.summary.get("exceeded") or {}
     lines += [
         f"Beyond the limits of its formula somewhere on the map: {name}, {why}."

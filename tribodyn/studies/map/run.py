@@ -183,6 +183,8 @@ def summary_of(case: MapCase, result: Mapped) -> dict[str, Any]:
             if limits
         },
     }
+    if chosen := case.subject.case.chosen():
+        summary["chosen"] = {key: name for key, (name, _) in chosen.items()}
     return {name: value for name, value in summary.items() if value is not None}
 
 

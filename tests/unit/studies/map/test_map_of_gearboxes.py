@@ -11,6 +11,7 @@ from tribodyn.cases.loss_part import OperatingPoints
 from tribodyn.record.loss_map import loss_map
 from tribodyn.record.reader import Record
 from tribodyn.studies.map.looked_up import loaded_map, looked_up
+from tribodyn.studies.map.report import sentences
 from tribodyn.studies.pages import compare
 from tribodyn.studies.protocol.run import run
 
@@ -46,6 +47,17 @@ def test_at_its_nodes_it_is_what_the_gearbox_loses_at_each_by_itself(reducer: Re
                 point = OperatingPoints(*(np.array([value]) for value in (torque / 1770.0, speed, oil)))
                 alone = losses.at(loaded.case, point).drag[0]
                 np.testing.assert_allclose(reducer["drag"][:, i, j, k], alone, rtol=1e-9)
+
+
+def test_it_says_by_which_laws_it_is_where_the_duty_chose_them(reducer: Record):
+    laws = reducer.summary["chosen"]
+    (said,) = (line for line in sentences(reducer) if "chosen" in line)
+    assert all(f'{key} = "{name}"' in said for key, name in laws.items())
+    duty = {"operating.output_torque": "590 N*m", "operating.oil_temperature": "70 degC"}
+    there = td.check("two-stage-reducer", duty | laws)["losses"]["power_lost"]
+    found = reducer["drag"][:, 1, 3, 2].sum() * reducer["speed"][2]
+    assert reducer["torque"][3] == 590.0
+    assert found == pytest.approx(there, rel=1e-6)
 
 
 def test_it_has_both_directions_and_a_standstill(reducer: Record):
