@@ -8,7 +8,8 @@ from tribodyn.studies.motion.prepare import prepare
 from tribodyn.studies.protocol.batch import Chunk
 from tribodyn.studies.protocol.load import load_scenario
 
-SPEED = {"operating.pinion_speed": "20 rad/s", "mesh.damping_ratio": 0.1}
+# a law under which sweeps of pairs and of trains have machine code
+SPEED = {"operating.pinion_speed": "20 rad/s", "mesh.damping_ratio": 0.1, "friction.law": "none"}
 SHAFT = {
     **SPEED,
     "operating.source": "torque",
