@@ -259,6 +259,7 @@ def test_a_run_of_minutes_leaves_undo_typing_and_scrolling_free(chromium, addres
     eventually(page, lambda: page.evaluate("window.scrollY") > 0)
     assert page.locator(running).count() == 1
     assert page.locator("html.tb-late .tb-numbers").count() == 1  # they are of no value yet
+    assert breaches(page) == []
     assert page.faults == []
     page.close()
 
