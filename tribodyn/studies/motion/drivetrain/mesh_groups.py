@@ -1,9 +1,9 @@
 """Meshes of a planetary set that differ by their planet alone: which they are, and their names together."""
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from tribodyn.post import verdict
 from tribodyn.studies.motion.case import Gearbox
 from tribodyn.train.planetary import CARRIER, PLANETS
 
@@ -35,19 +35,14 @@ def groups_of(meshes: Mapping[str, Mapping[str, Any]]) -> list[list[str]]:
 
 def idle_meshes(meshes: Mapping[Any, Mapping[str, Any]]) -> list[Any]:
     """Those of a summary that carry next to nothing: gears that turn along, whose K_v is of no load."""
-    power = {name: _size(mesh, "power_in_mean") for name, mesh in meshes.items()}
+    found = {name: verdict.numbers(mesh) for name, mesh in meshes.items()}
+    power = {name: abs(each.get("power_in_mean", 0.0)) for name, each in found.items()}
     load = {
-        name: _size(mesh, "normal_load_max") / max(_size(mesh, "dynamic_factor"), 1.0)
-        for name, mesh in meshes.items()
+        name: abs(each.get("normal_load_max", 0.0)) / max(abs(each.get("dynamic_factor", 0.0)), 1.0)
+        for name, each in found.items()
     }
     most = [IDLES * max(each.values(), default=0.0) for each in (power, load)]
     return [name for name in meshes if power[name] < most[0] and load[name] < most[1]]
-
-
-def _size(mesh: Mapping[str, Any], name: str) -> float:
-    """Magnitude of a quantity of a mesh, 0 where it has none."""
-    value = mesh.get(name)
-    return abs(float(value)) if isinstance(value, (int, float)) and math.isfinite(value) else 0.0
 
 
 def together(names: Iterable[str]) -> str:
