@@ -48,7 +48,6 @@ class HeldGears(NamedTuple):
     whole: Any = None  # what the study of a train says of its meshes
     place: str = ""  # before their keys, where they are those of a scenario within this one
     remarks: tuple[str, ...] = ()  # which state of them this is
-
     rated: bool = False  # whether the kind rates them itself
 
     def chosen(self, name: str) -> HeldMesh:

@@ -20,7 +20,7 @@ export default {
   props: { name: String, unsaved: Boolean, undo: Boolean, redo: Boolean, few: Boolean, busy: Array, work: String },
   emits: ["act"],
   data() { return { said: "" }; },
-  // numbers of the values before are dimmed, as curves are
+  // numbers of the values before are in italics, until motion is computed
   watch: { busy(now) { document.documentElement.classList.toggle("tb-late", now.includes("motion")); } },
   mounted() {
     this.keys = (event) => {
